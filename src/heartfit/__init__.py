@@ -1,0 +1,1 @@
+"""Personalise a 3-D electromechanical heart model with the unscented transform."""
