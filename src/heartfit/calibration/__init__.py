@@ -1,0 +1,1 @@
+"""The unscented transform over named parameters; knows vectors, never a heart."""

@@ -1,0 +1,144 @@
+"""One step from the prior to the parameters that match the observations.
+
+    G = Cov(X, Z) (Cov(Z, Z) + R)^-1,   X_new = X0 + G (Z_obs - Zbar),   C_post = C - G (Cov(Z, Z) + R) G^T
+
+With R = 0 this is eq. (3) of Marchesseau et al. 2012: on a linear map the observations are met exactly and,
+with more parameters than observations, the change of least prior-weighted norm is returned; the direction no
+observation informs keeps its prior.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+
+from heartfit.calibration.gaussian import Gaussian
+from heartfit.calibration.unscented import (
+    STANDARD,
+    CalibrationError,
+    Moments,
+    Scaling,
+    sigma_points,
+    transform,
+)
+
+LONG_STEP = 3.0  # prior standard deviations: beyond them the moments say little about the model
+
+
+@dataclass(frozen=True)
+class Posterior:
+    """The estimate and everything needed to judge it; logarithms of parameters throughout.
+
+    prior, estimate: mean and covariance before and after; predicted (m,) Zbar; gain (n, m); cov_xz (n, m);
+    cov_zz (m, m) without R; step (n,) in prior standard deviations; sensitivity (n, m) is Cov(X, Z) with rows
+    divided by sd_X and columns by sd_Z, singular_values those of it: the paper's tool to choose parameters.
+    """
+
+    prior: Gaussian
+    estimate: Gaussian
+    observations: tuple[str, ...]
+    predicted: np.ndarray
+    gain: np.ndarray
+    cov_xz: np.ndarray
+    cov_zz: np.ndarray
+    step: np.ndarray
+    sensitivity: np.ndarray
+    singular_values: np.ndarray
+    notes: tuple[str, ...]
+
+
+def relative_noise(observed: Sequence[float], relative_sd: Sequence[float]) -> np.ndarray:
+    """R = diag((s_k Z_k)^2)."""
+    return np.diag(np.square(np.multiply(observed, relative_sd)))
+
+
+def calibrate(
+    prior: Gaussian,
+    outcomes: Sequence[Mapping[str, float] | None],
+    observed: Mapping[str, float],
+    noise: np.ndarray | None = None,
+    scaling: Scaling = STANDARD,
+) -> Posterior:
+    """The posterior from the observations of each sigma point's beat, None for a beat that failed."""
+    z = np.array(
+        [[outcome[name] if outcome else 0.0 for name in observed] for outcome in outcomes], dtype=float
+    )
+    completed = np.array([outcome is not None for outcome in outcomes])
+    moments = transform(sigma_points(prior, scaling), z, scaling, completed)
+    return update(prior, moments, observed, noise)
+
+
+def update(
+    prior: Gaussian, moments: Moments, observed: Mapping[str, float], noise: np.ndarray | None = None
+) -> Posterior:
+    """The posterior after observing `observed` (by name, in the order of the moments' columns).
+
+    noise: R (m, m) in the observations' units, zero if None (the paper). Raises CalibrationError if an
+    observation does not respond to any parameter, or if the observations are collinear over the prior.
+    """
+    names, z = tuple(observed), np.array(list(observed.values()))
+    scale = _scale(moments, names)
+    correlation = _normalised(moments.cov_zz, noise, scale)
+    factor = _factorise(correlation, names)
+    gain = cho_solve(factor, (moments.cov_xz / scale).T).T / scale
+    shift = gain @ (z - moments.mean)
+    covariance = prior.covariance - (gain * scale) @ correlation @ (gain * scale).T
+    step = shift / prior.sd
+    sensitivity = moments.cov_xz / np.outer(prior.sd, scale)
+    return Posterior(
+        prior,
+        Gaussian(prior.names, prior.mean + shift, _positive(covariance, prior.covariance)),
+        names,
+        moments.mean,
+        gain,
+        moments.cov_xz,
+        moments.cov_zz,
+        step,
+        sensitivity,
+        np.linalg.svd(sensitivity, compute_uv=False),
+        (*moments.notes, *_long_steps(prior.names, step)),
+    )
+
+
+def _scale(moments: Moments, names: tuple[str, ...]) -> np.ndarray:
+    variance = np.diag(moments.cov_zz)
+    if variance.shape != (len(names),):
+        raise ValueError(f"calibration: {len(names)} observations {names}, {variance.size} columns predicted")
+    silent = [name for name, v in zip(names, variance, strict=True) if v <= 0]
+    if silent:
+        raise CalibrationError(f"calibration: no parameter changes {', '.join(silent)}: do not observe it")
+    return np.sqrt(variance)
+
+
+def _normalised(cov_zz: np.ndarray, noise: np.ndarray | None, scale: np.ndarray) -> np.ndarray:
+    total = cov_zz if noise is None else cov_zz + noise
+    return total / np.outer(scale, scale)
+
+
+def _factorise(correlation: np.ndarray, names: tuple[str, ...]) -> tuple[np.ndarray, bool]:
+    smallest = float(np.linalg.eigvalsh(correlation).min())
+    if smallest < 1e-10:
+        raise CalibrationError(
+            f"calibration: {', '.join(names)} are collinear over the prior (smallest eigenvalue "
+            f"{smallest:.1e} of "
+            "their normalised covariance): observe fewer, estimate more parameters, or give the "
+            "observations noise"
+        )
+    return cho_factor(correlation)
+
+
+def _positive(covariance: np.ndarray, prior: np.ndarray) -> np.ndarray:
+    """Symmetrise; directions fixed to rounding get a variance of 1e-12 of the prior's trace."""
+    values, vectors = np.linalg.eigh((covariance + covariance.T) / 2)
+    floor = 1e-12 * np.trace(prior) / len(prior)
+    return (vectors * np.maximum(values, floor)) @ vectors.T
+
+
+def _long_steps(names: Sequence[str], step: np.ndarray) -> list[str]:
+    return [
+        f"{name} moved by {size:+.1f} prior standard deviations: beyond {LONG_STEP:g} the prediction is "
+        "extrapolated"
+        for name, size in zip(names, step, strict=True)
+        if abs(size) > LONG_STEP
+    ]

@@ -1,0 +1,110 @@
+"""The update equals the Kalman filter's closed forms on linear maps."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as some
+
+from heartfit.calibration.gaussian import Gaussian
+from heartfit.calibration.unscented import CalibrationError, sigma_points, transform
+from heartfit.calibration.update import calibrate, relative_noise, update
+
+NAMES = ("V_min", "q_max", "q_min")
+
+
+def linear(n: int, m: int, seed: int) -> tuple[Gaussian, np.ndarray, np.ndarray, np.ndarray]:
+    """A prior, a map z = A x + c, its values at the sigma points and an observed vector."""
+    random = np.random.default_rng(seed)
+    prior = Gaussian(
+        tuple(f"p{i}" for i in range(n)), random.standard_normal(n), np.diag(random.uniform(0.1, 0.4, n) ** 2)
+    )
+    a = random.standard_normal((m, n))
+    z = np.array([point.z for point in sigma_points(prior)]) @ a.T + 1.0
+    return prior, a, z, a @ prior.mean + 1.0 + 0.1 * random.standard_normal(m)
+
+
+def named(z: np.ndarray) -> dict[str, float]:
+    return dict(zip(NAMES, z, strict=False))
+
+
+@given(n=some.integers(3, 7), seed=some.integers(0, 500))
+def test_without_noise_the_observations_are_met_by_the_smallest_step(n: int, seed: int) -> None:
+    prior, a, z, observed = linear(n, 3, seed)
+    posterior = update(prior, transform(sigma_points(prior), z), named(observed))
+    assert a @ posterior.estimate.mean + 1.0 == pytest.approx(observed, abs=1e-6)
+    root = np.diag(prior.sd)
+    least = root @ np.linalg.lstsq(a @ root, observed - 1.0 - a @ prior.mean, rcond=None)[0]
+    assert posterior.estimate.mean - prior.mean == pytest.approx(least, abs=1e-6)
+    assert posterior.step == pytest.approx(least / prior.sd, abs=1e-5)
+
+
+@given(n=some.integers(1, 7), seed=some.integers(0, 500))
+def test_with_noise_mean_and_covariance_are_the_kalman_ones(n: int, seed: int) -> None:
+    prior, a, z, observed = linear(n, 3, seed)
+    noise = np.diag([0.01, 0.02, 0.005])
+    posterior = update(prior, transform(sigma_points(prior), z), named(observed), noise)
+    precision = np.linalg.inv(prior.covariance) + a.T @ np.linalg.inv(noise) @ a
+    covariance = np.linalg.inv(precision)
+    mean = prior.mean + covariance @ a.T @ np.linalg.inv(noise) @ (observed - 1.0 - a @ prior.mean)
+    assert posterior.estimate.mean == pytest.approx(mean, abs=1e-8)
+    assert posterior.estimate.covariance == pytest.approx(covariance, abs=1e-8)
+
+
+def test_an_uninformed_direction_keeps_its_prior() -> None:
+    prior, a, z, observed = linear(4, 3, 11)
+    posterior = update(prior, transform(sigma_points(prior), z), named(observed))
+    null = np.linalg.svd(a @ np.diag(prior.sd))[2][-1] / prior.sd
+    kept = null @ posterior.estimate.covariance @ null
+    assert kept == pytest.approx(null @ prior.covariance @ null, rel=1e-6)
+    assert null @ (posterior.estimate.mean - prior.mean) == pytest.approx(0, abs=1e-8)
+
+
+@given(seed=some.integers(0, 200), exponents=some.lists(some.integers(-9, 6), min_size=3, max_size=3))
+def test_the_units_of_the_observations_do_not_matter(seed: int, exponents: list[int]) -> None:
+    prior, _, z, observed = linear(4, 3, seed)
+    unit = 10.0 ** np.array(exponents)
+    first = update(prior, transform(sigma_points(prior), z), named(observed))
+    other = update(prior, transform(sigma_points(prior), z * unit), named(observed * unit))
+    assert other.estimate.mean == pytest.approx(first.estimate.mean, rel=1e-6, abs=1e-6)
+    assert other.singular_values == pytest.approx(first.singular_values, rel=1e-6)
+    assert other.sensitivity == pytest.approx(first.sensitivity, rel=1e-6, abs=1e-9)
+
+
+def test_sensitivities_are_correlations_on_a_linear_map() -> None:
+    prior, a, z, observed = linear(4, 3, 5)
+    posterior = update(prior, transform(sigma_points(prior), z), named(observed))
+    influence = (a * prior.sd).T
+    assert posterior.sensitivity == pytest.approx(influence / np.linalg.norm(influence, axis=0))
+
+
+def test_collinear_observations_are_refused_unless_they_carry_noise() -> None:
+    prior, _, z, observed = linear(4, 3, 2)
+    z[:, 2], observed[2] = 2 * z[:, 0], 2 * observed[0]
+    moments = transform(sigma_points(prior), z)
+    with pytest.raises(CalibrationError, match="collinear"):
+        update(prior, moments, named(observed))
+    update(prior, moments, named(observed), relative_noise(observed, [0.02, 0.1, 0.1]))
+
+
+def test_an_observation_nothing_changes_is_refused() -> None:
+    prior, _, z, observed = linear(4, 3, 2)
+    z[:, 1] = 7.0
+    with pytest.raises(CalibrationError, match="no parameter changes q_max"):
+        update(prior, transform(sigma_points(prior), z), named(observed))
+
+
+def test_a_long_step_is_said() -> None:
+    prior, a, z, _ = linear(3, 3, 4)
+    far = a @ (prior.mean + np.array([4.0, 0, 0]) * prior.sd) + 1.0
+    posterior = update(prior, transform(sigma_points(prior), z), named(far))
+    assert len(posterior.notes) == 1
+    assert "p0 moved by +4.0 prior standard deviations" in posterior.notes[0]
+
+
+def test_failed_beats_are_left_out_and_said() -> None:
+    prior, a, z, observed = linear(4, 3, 9)
+    outcomes = [named(row) for row in z]
+    outcomes[2] = None
+    posterior = calibrate(prior, outcomes, named(observed))
+    assert a @ posterior.estimate.mean + 1.0 == pytest.approx(observed, abs=1e-6)
+    assert posterior.notes == ("failed sigma points: p1+; weights rescaled over the rest",)
