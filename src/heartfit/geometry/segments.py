@@ -1,0 +1,48 @@
+"""The 17 segments of the left ventricle of the American Heart Association.
+
+References
+----------
+Cerqueira MD et al. 2002, doi 10.1161/hc0402.102975.
+"""
+
+import numpy as np
+
+from heartfit.geometry.arrays import Floats, Integers
+from heartfit.geometry.coordinates import LeftVentricularAxes, septal_faces
+from heartfit.geometry.laplace import between
+from heartfit.geometry.mesh import VentricularMesh
+
+RIGHT_VENTRICLE = 0
+APEX = 17
+# Sectors counted from the middle of the septum towards anterior.
+BASAL = np.array([2, 1, 6, 5, 4, 3])
+APICAL = np.array([14, 13, 16, 15])
+
+
+def aha_segments(mesh: VentricularMesh) -> Integers:
+    """Segment (m,) of each tet: 1-6 basal, 7-12 mid, 13-16 apical, 17 apex, 0 the free wall of the right ventricle.
+
+    The three levels are thirds of the left cavity's length; the apex is what lies beyond the cavity's end.
+    """
+    axes = LeftVentricularAxes.of(mesh)
+    centres = mesh.points[mesh.tets].mean(axis=1)
+    height = (centres - axes.apex) @ axes.axis / axes.length
+    end = ((mesh.points[np.unique(mesh.surfaces["lv_endo"])] - axes.apex) @ axes.axis).min() / axes.length
+    level = np.clip(np.floor(3.0 * (height - end) / (1.0 - end)), -1, 2)
+    segments = _of_level(level, axes.angle(centres))
+    return np.where(belongs_to_left(mesh, axes), segments, RIGHT_VENTRICLE)
+
+
+def _of_level(level: Floats, angle: Floats) -> Integers:
+    turn = np.mod(angle / (2.0 * np.pi), 1.0)
+    basal = BASAL[np.minimum((6 * turn).astype(np.int64), 5)]
+    apical = APICAL[np.mod(4 * turn + 0.5, 4.0).astype(np.int64) % 4]
+    return np.select([level == 2, level == 1, level == 0], [basal, basal + 6, apical], APEX).astype(np.int64)
+
+
+def belongs_to_left(mesh: VentricularMesh, axes: LeftVentricularAxes) -> np.ndarray:
+    """Whether each tet (m,) is left ventricle or septum: nearer, in the harmonic sense, to them than to the free wall."""
+    septum = np.unique(septal_faces(mesh, axes))
+    free = np.setdiff1d(np.unique(mesh.surfaces["rv_endo"]), septum)
+    left = np.union1d(np.unique(mesh.surfaces["lv_endo"]), septum)
+    return between(mesh.points, mesh.tets, one=left, zero=free)[mesh.tets].mean(axis=1) > 0.5
