@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""Set everything up and do the work, with nothing but Python >= 3.11.
+
+python3 study.py              set up, then run the whole study on two cores
+python3 study.py run ARGS     the same with further arguments of Snakemake, as --configfile config/smoke.yaml
+python3 study.py test ARGS    set up, then pass the tests; ARGS go to pytest
+python3 study.py lint         set up, then style, types and the workflow's own lint
+python3 study.py lock         write requirements.lock anew from pyproject.toml
+"""
+
+import hashlib
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+ENVIRONMENT = ROOT / ".venv"
+BIN = ENVIRONMENT / ("Scripts" if os.name == "nt" else "bin")
+LOCK = ROOT / "requirements.lock"
+STAMP = ENVIRONMENT / "installed.sha256"
+ABOUT = "about 15 minutes on two cores when nothing is there yet"
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+LINTS = (
+    ("ruff", "check", "."),
+    ("ruff", "format", "--check", "."),
+    ("mypy",),
+    ("snakefmt", "--check", "Snakefile", "workflow/rules"),
+    ("snakemake", "--lint"),
+)
+COMPILE_LOCK = (
+    *(
+        "uv",
+        "pip",
+        "compile",
+        "pyproject.toml",
+        "--extra",
+        "develop",
+        "--quiet",
+        "--output-file",
+        "requirements.lock",
+    ),
+    *("--universal", "--python-version", "3.11", "--generate-hashes", "--upgrade"),
+    *("--no-annotate", "--no-emit-index-url", "--no-emit-find-links"),
+    *("--custom-compile-command", "python3 study.py lock"),
+)
+
+
+def main(arguments: list[str]) -> int:
+    """Carry out the command that the module's docstring lists."""
+    command, rest = (arguments[0], arguments[1:]) if arguments else ("run", [])
+    if command not in COMMANDS:
+        sys.stderr.write(f"study.py: no command {command!r}; known are {', '.join(COMMANDS)}.\n{__doc__}")
+        return 2
+    if sys.version_info < (3, 11):
+        sys.stderr.write(
+            f"study.py: this is Python {sys.version.split()[0]}; it needs Python 3.11 or newer.\n"
+        )
+        return 2
+    os.chdir(ROOT)
+    os.environ.update(dict.fromkeys(THREADS, "1"), GIT_PYTHON_REFRESH="quiet")
+    set_up()
+    return COMMANDS[command](rest)
+
+
+def set_up() -> None:
+    """Install the locked packages and the project into .venv, unless both are as they were then."""
+    wanted = hashlib.sha256(LOCK.read_bytes() + (ROOT / "pyproject.toml").read_bytes()).hexdigest()
+    if STAMP.exists() and STAMP.read_text() == wanted:
+        return
+    print("Set-up: installing the locked packages into .venv (once; one to three minutes)", flush=True)
+    pip = [*create_environment(), "install", "--quiet", "--disable-pip-version-check"]
+    subprocess.run([*pip, "--require-hashes", "-r", str(LOCK)], check=True)
+    subprocess.run([*pip, "--no-deps", "--no-build-isolation", "--editable", str(ROOT)], check=True)
+    STAMP.write_text(wanted)
+
+
+def create_environment() -> list[str]:
+    """Create .venv if need be and return the command that installs into it."""
+    python = BIN / "python"
+    own_pip = importlib.util.find_spec("ensurepip") is not None
+    if not own_pip and importlib.util.find_spec("pip") is None:
+        sys.exit(
+            f"study.py: {sys.executable} has neither ensurepip nor pip, so nothing can be installed. "
+            "Use a complete Python >= 3.11 (python.org, conda, uv) or, on Debian, the package python3-venv."
+        )
+    if not python.exists():
+        subprocess.run(
+            [sys.executable, "-m", "venv", *([] if own_pip else ["--without-pip"]), ENVIRONMENT], check=True
+        )
+    return [str(python), "-m", "pip"] if own_pip else [sys.executable, "-m", "pip", "--python", str(python)]
+
+
+def tool(name: str, *arguments: str) -> list[str]:
+    """The command line of a tool of the environment."""
+    return [shutil.which(name, path=str(BIN)) or str(BIN / name), *arguments]
+
+
+def run(arguments: list[str]) -> int:
+    """Run the workflow, adding the time that remains to Snakemake's count of steps."""
+    print(f"The study takes {ABOUT}; what is up to date is left alone.", flush=True)
+    command = tool("snakemake", "--cores", "2", "--profile", "profiles/default", *arguments)
+    begin = time.monotonic()
+    with subprocess.Popen(command, stderr=subprocess.STDOUT, stdout=subprocess.PIPE, text=True) as process:
+        for line in process.stdout or ():
+            print(line.rstrip() + remaining(line, time.monotonic() - begin), flush=True)
+    return process.returncode
+
+
+def remaining(line: str, elapsed: float) -> str:
+    """What to add to a line of Snakemake: the time that the steps left take at the mean pace so far."""
+    steps = re.match(r"(\d+) of (\d+) steps", line)
+    if not steps:
+        return ""
+    done, total = map(int, steps.groups())
+    return f", {elapsed / 60:.1f} min so far, about {elapsed * (total - done) / done / 60:.1f} min left"
+
+
+def test(arguments: list[str]) -> int:
+    """Pass the tests."""
+    return subprocess.run(tool("pytest", *arguments), check=False).returncode
+
+
+def lint(_: list[str]) -> int:
+    """Say of each check what was run; fail if one of them does."""
+    failed = 0
+    for check in LINTS:
+        print("lint:", *check, flush=True)
+        failed |= subprocess.run(tool(*check), check=False).returncode
+    return int(failed != 0)
+
+
+def lock(_: list[str]) -> int:
+    """Write requirements.lock anew."""
+    return subprocess.run(tool(*COMPILE_LOCK), check=False).returncode
+
+
+COMMANDS = {"run": run, "test": test, "lint": lint, "lock": lock}
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except subprocess.CalledProcessError as failure:
+        sys.exit(f"study.py: set-up stopped, see above; the command was: {' '.join(map(str, failure.cmd))}")
