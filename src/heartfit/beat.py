@@ -1,0 +1,42 @@
+"""The result of a simulation: one periodic beat, or the reason why there is none."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from heartfit.geometry.arrays import Floats
+
+COMPLETED, FAILED = "completed", "failed"
+
+
+@dataclass(frozen=True, eq=False)
+class Beat:
+    """One cycle from time 0 to ``period``, SI units.
+
+    ``time`` (t,); ``volume`` of "lv", "rv"; ``pressure`` of every compartment; ``flow`` through every branch;
+    ``trigger`` is the simulated time of the measured frame 0. ``status`` is "completed" or "failed" with a
+    ``reason``; ``diagnostics`` tells beats, drift, cost and what happened to the wall. ``positions`` (t, n, 3) are
+    the nodes at every time, when they were asked for.
+    """
+
+    time: Floats
+    volume: Mapping[str, Floats]
+    pressure: Mapping[str, Floats]
+    flow: Mapping[str, Floats]
+    period: float
+    trigger: float
+    status: str = COMPLETED
+    reason: str = ""
+    diagnostics: Mapping[str, float] = field(default_factory=dict)
+    positions: Floats | None = None
+
+    @property
+    def completed(self) -> bool:
+        """Whether the beat can be observed."""
+        return self.status == COMPLETED
+
+
+def failed_beat(reason: str, period: float, trigger: float, diagnostics: Mapping[str, float]) -> Beat:
+    """A beat that was not reached, with the reason; it holds no samples."""
+    return Beat(np.empty(0), {}, {}, {}, period, trigger, FAILED, reason, diagnostics)

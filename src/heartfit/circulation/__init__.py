@@ -1,0 +1,1 @@
+"""Compartments, valves and arteries around the ventricles, and their coupling to the wall."""

@@ -1,0 +1,56 @@
+r"""Four-element Windkessel: inertance parallel to the characteristic resistance, in series with R_p // C.
+
+.. math:: C \dot P_c = q - \frac{P_c - P_{ve}}{R_p}, \quad L \dot q_L = Z_c (q - q_L), \quad
+          P_{ar} = P_c + Z_c (q - q_L), \quad C = \tau / R_p
+
+Backward Euler over a step, with :math:`\theta = \Delta t\, Z_c / L`, leaves the arterial pressure affine in the
+inflow: :math:`P_{ar} = a + b q`.
+Source: Stergiopulos, Westerhof and Westerhof, Am. J. Physiol. 276 (1999) H81.
+"""
+
+from dataclasses import dataclass
+
+from heartfit.parameter import parameter, require_admissible
+
+
+@dataclass(frozen=True)
+class WindkesselState:
+    """Pressure of the compliance, Pa, and flow through the inertance, m^3/s."""
+
+    P_c: float
+    q_L: float = 0.0
+
+
+@dataclass(frozen=True)
+class Windkessel:
+    """Arterial tree of one side; the defaults are systemic."""
+
+    R_p: float = parameter(1.14e8, unit="Pa.s/m^3", symbol="R_p", meaning="peripheral resistance", sd=0.20)
+    tau: float = parameter(1.6, unit="s", symbol=r"\tau", meaning="characteristic time R_p C", sd=0.20)
+    Z_c: float = parameter(7.5e6, unit="Pa.s/m^3", symbol="Z_c", meaning="characteristic resistance", sd=0.25)
+    L: float = parameter(4e5, unit="Pa.s^2/m^3", symbol="L", meaning="total arterial inertance", sd=0.30)
+    P_ve: float = parameter(1200.0, unit="Pa", symbol="P_{ve}", meaning="venous pressure")
+
+    def __post_init__(self) -> None:
+        require_admissible(self)
+
+    def affine(self, state: WindkesselState, dt: float) -> tuple[float, float]:
+        """(a, b) of the arterial pressure a + b q at the end of a step with inflow q."""
+        rise, theta = dt * self.R_p / self.tau, dt * self.Z_c / self.L
+        decay = 1.0 + dt / self.tau
+        a = (state.P_c + rise * self.P_ve / self.R_p) / decay - self.Z_c * state.q_L / (1.0 + theta)
+        return a, rise / decay + self.Z_c / (1.0 + theta)
+
+    def advance(self, state: WindkesselState, inflow: float, dt: float) -> WindkesselState:
+        """State at the end of a step with inflow ``inflow``."""
+        rise, theta = dt * self.R_p / self.tau, dt * self.Z_c / self.L
+        P_c = (state.P_c + rise * (inflow + self.P_ve / self.R_p)) / (1.0 + dt / self.tau)
+        return WindkesselState(P_c=P_c, q_L=(state.q_L + theta * inflow) / (1.0 + theta))
+
+    def periodic_shift(self, mean_P_c: float, stroke_volume: float, period: float) -> float:
+        """Change of P_c that makes the mean outflow through R_p equal the stroke volume per period."""
+        return self.P_ve + self.R_p * stroke_volume / period - mean_P_c
+
+
+PULMONARY = Windkessel(R_p=1.5e7, tau=0.5, Z_c=2.5e6, L=1e5, P_ve=900.0)
+"""Pulmonary circulation of a healthy adult, with the left atrium's mean pressure downstream."""

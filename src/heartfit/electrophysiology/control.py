@@ -1,0 +1,59 @@
+r"""The electrical control u(t) of the contraction.
+
+.. math:: u(X, t) = +k_{ATP} \text{ for } T_d(X) \le t - t_0 < T_d(X) + APD, \quad -k_{RS} \text{ otherwise}
+
+periodic with the heart period. A step of the time scheme uses the exact mean of |u| and |u|_+ over the step, so
+that the sum over a mesh does not depend on how T_d falls between the time levels.
+Source: Marchesseau et al., MICCAI 2012, section 2.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from heartfit.geometry.arrays import Floats
+from heartfit.parameter import parameter, require_admissible
+
+
+@dataclass(frozen=True)
+class Control:
+    """Rates and timing of the electrical control."""
+
+    k_ATP: float = parameter(8.0, unit="1/s", symbol="k_{ATP}", meaning="rate of contraction", sd=0.25)
+    k_RS: float = parameter(15.0, unit="1/s", symbol="k_{RS}", meaning="rate of relaxation", sd=0.25)
+    duration: float = parameter(0.32, unit="s", symbol="APD", meaning="action potential duration", sd=0.08)
+    onset: float = parameter(
+        0.15,
+        unit="s",
+        symbol="t_0",
+        meaning="earliest ventricular activation after the start of atrial systole",
+    )
+
+    def __post_init__(self) -> None:
+        require_admissible(self)
+
+    def mean(self, start: float, dt: float, activation: Floats, period: float) -> tuple[Floats, Floats]:
+        """Means of |u| and of |u|_+ over ``[start, start + dt]`` at points activated at ``activation``.
+
+        The action potential must end within one period; raises ``ValueError`` otherwise.
+        """
+        if self.duration >= period:
+            raise ValueError(
+                f"action potential of {self.duration:g} s: expected less than the period, {period:g} s"
+            )
+        depolarised = self._depolarised(start, dt, activation, period)
+        attach = self.k_ATP * depolarised
+        return attach + self.k_RS * (1.0 - depolarised), attach
+
+    def _depolarised(self, start: float, dt: float, activation: Floats, period: float) -> Floats:
+        """Fraction of the step that each point spends depolarised."""
+        elapsed = np.mod(start - self.onset - activation, period)
+        upper, lower = self._primitive(elapsed + dt, period), self._primitive(elapsed, period)
+        fraction: Floats = (upper - lower) / dt
+        return fraction
+
+    def _primitive(self, time: Floats, period: float) -> Floats:
+        """Time spent depolarised in [0, time], counted from the activation."""
+        cycles, rest = np.divmod(time, period)
+        spent: Floats = cycles * self.duration + np.minimum(rest, self.duration)
+        return spent

@@ -1,0 +1,91 @@
+"""The composition root: a heart is its slots plus any number of mechanisms."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from difflib import get_close_matches
+from typing import Any
+
+from heartfit.circulation.network import Circulation
+from heartfit.mechanics.body import Tissue
+from heartfit.mechanism import Mechanism
+from heartfit.mechanisms.atrial_kick import AtrialKick
+from heartfit.parameter import parameters_of
+
+FOURTEEN = (
+    "sigma_0", "k_RS", "k_ATP", "k_0", "alpha", "mu", "E_s", "K", "c_1", "c_2", "R_p", "tau", "Z_c", "L",
+)  # fmt: skip
+"""The parameters of the paper, by name."""
+
+
+@dataclass(frozen=True)
+class Heart:
+    """Slots (tissue, circulation), mechanisms and the period of the beat, s.
+
+    ``heart + mechanism`` is a new heart with one mechanism more; one of the same kind is replaced.
+    """
+
+    tissue: Tissue = field(default_factory=Tissue)
+    circulation: Circulation = field(default_factory=Circulation)
+    mechanisms: tuple[Mechanism, ...] = (AtrialKick(),)
+    period: float = 0.829
+
+    def __add__(self, added: Mechanism) -> "Heart":
+        kept = tuple(m for m in self.mechanisms if type(m) is not type(added))
+        return replace(self, mechanisms=(*kept, added))
+
+    @property
+    def trigger(self) -> float:
+        """Simulated time of the ECG trigger: the onset of ventricular activation."""
+        return self.tissue.control.onset
+
+    def parameters(self) -> dict[str, float]:
+        """All parameters by dotted path below the heart; see :meth:`with_parameters` for short names."""
+        return {path: value for path, value in _walk(self)}
+
+    def with_parameters(self, values: Mapping[str, float]) -> "Heart":
+        """A heart in which some parameters have other values.
+
+        A name is a dotted path ("circulation.pulmonary_tree.R_p") or its end, where that is unique or belongs to
+        the paper's fourteen (R_p, tau, Z_c and L then mean the systemic circulation). Raises ``KeyError``
+        for an unknown or ambiguous name, naming the nearest known ones.
+        """
+        heart = self
+        for name, value in values.items():
+            heart = _replace_at(heart, self.path_of(name).split("."), float(value))
+        return heart
+
+    def path_of(self, name: str) -> str:
+        """Dotted path of the parameter ``name``."""
+        paths = [path for path in self.parameters() if path == name or path.endswith(f".{name}")]
+        systemic = [path for path in paths if path.startswith("circulation.systemic.")]
+        if len(paths) > 1 and name in FOURTEEN and systemic:
+            paths = systemic
+        if len(paths) == 1:
+            return paths[0]
+        known = get_close_matches(
+            name, [p.rsplit(".", 1)[-1] for p in self.parameters()] + list(self.parameters())
+        )
+        problem = f"is one of {paths}: give the path" if paths else f"is unknown, nearest are {known}"
+        raise KeyError(f"parameter {name!r} {problem}")
+
+
+def _walk(part: Any, prefix: str = "") -> list[tuple[str, float]]:
+    found = [(f"{prefix}{declared.name}", declared.value) for declared in parameters_of(part)]
+    for entry in fields(part):
+        value = getattr(part, entry.name)
+        if is_dataclass(value):
+            found += _walk(value, f"{prefix}{entry.name}.")
+        elif isinstance(value, tuple):
+            for member in value:
+                found += _walk(member, f"{prefix}{type(member).__name__}.")
+    return found
+
+
+def _replace_at(part: Any, path: list[str], value: float) -> Any:
+    head, *rest = path
+    if not rest:
+        return replace(part, **{head: value})
+    if hasattr(part, head):
+        return replace(part, **{head: _replace_at(getattr(part, head), rest, value)})
+    changed = tuple(_replace_at(m, rest, value) if type(m).__name__ == head else m for m in part.mechanisms)
+    return replace(part, mechanisms=changed)

@@ -1,0 +1,1 @@
+"""Active laws, one per file: fibre tension driven by the electrical control."""

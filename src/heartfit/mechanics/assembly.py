@@ -1,0 +1,128 @@
+"""From element stresses to nodal forces and to the sparse tangent."""
+
+import numpy as np
+from numba import njit
+from scipy.sparse import csc_array
+
+from heartfit.geometry.arrays import Floats, Integers
+from heartfit.mechanics.kinematics import COLUMN, ROW, inverse, symmetric_product
+
+
+@njit(cache=True)
+def add_volumetric_stress(C: Floats, J: Floats, p: Floats, S: Floats) -> None:
+    r"""Add :math:`p J C^{-1}` to ``S``."""
+    Ci = np.empty(6)
+    for e in range(C.shape[0]):
+        inverse(C[e], J[e] * J[e], Ci)
+        for i in range(6):
+            S[e, i] += p[e] * J[e] * Ci[i]
+
+
+@njit(cache=True)
+def add_volumetric_tangent(C: Floats, J: Floats, p: Floats, slope: Floats, D: Floats) -> None:
+    r"""Add :math:`(pJ + p'J^2) C^{-1}\otimes C^{-1} - 2 p J\, C^{-1}\odot C^{-1}`, ``slope`` being p'(J)."""
+    Ci = np.empty(6)
+    for e in range(C.shape[0]):
+        inverse(C[e], J[e] * J[e], Ci)
+        a, b = p[e] * J[e] + slope[e] * J[e] * J[e], 2.0 * p[e] * J[e]
+        for i in range(6):
+            for j in range(6):
+                D[e, i, j] += a * Ci[i] * Ci[j] - b * symmetric_product(Ci, i, j)
+
+
+@njit(cache=True)
+def add_nodal_forces(
+    F: Floats, S: Floats, gradients: Floats, volumes: Floats, tets: Integers, out: Floats
+) -> None:
+    r"""Add :math:`\int F S \nabla N_a` to the first three columns of ``out`` (n, >= 3)."""
+    P = np.empty((3, 3))
+    for e in range(tets.shape[0]):
+        for i in range(3):
+            P[i, 0] = F[e, i, 0] * S[e, 0] + F[e, i, 1] * S[e, 3] + F[e, i, 2] * S[e, 4]
+            P[i, 1] = F[e, i, 0] * S[e, 3] + F[e, i, 1] * S[e, 1] + F[e, i, 2] * S[e, 5]
+            P[i, 2] = F[e, i, 0] * S[e, 4] + F[e, i, 1] * S[e, 5] + F[e, i, 2] * S[e, 2]
+        for a in range(4):
+            for i in range(3):
+                force = 0.0
+                for j in range(3):
+                    force += P[i, j] * gradients[e, a, j]
+                out[tets[e, a], i] += volumes[e] * force
+
+
+@njit(cache=True)
+def element_stiffness(
+    F: Floats, S: Floats, D: Floats, gradients: Floats, volumes: Floats, dofs: int, out: Floats
+) -> None:
+    r"""Fill the displacement blocks of ``out`` (m, 4 dofs, 4 dofs) with material and geometric stiffness."""
+    B, DB = np.empty((6, 12)), np.empty((6, 12))
+    for e in range(F.shape[0]):
+        g = gradients[e]
+        for a in range(4):
+            for i in range(3):
+                for r in range(6):
+                    shear = 1.0 if r < 3 else 2.0
+                    value = F[e, i, ROW[r]] * g[a, COLUMN[r]] + F[e, i, COLUMN[r]] * g[a, ROW[r]]
+                    B[r, 3 * a + i] = 0.5 * shear * value
+        for r in range(6):
+            for c in range(12):
+                value = 0.0
+                for k in range(6):
+                    value += D[e, r, k] * B[k, c]
+                DB[r, c] = value
+        for a in range(4):
+            for b in range(4):
+                geometric = 0.0
+                for r in range(6):
+                    value = g[a, ROW[r]] * g[b, COLUMN[r]]
+                    if r >= 3:
+                        value += g[a, COLUMN[r]] * g[b, ROW[r]]
+                    geometric += S[e, r] * value
+                for i in range(3):
+                    for j in range(3):
+                        value = geometric if i == j else 0.0
+                        for r in range(6):
+                            value += B[r, 3 * a + i] * DB[r, 3 * b + j]
+                        out[e, dofs * a + i, dofs * b + j] = volumes[e] * value
+
+
+@njit(cache=True)
+def volume_slopes(F: Floats, gradients: Floats, out: Floats) -> None:
+    r"""Fill ``out`` (m, 4, 3) with :math:`\partial J/\partial u_a = \mathrm{cof}(F) \nabla N_a`."""
+    for e in range(F.shape[0]):
+        f = F[e]
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            for a in range(4):
+                value = 0.0
+                for c in range(3):
+                    d, b = (c + 1) % 3, (c + 2) % 3
+                    value += (f[j, d] * f[k, b] - f[j, b] * f[k, d]) * gradients[e, a, c]
+                out[e, a, i] = value
+
+
+class SparsityPattern:
+    """Where the entries of element matrices of ``dofs`` unknowns per node go in a symmetric sparse matrix.
+
+    Rows are numbered node by node in the given elimination ``order``; the matrix holds both triangles.
+    """
+
+    def __init__(self, tets: Integers, nodes: int, dofs: int, order: Integers) -> None:
+        position = np.empty(nodes, dtype=np.int64)
+        position[order] = np.arange(nodes)
+        self.permutation = (dofs * order[:, None] + np.arange(dofs)).ravel()
+        local = (dofs * position[tets][:, :, None] + np.arange(dofs)).reshape(len(tets), -1)
+        diagonal = (dofs * position[:, None] + np.arange(dofs))[:, :, None]
+        size = nodes * dofs
+        element_keys = (local[:, None, :] * size + local[:, :, None]).ravel()
+        node_keys = (np.swapaxes(diagonal, 1, 2) * size + diagonal).ravel()
+        keys, slots = np.unique(np.concatenate([element_keys, node_keys]), return_inverse=True)
+        self._slots = slots.astype(np.int64)
+        self._rows = (keys % size).astype(np.int32)
+        self._starts = np.searchsorted(keys, np.arange(size + 1) * size).astype(np.int32)
+        self.shape = (size, size)
+
+    def assemble(self, elements: Floats, nodes: Floats) -> csc_array:
+        """Sum element matrices (m, 4 dofs, 4 dofs) and nodal blocks (n, dofs, dofs) into a sparse matrix."""
+        values = np.concatenate([elements.ravel(), nodes.ravel()])
+        data = np.bincount(self._slots, weights=values, minlength=len(self._rows))
+        return csc_array((data, self._rows, self._starts), shape=self.shape)

@@ -1,0 +1,193 @@
+r"""The ventricular wall as a body: internal forces and tangent of one backward-Euler step.
+
+Find u (and the wall pressure p) with, for all :math:`\delta u`,
+
+.. math:: \int (S_{passive} + S_{visc} + S_p + \sigma_{1D} f \otimes f) : \delta E + \text{support} =
+          \sum_c P_c\, \delta V_c .
+
+Inertia, about 1e-4 of the internal forces, is left out.
+"""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from heartfit.electrophysiology.control import Control
+from heartfit.geometry.arrays import Floats
+from heartfit.geometry.cavity import Cavity
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.mechanics import assembly, kinematics
+from heartfit.mechanics.active.bcs import BestelClementSorine, Drive
+from heartfit.mechanics.elements import ELEMENTS, Element
+from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
+from heartfit.mechanics.solver import Factor, nested_dissection
+from heartfit.mechanics.support import Support
+
+SMALLEST_JACOBIAN = 0.05
+"""Relative element volume below which a trial state is refused."""
+
+CHAMBERS = ("lv", "rv")
+
+
+class StepFailed(ArithmeticError):
+    """A time step has no admissible solution at this length; the message says why."""
+
+
+@dataclass(frozen=True)
+class Tissue:
+    """The slots of the wall: what it is made of, what drives it, what holds it and how it is discretised."""
+
+    passive: MooneyRivlin = field(default_factory=MooneyRivlin)
+    active: BestelClementSorine = field(default_factory=BestelClementSorine)
+    control: Control = field(default_factory=Control)
+    support: Support = field(default_factory=Support)
+    element: str = "mixed"
+
+
+@dataclass(frozen=True, eq=False)
+class BodyState:
+    """Unknowns ``x`` (n, dofs), state of the fibres (3, m) and right Cauchy-Green tensor (m, 6)."""
+
+    x: Floats
+    fibres: Floats
+    C: Floats
+
+
+class FiniteElementBody:
+    """Ventricles of linear tetrahedra on a stress-free reference mesh."""
+
+    def __init__(self, reference: VentricularMesh, tissue: Tissue) -> None:
+        self.reference, self.tissue = reference, tissue
+        self.element: Element = ELEMENTS[tissue.element]
+        self.tets = reference.tets
+        self.gradients, self.element_volumes = kinematics.shape_gradients(reference.points, self.tets)
+        self.dyads = kinematics.fibre_dyads(np.asarray(reference.fibres))
+        self.stiffness = tissue.support.stiffness(reference)
+        self.damping = tissue.support.damping(reference)
+        self.passive_scale = tissue.support.passive_scale(reference)
+        self.cavities = [Cavity.of(reference, f"{chamber}_endo") for chamber in CHAMBERS]
+
+    @cached_property
+    def pattern(self) -> assembly.SparsityPattern:
+        """Sparsity of the tangent, in METIS order; shared by all bodies of the same tetrahedra."""
+        nodes = len(self.reference.points)
+        return assembly.SparsityPattern(
+            self.tets, nodes, self.element.dofs, nested_dissection(self.tets, nodes)
+        )
+
+    def rest(self) -> BodyState:
+        """The stress-free state."""
+        C = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], (len(self.tets), 1))
+        x = np.zeros((len(self.reference.points), self.element.dofs))
+        return BodyState(x, self.tissue.active.rest(len(self.tets)), C)
+
+    def positions(self, x: Floats) -> Floats:
+        """Nodal positions (n, 3)."""
+        return self.reference.points + x[:, :3]
+
+    def volumes(self, x: Floats) -> Floats:
+        """Cavity volumes (2,) of the left and right ventricle."""
+        position = self.positions(x)
+        return np.array([cavity.volume(position) for cavity in self.cavities])
+
+    def volume_gradients(self, x: Floats) -> Floats:
+        """Derivatives (N, 2) of the cavity volumes by the unknowns."""
+        position, result = self.positions(x), np.zeros((*x.shape, 2))
+        for c, cavity in enumerate(self.cavities):
+            result[:, :3, c] = cavity.gradient(position)
+        return result.reshape(x.size, 2)
+
+    def step(self, state: BodyState, start: float, dt: float, period: float) -> "Step":
+        """The step of length ``dt`` that begins at ``start`` from ``state``."""
+        activation = np.asarray(self.reference.activation)
+        rate, attach = self.tissue.control.mean(start, dt, activation, period)
+        n_0 = self.tissue.active.starling.available(state.fibres[0])
+        return Step(self, state, Drive(rate, attach, n_0, dt))
+
+    def endless_step(self, state: BodyState) -> "Step":
+        """A step without end from ``state``: relaxed fibres, no viscosity, static equilibrium."""
+        none = np.zeros(len(self.tets))
+        return Step(self, state, Drive(none, none, none, np.inf))
+
+    def wall_volume(self, x: Floats) -> float:
+        """Volume of the deformed wall, m^3."""
+        return float(self.reference.with_points(self.positions(x)).wall_volume())
+
+
+class Step:
+    """Internal forces and tangent as functions of the unknowns at the end of one step."""
+
+    def __init__(self, body: FiniteElementBody, state: BodyState, drive: Drive) -> None:
+        self.body, self.state, self.drive = body, state, drive
+        m = len(body.tets)
+        self._F, self._C, self._J = np.empty((m, 3, 3)), np.empty((m, 6)), np.empty(m)
+        self._S, self._fibre = np.empty((m, 6)), np.empty((3, m))
+        self._e_old = kinematics.fibre_strain(state.C, body.dyads)
+
+    def forces(self, x: Floats) -> Floats:
+        """Internal and support forces (N,) at ``x`` (n, dofs); raises StepFailed if an element collapses."""
+        body, tissue = self.body, self.body.tissue
+        self._deform(x)
+        tissue.passive.stress(self._C, self._J, body.passive_scale, self._S)
+        p, _ = body.element.pressure(x, body.tets, self._J, tissue.passive.K)
+        assembly.add_volumetric_stress(self._C, self._J, p, self._S)
+        self._S += 0.5 * tissue.passive.eta / self.drive.dt * (self._C - self.state.C)
+        e_new = kinematics.fibre_strain(self._C, body.dyads)
+        tissue.active.respond(self.drive, self._e_old, e_new, self.state.fibres, self._fibre)
+        self._S += self._fibre[0][:, None] * body.dyads
+        return self._assemble_forces(x)
+
+    def _deform(self, x: Floats) -> None:
+        kinematics.deformation_gradient(x, self.body.tets, self.body.gradients, self._F)
+        kinematics.right_cauchy_green(self._F, self._C, self._J)
+        smallest = self._J.min()
+        if not smallest > SMALLEST_JACOBIAN:
+            raise StepFailed(f"an element collapsed to {smallest:.3g} of its reference volume")
+
+    def _assemble_forces(self, x: Floats) -> Floats:
+        body, out = self.body, np.zeros_like(x)
+        assembly.add_nodal_forces(self._F, self._S, body.gradients, body.element_volumes, body.tets, out)
+        K, G = body.tissue.passive.K, body.tissue.passive.shear_modulus
+        body.element.add_forces(x, body.tets, self._J, body.element_volumes, K, G, out)
+        u, velocity = x[:, :3], (x[:, :3] - self.state.x[:, :3]) / self.drive.dt
+        out[:, :3] += np.einsum("nij,nj->ni", body.stiffness, u)
+        out[:, :3] += np.einsum("nij,nj->ni", body.damping, velocity)
+        return out.ravel()
+
+    def tangent(self, x: Floats) -> Factor:
+        """Factorised derivative of the forces at the state where they were last evaluated, which is ``x``."""
+        body = self.body
+        dofs, m = body.element.dofs, len(body.tets)
+        elements = np.zeros((m, 4 * dofs, 4 * dofs))
+        D = self._material_tangent(x)
+        assembly.element_stiffness(self._F, self._S, D, body.gradients, body.element_volumes, dofs, elements)
+        slopes = np.empty((m, 4, 3))
+        assembly.volume_slopes(self._F, body.gradients, slopes)
+        K, G = body.tissue.passive.K, body.tissue.passive.shear_modulus
+        body.element.add_stiffness(slopes, body.element_volumes, K, G, elements)
+        nodes = np.zeros((len(x), dofs, dofs))
+        nodes[:, :3, :3] = body.stiffness + body.damping / self.drive.dt
+        return Factor(body.pattern.assemble(elements, nodes), body.pattern.permutation)
+
+    def _material_tangent(self, x: Floats) -> Floats:
+        body, tissue = self.body, self.body.tissue
+        D = np.empty((len(body.tets), 6, 6))
+        tissue.passive.tangent(self._C, self._J, body.passive_scale, D)
+        p, slope = body.element.pressure(x, body.tets, self._J, tissue.passive.K)
+        assembly.add_volumetric_tangent(self._C, self._J, p, slope, D)
+        D[:, range(6), range(6)] += tissue.passive.eta / self.drive.dt * np.array([1, 1, 1, 0.5, 0.5, 0.5])
+        D += self._fibre[1][:, None, None] * body.dyads[:, :, None] * body.dyads[:, None, :]
+        return D
+
+    def commit(self, x: Floats) -> BodyState:
+        """The state at the end of the step, where the forces were last evaluated."""
+        fibres = self.body.tissue.active.advance(self.drive, self.state.fibres, self._fibre[2])
+        return BodyState(x.copy(), fibres, self._C.copy())
+
+    def size(self, residual: Floats) -> float:
+        """Norm of a residual, N; wall-volume equations are weighted by shear modulus over length."""
+        rows = residual.reshape(-1, self.body.element.dofs)
+        force = float(np.linalg.norm(rows[:, :3]))
+        weight = self.body.tissue.passive.shear_modulus / 5e-3
+        return force + weight * float(np.linalg.norm(rows[:, 3:]))

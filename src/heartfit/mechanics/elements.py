@@ -1,0 +1,89 @@
+r"""The element slot: how a linear tetrahedron treats the change of volume.
+
+``P1`` takes the volumetric energy :math:`\tfrac K2 (J-1)^2` at face value; nearly incompressible, it locks, and
+K then acts as a stiffness of the whole wall. ``Mixed`` adds one pressure unknown per node,
+
+.. math:: \Pi = p (J - 1) - \frac{p^2}{2K} - \frac{\alpha}{2} (p - \bar p)^2 ,
+
+with the pressure-projection stabilisation of Bochev and Dohrmann (:math:`\bar p` is the mean over the element,
+:math:`\alpha = 1/(2(c_1 + c_2))`), and does not lock.
+Source: Dohrmann and Bochev, Int. J. Numer. Meth. Fluids 46 (2004) 183.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from heartfit.geometry.arrays import Floats, Integers
+
+CONSISTENT_MASS = (np.ones((4, 4)) + np.eye(4)) / 20.0
+PROJECTION_DEFECT = CONSISTENT_MASS - 1.0 / 16.0
+
+
+class Element(Protocol):
+    """What the body asks of an element; ``dofs`` is the number of unknowns per node."""
+
+    @property
+    def dofs(self) -> int: ...
+    def pressure(self, x: Floats, tets: Integers, J: Floats, K: float) -> tuple[Floats, Floats]:
+        """Wall pressure (m,) and its derivative by J at fixed unknowns."""
+
+    def add_forces(
+        self, x: Floats, tets: Integers, J: Floats, volumes: Floats, K: float, G: float, out: Floats
+    ) -> None:
+        """Add the equations of the pressure unknowns to ``out`` (n, dofs)."""
+
+    def add_stiffness(self, slopes: Floats, volumes: Floats, K: float, G: float, out: Floats) -> None:
+        """Add the blocks of the pressure unknowns to the element matrices ``out``."""
+
+
+@dataclass(frozen=True)
+class P1:
+    """Displacement element."""
+
+    dofs: int = 3
+
+    def pressure(self, x: Floats, tets: Integers, J: Floats, K: float) -> tuple[Floats, Floats]:
+        return K * (J - 1.0), np.full_like(J, K)
+
+    def add_forces(
+        self, x: Floats, tets: Integers, J: Floats, volumes: Floats, K: float, G: float, out: Floats
+    ) -> None:
+        """Nothing: there is no pressure unknown."""
+
+    def add_stiffness(self, slopes: Floats, volumes: Floats, K: float, G: float, out: Floats) -> None:
+        """Nothing: the volumetric stiffness is in the material tangent."""
+
+
+@dataclass(frozen=True)
+class Mixed:
+    """Displacement and nodal pressure, stabilised."""
+
+    dofs: int = 4
+
+    def pressure(self, x: Floats, tets: Integers, J: Floats, K: float) -> tuple[Floats, Floats]:
+        return x[tets, 3].mean(axis=1), np.zeros_like(J)
+
+    def add_forces(
+        self, x: Floats, tets: Integers, J: Floats, volumes: Floats, K: float, G: float, out: Floats
+    ) -> None:
+        rows = np.repeat(0.25 * (J - 1.0)[:, None], 4, axis=1) - x[tets, 3] @ self._compliance(K, G)
+        out[:, 3] += np.bincount(tets.ravel(), weights=(volumes[:, None] * rows).ravel(), minlength=len(out))
+
+    def add_stiffness(self, slopes: Floats, volumes: Floats, K: float, G: float, out: Floats) -> None:
+        coupling = np.einsum("e,eai->eai", 0.25 * volumes, slopes)
+        for a in range(4):
+            for b in range(4):
+                out[:, 4 * a : 4 * a + 3, 4 * b + 3] = coupling[:, a]
+                out[:, 4 * b + 3, 4 * a : 4 * a + 3] = coupling[:, a]
+                out[:, 4 * a + 3, 4 * b + 3] = -volumes * self._compliance(K, G)[a, b]
+
+    @staticmethod
+    def _compliance(K: float, G: float) -> Floats:
+        """Compressibility and stabilisation of the nodal pressures; G is the shear modulus."""
+        compliance: Floats = CONSISTENT_MASS / K + PROJECTION_DEFECT / G
+        return compliance
+
+
+ELEMENTS: dict[str, Element] = {"p1": P1(), "mixed": Mixed()}

@@ -1,0 +1,86 @@
+r"""Deformation of linear tetrahedra.
+
+Symmetric tensors are six-vectors in the order 11, 22, 33, 12, 13, 23 (``ROW``, ``COLUMN``); tangents map
+engineering strains (shear doubled) to second Piola-Kirchhoff stresses. Arrays run over elements first.
+"""
+
+import numpy as np
+from numba import njit
+from heartfit.geometry.arrays import Floats, Integers
+
+
+ROW = np.array([0, 1, 2, 0, 0, 1])
+COLUMN = np.array([0, 1, 2, 1, 2, 2])
+
+
+def shape_gradients(points: Floats, tets: Integers) -> tuple[Floats, Floats]:
+    r"""Gradients :math:`\nabla N_a` (m, 4, 3) of the linear shape functions and volumes (m,) of the tetrahedra.
+
+    Raises ``ValueError`` if a tetrahedron has no positive volume.
+    """
+    edges = points[tets[:, 1:]] - points[tets[:, :1]]
+    volumes = np.linalg.det(edges) / 6.0
+    if not (volumes > 0.0).all():
+        worst = int(np.argmin(volumes))
+        raise ValueError(f"tetrahedron {worst} has volume {volumes[worst]:g} m^3: expected a positive volume")
+    inner = np.linalg.inv(edges).transpose(0, 2, 1)
+    return np.concatenate([-inner.sum(axis=1, keepdims=True), inner], axis=1), volumes
+
+
+@njit(cache=True)
+def deformation_gradient(u: Floats, tets: Integers, gradients: Floats, F: Floats) -> None:
+    r"""Fill ``F`` (m, 3, 3) with :math:`F = I + \sum_a u_a \otimes \nabla N_a`; ``u`` is (n, >= 3)."""
+    for e in range(tets.shape[0]):
+        for i in range(3):
+            for j in range(3):
+                value = 1.0 if i == j else 0.0
+                for a in range(4):
+                    value += u[tets[e, a], i] * gradients[e, a, j]
+                F[e, i, j] = value
+
+
+@njit(cache=True)
+def right_cauchy_green(F: Floats, C: Floats, J: Floats) -> None:
+    r"""Fill ``C`` (m, 6) with :math:`F^T F` and ``J`` (m,) with :math:`\det F`."""
+    for e in range(F.shape[0]):
+        for i in range(6):
+            r, c = ROW[i], COLUMN[i]
+            C[e, i] = F[e, 0, r] * F[e, 0, c] + F[e, 1, r] * F[e, 1, c] + F[e, 2, r] * F[e, 2, c]
+        J[e] = (
+            F[e, 0, 0] * (F[e, 1, 1] * F[e, 2, 2] - F[e, 1, 2] * F[e, 2, 1])
+            - F[e, 0, 1] * (F[e, 1, 0] * F[e, 2, 2] - F[e, 1, 2] * F[e, 2, 0])
+            + F[e, 0, 2] * (F[e, 1, 0] * F[e, 2, 1] - F[e, 1, 1] * F[e, 2, 0])
+        )
+
+
+@njit(cache=True)
+def inverse(C: Floats, determinant: float, out: Floats) -> None:
+    """Inverse (6,) of the symmetric tensor ``C`` (6,) of the given determinant."""
+    out[0] = (C[1] * C[2] - C[5] * C[5]) / determinant
+    out[1] = (C[0] * C[2] - C[4] * C[4]) / determinant
+    out[2] = (C[0] * C[1] - C[3] * C[3]) / determinant
+    out[3] = (C[4] * C[5] - C[3] * C[2]) / determinant
+    out[4] = (C[3] * C[5] - C[4] * C[1]) / determinant
+    out[5] = (C[3] * C[4] - C[0] * C[5]) / determinant
+
+
+@njit(cache=True)
+def symmetric_product(A: Floats, i: int, j: int) -> float:
+    r"""Entry of :math:`A \odot A`, which maps X to A X A: :math:`\frac12 (A_{ik} A_{jl} + A_{il} A_{jk})`."""
+    r, c, k, m = ROW[i], COLUMN[i], ROW[j], COLUMN[j]
+    return 0.5 * (A[VOIGT[r, k]] * A[VOIGT[c, m]] + A[VOIGT[r, m]] * A[VOIGT[c, k]])
+
+
+VOIGT = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])
+
+
+def fibre_dyads(fibres: Floats) -> Floats:
+    r"""Six-vectors (m, 6) of :math:`f \otimes f` for unit fibres (m, 3)."""
+    return np.ascontiguousarray(fibres[:, ROW] * fibres[:, COLUMN])
+
+
+def fibre_strain(C: Floats, dyads: Floats) -> Floats:
+    r"""Green-Lagrange fibre strain :math:`e_{1D} = (f \cdot C f - 1)/2`, (m,)."""
+    doubled = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
+    strain: Floats = 0.5 * (np.einsum("ei,ei->e", C, dyads * doubled) - 1.0)
+    return strain

@@ -1,0 +1,1 @@
+"""Passive laws, one per file: isochoric stress and tangent of many points at once."""

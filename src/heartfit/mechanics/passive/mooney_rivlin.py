@@ -1,0 +1,90 @@
+r"""Isotropic Mooney-Rivlin tissue.
+
+.. math:: W = c_1 (\bar I_1 - 3) + c_2 (\bar I_2 - 3) + \tfrac K2 (J-1)^2
+
+with :math:`\bar I_1 = J^{-2/3} I_1`, :math:`\bar I_2 = J^{-4/3} I_2`. The small-strain shear modulus is
+:math:`2 (c_1 + c_2)`. The volumetric term belongs to the element, which may treat it by a pressure field.
+Source: Marchesseau et al., MICCAI 2012, section 2.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from heartfit.geometry.arrays import Floats
+from heartfit.mechanics.kinematics import inverse, symmetric_product
+from heartfit.parameter import parameter, require_admissible
+
+
+@dataclass(frozen=True)
+class MooneyRivlin:
+    """Mooney-Rivlin solid with Kelvin-Voigt viscosity :math:`S_v = \\eta \\dot E`."""
+
+    c_1: float = parameter(6e3, unit="Pa", symbol="c_1", meaning="first Mooney-Rivlin modulus", sd=0.25)
+    c_2: float = parameter(6e2, unit="Pa", symbol="c_2", meaning="second Mooney-Rivlin modulus", sd=0.30)
+    K: float = parameter(1e6, unit="Pa", symbol="K", meaning="bulk modulus", sd=0.25)
+    eta: float = parameter(100.0, unit="Pa.s", symbol=r"\eta", meaning="viscosity of the passive matrix")
+
+    def __post_init__(self) -> None:
+        require_admissible(self)
+
+    @property
+    def shear_modulus(self) -> float:
+        """Small-strain shear modulus, Pa."""
+        return 2.0 * (self.c_1 + self.c_2)
+
+    def stress(self, C: Floats, J: Floats, scale: Floats, S: Floats) -> None:
+        """Fill ``S`` (m, 6) with the isochoric stress, ``scale`` (m,) multiplying both moduli."""
+        _stress(C, J, scale, self.c_1, self.c_2, S)
+
+    def tangent(self, C: Floats, J: Floats, scale: Floats, D: Floats) -> None:
+        r"""Fill ``D`` (m, 6, 6) with :math:`2\,\partial S/\partial C` of the isochoric stress."""
+        _tangent(C, J, scale, self.c_1, self.c_2, D)
+
+    def in_plane_energy_slope(self, stretch: float) -> float:
+        r""":math:`dW/d\Lambda` of the incompressible equibiaxial stretch :math:`(\Lambda, \Lambda, \Lambda^{-2})`, Pa."""
+        return 4.0 * self.c_1 * (stretch - stretch**-5) + 4.0 * self.c_2 * (stretch**3 - stretch**-3)
+
+
+@njit(cache=True)
+def _invariants(C: Floats) -> tuple[float, float]:
+    trace = C[0] + C[1] + C[2]
+    squares = C[0] ** 2 + C[1] ** 2 + C[2] ** 2 + 2.0 * (C[3] ** 2 + C[4] ** 2 + C[5] ** 2)
+    return trace, 0.5 * (trace * trace - squares)
+
+
+@njit(cache=True)
+def _stress(C: Floats, J: Floats, scale: Floats, c_1: float, c_2: float, S: Floats) -> None:
+    Ci = np.empty(6)
+    for e in range(C.shape[0]):
+        I1, I2 = _invariants(C[e])
+        inverse(C[e], J[e] * J[e], Ci)
+        a = 2.0 * c_1 * scale[e] * J[e] ** (-2.0 / 3.0)
+        b = 2.0 * c_2 * scale[e] * J[e] ** (-4.0 / 3.0)
+        for i in range(6):
+            identity = 1.0 if i < 3 else 0.0
+            S[e, i] = a * (identity - I1 / 3.0 * Ci[i])
+            S[e, i] += b * (I1 * identity - C[e, i] - 2.0 / 3.0 * I2 * Ci[i])
+
+
+@njit(cache=True)
+def _tangent(C: Floats, J: Floats, scale: Floats, c_1: float, c_2: float, D: Floats) -> None:
+    Ci, A = np.empty(6), np.empty(6)
+    for e in range(C.shape[0]):
+        I1, I2 = _invariants(C[e])
+        inverse(C[e], J[e] * J[e], Ci)
+        a = 4.0 * c_1 * scale[e] * J[e] ** (-2.0 / 3.0)
+        b = 4.0 * c_2 * scale[e] * J[e] ** (-4.0 / 3.0)
+        for i in range(6):
+            A[i] = (I1 if i < 3 else 0.0) - C[e, i]
+        for i in range(6):
+            di = 1.0 if i < 3 else 0.0
+            for j in range(6):
+                dj = 1.0 if j < 3 else 0.0
+                cc = Ci[i] * Ci[j]
+                odot = symmetric_product(Ci, i, j)
+                unit = 0.0 if i != j else (1.0 if i < 3 else 0.5)
+                D[e, i, j] = a * (-(di * Ci[j] + Ci[i] * dj) / 3.0 + I1 / 9.0 * cc + I1 / 3.0 * odot)
+                D[e, i, j] += b * (di * dj - unit - 2.0 / 3.0 * (A[i] * Ci[j] + Ci[i] * A[j]))
+                D[e, i, j] += b * (4.0 / 9.0 * I2 * cc + 2.0 / 3.0 * I2 * odot)

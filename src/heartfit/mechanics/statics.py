@@ -1,0 +1,33 @@
+"""Static equilibrium of relaxed ventricles under given cavity pressures."""
+
+from typing import Any
+
+import numpy as np
+
+from heartfit.geometry.arrays import Floats
+from heartfit.mechanics.body import StepFailed
+
+INCREMENTS = 6
+ITERATIONS = 40
+FORCE_TOLERANCE = 1e-3  # N
+
+
+def inflate(body: Any, pressures: Floats, increments: int = INCREMENTS) -> Any:
+    """State of ``body`` filled from rest to ``pressures`` (2,), Pa; raises StepFailed if it balloons."""
+    state = body.rest()
+    for share in np.linspace(0.0, 1.0, increments + 1)[1:]:
+        state = _equilibrium(body, state, share * pressures)
+    return state
+
+
+def _equilibrium(body: Any, state: Any, pressures: Floats) -> Any:
+    step, x = body.endless_step(state), state.x.copy()
+    for _ in range(ITERATIONS):
+        residual = step.forces(x) - body.volume_gradients(x) @ pressures
+        if step.size(residual) < FORCE_TOLERANCE:
+            return step.commit(x)
+        x = x - step.tangent(x).solve(residual).reshape(x.shape)
+    raise StepFailed(
+        f"no static equilibrium at {pressures[0]:.0f} / {pressures[1]:.0f} Pa, residual {step.size(residual):.3g} N: "
+        "the wall is too soft for this pressure or the supports are too weak"
+    )

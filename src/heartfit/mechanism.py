@@ -1,0 +1,78 @@
+"""Mechanisms: physical effects that are added to a heart, each in the role that fixes where it enters.
+
+A mechanism is one frozen dataclass in one file of ``heartfit/mechanisms``; it declares its parameters
+(:mod:`heartfit.parameter`), exactly one of which has an ``off`` value at which the effect vanishes. The folder
+is the registry: a file dropped there is a candidate everywhere.
+"""
+
+import importlib
+import pkgutil
+from abc import ABC, abstractmethod
+from dataclasses import replace
+from typing import ClassVar, Self, TypeVar
+
+from heartfit.parameter import Parameter, parameters_of
+
+COMPARTMENTS = ("lv", "rv", "aorta", "pulmonary_artery", "left_atrium", "right_atrium")
+
+
+class Mechanism(ABC):
+    """What every mechanism offers, whatever its role."""
+
+    @classmethod
+    def switch(cls) -> Parameter:
+        """The one parameter that turns the mechanism off; ``TypeError`` if there is not exactly one."""
+        switches = [declared for declared in parameters_of(cls) if declared.off is not None]
+        if len(switches) != 1:
+            raise TypeError(
+                f"{cls.__name__} declares {len(switches)} parameters with an off value: expected one"
+            )
+        return switches[0]
+
+    def turned_off(self) -> Self:
+        """The same mechanism at its off value."""
+        return replace(self, **{self.switch().name: self.switch().off})  # type: ignore[type-var]
+
+
+class Flow(Mechanism):
+    """A branch of the circuit from ``upstream`` to ``downstream``."""
+
+    upstream: ClassVar[str]
+    downstream: ClassVar[str]
+
+    @abstractmethod
+    def flow(self, time: float, drop: float) -> tuple[float, float]:
+        """Flow, m^3/s, at the pressure drop upstream - downstream, Pa, and its derivative by the drop."""
+
+
+class Pressure(Mechanism):
+    """A pressure added to that of prescribed compartments."""
+
+    @abstractmethod
+    def pressure(self, compartment: str, time: float, period: float) -> float:
+        """Pressure added to ``compartment`` at ``time``, Pa; periodic in ``period``."""
+
+
+ROLES: tuple[type[Mechanism], ...] = (Flow, Pressure)
+
+M = TypeVar("M", bound=type[Mechanism])
+
+_REGISTRY: dict[str, type[Mechanism]] = {}
+
+
+def mechanism(cls: M) -> M:
+    """Register a mechanism under its class name; ``TypeError`` without a role or with a name taken."""
+    if not issubclass(cls, ROLES):
+        raise TypeError(f"{cls.__name__} plays no role: derive it from one of {[r.__name__ for r in ROLES]}")
+    if _REGISTRY.setdefault(cls.__name__, cls) is not cls:
+        raise TypeError(f"mechanism {cls.__name__} is registered twice: rename one of them")
+    cls.switch()
+    return cls
+
+
+def registered() -> dict[str, type[Mechanism]]:
+    """All mechanisms of the folder ``heartfit/mechanisms``, by name."""
+    package = importlib.import_module("heartfit.mechanisms")
+    for module in pkgutil.iter_modules(package.__path__):
+        importlib.import_module(f"heartfit.mechanisms.{module.name}")
+    return dict(sorted(_REGISTRY.items()))

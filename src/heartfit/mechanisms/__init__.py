@@ -1,0 +1,1 @@
+"""One mechanism per file; the folder is the registry (see :mod:`heartfit.mechanism`)."""

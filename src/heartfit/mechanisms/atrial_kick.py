@@ -1,0 +1,46 @@
+"""Atrial systole: the pressure bump that tops up the ventricles before they contract."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from heartfit.mechanism import Pressure, mechanism
+from heartfit.parameter import parameter, require_admissible
+
+
+@mechanism
+@dataclass(frozen=True)
+class AtrialKick(Pressure):
+    r"""Bump of the atrial pressures at the beginning of the cycle.
+
+    .. math:: p(t) = P \begin{cases} \sin^2 \frac{\pi t}{2 t_m} & 0 \le t < t_m \\
+              \cos^2 \frac{\pi (t - t_m)}{2 (t_c - t_m)} & t_m \le t < t_c \end{cases}
+
+    in the left atrium, and the fraction :math:`\rho` of it in the right one.
+    Source: the atrial parameters (base, maximum, times) of the paper's group; the shape is ours.
+    """
+
+    rise: float = parameter(
+        1700.0, unit="Pa", symbol="P", meaning="left atrial pressure rise", sd=0.3, off=0.0
+    )
+    right: float = parameter(0.27, unit="1", symbol=r"\rho", meaning="right atrial rise over the left one")
+    peak: float = parameter(0.10, unit="s", symbol="t_m", meaning="time of the maximum")
+    end: float = parameter(0.20, unit="s", symbol="t_c", meaning="end of atrial systole")
+
+    def __post_init__(self) -> None:
+        require_admissible(self)
+        if not 0.0 < self.peak < self.end:
+            raise ValueError(
+                f"AtrialKick peaks at {self.peak:g} s and ends at {self.end:g} s: expected 0 < peak < end"
+            )
+
+    def pressure(self, compartment: str, time: float, period: float) -> float:
+        share = {"left_atrium": 1.0, "right_atrium": self.right}.get(compartment, 0.0)
+        return share * self.rise * self._shape(time % period)
+
+    def _shape(self, time: float) -> float:
+        if time < self.peak:
+            return float(np.sin(0.5 * np.pi * time / self.peak) ** 2)
+        if time < self.end:
+            return float(np.cos(0.5 * np.pi * (time - self.peak) / (self.end - self.peak)) ** 2)
+        return 0.0

@@ -1,0 +1,61 @@
+"""Declare a physical parameter once, as a field of the part it belongs to.
+
+A part is a frozen dataclass; each of its parameters is declared with value, unit, symbol, meaning and, if it
+may be calibrated, the relative standard deviation of its prior. Tables, schema and documentation are read
+from these declarations.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What is known of one parameter: SI ``value``, ``unit``, LaTeX ``symbol``, ``meaning``.
+
+    ``sd`` is the relative standard deviation of its log-normal prior (``None``: never calibrated), ``off`` the
+    value at which a mechanism vanishes, ``low`` the bound below which the value makes no physical sense.
+    """
+
+    name: str
+    value: float
+    unit: str
+    symbol: str
+    meaning: str
+    sd: float | None = None
+    off: float | None = None
+    low: float = 0.0
+
+
+def parameter(
+    value: float,
+    *,
+    unit: str,
+    symbol: str,
+    meaning: str,
+    sd: float | None = None,
+    off: float | None = None,
+    low: float = 0.0,
+) -> Any:
+    """A dataclass field that declares a parameter; see :class:`Parameter`."""
+    declared = {"unit": unit, "symbol": symbol, "meaning": meaning, "sd": sd, "off": off, "low": low}
+    return field(default=value, metadata={"parameter": declared})
+
+
+def parameters_of(part: Any) -> Iterator[Parameter]:
+    """The parameters that a part (class or instance) declares, with the values the instance holds."""
+    for entry in fields(part):
+        if "parameter" in entry.metadata:
+            value = entry.default if isinstance(part, type) else getattr(part, entry.name)
+            yield Parameter(name=entry.name, value=value, **entry.metadata["parameter"])
+
+
+def require_admissible(part: Any) -> None:
+    """Raise ``ValueError`` when a parameter of ``part`` is not a finite number above its lower bound."""
+    for declared in parameters_of(part):
+        if not declared.low <= declared.value < float("inf"):
+            raise ValueError(
+                f"{type(part).__name__}.{declared.name} = {declared.value:g} {declared.unit}: expected a finite "
+                f"value of at least {declared.low:g} ({declared.meaning})"
+            )

@@ -1,0 +1,166 @@
+"""Run beats until the limit cycle; a run that fails is a result with a reason."""
+
+import time as clock
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from heartfit.beat import Beat, failed_beat
+from heartfit.circulation.coupling import Body, Coupling, HeartState, Tolerances
+from heartfit.circulation.network import NetworkStep
+from heartfit.circulation.windkessel import WindkesselState
+from heartfit.geometry.arrays import Floats
+from heartfit.heart import Heart
+from heartfit.mechanics.body import StepFailed
+from heartfit.mechanics.statics import inflate
+from heartfit.mechanism import COMPARTMENTS
+
+Progress = Callable[[float], None]
+
+
+@dataclass(frozen=True)
+class Numerics:
+    """Time step, s, limits of the beats, and what counts as a limit cycle.
+
+    ``drift`` is the largest change of a cavity volume (over stroke volume) and of an arterial pressure (over
+    itself) from the start of a beat to its end. ``cuts`` is how often a step may be halved.
+    """
+
+    time_step: float = 5e-3
+    max_beats: int = 6
+    drift: float = 0.01
+    cuts: int = 5
+    keep_positions: bool = False
+    tolerances: Tolerances = field(default_factory=Tolerances)
+
+
+def simulate(
+    heart: Heart, body: Body, numerics: Numerics | None = None, progress: Progress | None = None
+) -> Beat:
+    """Beat of ``heart`` with the ventricles ``body`` on its limit cycle.
+
+    Between beats the pressures of the Windkessels, whose memory of tau is longer than a beat, are shifted to where
+    the stroke volume of the last beat would hold them; the beat that is returned starts from no shift of
+    its own making: its drift is measured and stated.
+    ``progress`` is called with the fraction done of ``max_beats`` after every time step.
+    """
+    run = _Run(heart, body, numerics or Numerics(), progress)
+    try:
+        return run.to_limit_cycle()
+    except StepFailed as failure:
+        return failed_beat(f"beat {run.beats + 1}: {failure}", heart.period, heart.trigger, run.diagnostics())
+
+
+class _Run:
+    def __init__(self, heart: Heart, body: Body, numerics: Numerics, progress: Progress | None) -> None:
+        self.heart, self.body, self.numerics = heart, body, numerics
+        self.coupling = Coupling(body, heart.circulation, heart.mechanisms, numerics.tolerances)
+        self.steps = round(heart.period / numerics.time_step)
+        self.progress = progress or (lambda fraction: None)
+        self.beats, self.cuts, self.drift = 0, 0, np.inf
+        self._started = clock.process_time()
+
+    def to_limit_cycle(self) -> Beat:
+        state = self._start()
+        while True:
+            first = state
+            history = [state]
+            for n in range(self.steps):
+                state = self._advance(state, n * self.dt, self.dt, self.numerics.cuts)
+                history.append(state)
+                self.progress((self.beats + (n + 1) / self.steps) / self.numerics.max_beats)
+            self.beats += 1
+            self.drift = _drift(first, state, history)
+            if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
+                return self._beat(history)
+            state = self._shift(state, history)
+
+    @property
+    def dt(self) -> float:
+        return self.heart.period / self.steps
+
+    def _start(self) -> HeartState:
+        """Relaxed ventricles filled at the resting atrial pressures."""
+        trees = self.heart.circulation.start()
+        atria = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
+        pressures = np.array([*atria, *(tree.P_c for tree in trees)])
+        filled = inflate(self.body, atria)
+        return HeartState(filled, pressures, self.body.volumes(filled.x), trees)
+
+    def _advance(self, state: HeartState, start: float, dt: float, cuts: int) -> HeartState:
+        try:
+            return self.coupling.advance(state, start, dt, self.heart.period)
+        except StepFailed as failure:
+            if cuts == 0:
+                raise StepFailed(f"at {start:.4f} s, step {dt:.2g} s: {failure}") from failure
+        self.cuts += 1
+        half = self._advance(replace(state, trend=None), start, 0.5 * dt, cuts - 1)
+        return self._advance(half, start + 0.5 * dt, 0.5 * dt, cuts - 1)
+
+    def _shift(self, state: HeartState, history: list[HeartState]) -> HeartState:
+        trees = []
+        for side, (tree, held) in enumerate(zip(self.heart.circulation.trees(), state.trees, strict=True)):
+            mean = float(np.mean([past.trees[side].P_c for past in history[1:]]))
+            stroke = float(np.ptp([past.volumes[side] for past in history]))
+            shift = tree.periodic_shift(mean, stroke, self.heart.period)
+            trees.append(WindkesselState(held.P_c + shift, held.q_L))
+        return replace(state, trees=tuple(trees))
+
+    def _beat(self, history: list[HeartState]) -> Beat:
+        time = np.arange(self.steps + 1) * self.dt
+        volumes = np.array([state.volumes for state in history])
+        pressure, flow = self._signals(time, history)
+        return Beat(
+            time=time,
+            volume={"lv": volumes[:, 0], "rv": volumes[:, 1]},
+            pressure=pressure,
+            flow=flow,
+            period=self.heart.period,
+            trigger=self.heart.trigger,
+            diagnostics=self.diagnostics() | self._wall(history),
+            positions=self._positions(history),
+        )
+
+    def _signals(
+        self, time: Floats, history: list[HeartState]
+    ) -> tuple[dict[str, Floats], dict[str, Floats]]:
+        pressures, flows = [], []
+        for t, state in zip(time, history, strict=True):
+            network = NetworkStep(
+                self.heart.circulation, self.heart.mechanisms, t, self.dt, self.heart.period
+            )
+            pressures.append([*state.pressures, *network.atrial])
+            flows.append({name: q for name, _, _, q, _ in network.flows(state.pressures)})
+        pressure = dict(zip(COMPARTMENTS, np.array(pressures).T, strict=True))
+        return pressure, {name: np.array([row[name] for row in flows]) for name in flows[0]}
+
+    def _positions(self, history: list[HeartState]) -> Floats | None:
+        if not self.numerics.keep_positions:
+            return None
+        return np.array([self.body.positions(state.body.x) for state in history])  # type: ignore[attr-defined]
+
+    def _wall(self, history: list[HeartState]) -> dict[str, float]:
+        walls = np.array(
+            [self.body.wall_volume(state.body.x) for state in history[:: max(1, self.steps // 40)]]
+        )
+        return {"wall_volume_loss": float(1.0 - walls.min() / walls.max())}
+
+    def diagnostics(self) -> dict[str, float]:
+        """What the run cost and how periodic it became."""
+        return {
+            "beats": float(self.beats),
+            "drift": float(self.drift),
+            "step_cuts": float(self.cuts),
+            "iterations": float(self.coupling.iterations),
+            "factorisations": float(self.coupling.factorisations),
+            "cpu_s": clock.process_time() - self._started,
+        }
+
+
+def _drift(first: HeartState, last: HeartState, history: list[HeartState]) -> float:
+    volumes = np.array([state.volumes for state in history])
+    in_volume = np.abs(last.volumes - first.volumes) / np.ptp(volumes, axis=0)
+    in_pressure = [abs(b.P_c / a.P_c - 1.0) for a, b in zip(first.trees, last.trees, strict=True)]
+    return float(max(*in_volume, *in_pressure))
