@@ -37,11 +37,13 @@ def test_bad_samples_are_named(times: np.ndarray, values: np.ndarray, period: fl
 
 
 def test_millilitres_are_not_cubic_metres() -> None:
-    with pytest.raises(InputError, match="probably given in mL: convert"):
+    with pytest.raises(InputError, match="probably mL taken for m"):
         Curve.of_volume(TIMES, VOLUME * 1e6, 0.825)
 
 
-@pytest.mark.parametrize(("peak", "hint"), [(16.0, "kPa or mmHg"), (120e3, "check the numbers")])
+@pytest.mark.parametrize(
+    ("peak", "hint"), [(16.0, "kPa or mmHg"), (120e3, "mmHg taken for kPa"), (-1e6, "check the numbers")]
+)
 def test_impossible_pressures_are_named(peak: float, hint: str) -> None:
     with pytest.raises(InputError, match=hint):
         Curve.of_pressure(TIMES, peak * np.sin(np.pi * TIMES / 0.825) ** 2, 0.825)

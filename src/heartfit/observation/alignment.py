@@ -1,5 +1,7 @@
 """Where in the simulated beat the measured time zero lies."""
 
+from collections.abc import Mapping
+
 import numpy as np
 from scipy.optimize import minimize_scalar
 
@@ -28,3 +30,12 @@ def fit_shift(measured: Curve, simulated: Curve, limit: float | None = None) -> 
     bounds = (max(start - step, -reach), min(start + step, reach))
     found = minimize_scalar(lambda shift: root_mean_square(measured, simulated, shift), bounds=bounds)
     return float(found.x)
+
+
+def fit_curves(
+    measured: Mapping[str, Curve], simulated: Mapping[str, Curve], limit: float
+) -> tuple[float, dict[str, float]]:
+    """The shift in s, |s| <= limit, that suits the LV volume best, and each common curve's misfit at it."""
+    shift = fit_shift(measured["lv_volume"], simulated["lv_volume"], limit)
+    common = [name for name in measured if name in simulated]
+    return shift, {name: root_mean_square(measured[name], simulated[name], shift) for name in common}

@@ -1,16 +1,15 @@
 """What a beat, simulated or measured, shows to the calibration."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 from heartfit.beat import Beat
-from heartfit.observation.alignment import fit_shift, root_mean_square
 from heartfit.observation.curve import Curve
 from heartfit.observation.noise import Observation, measure
-from heartfit.observation.operator import CurveFeatures, VolumeFeatures
+from heartfit.observation.operator import CurveFeatures, PressureFeatures, VolumeFeatures
 
-LEFT_VOLUME: Mapping[str, CurveFeatures] = MappingProxyType({"lv_volume": VolumeFeatures()})
+VOLUME, PRESSURE = VolumeFeatures(), PressureFeatures()
+LEFT_VOLUME: Mapping[str, CurveFeatures] = MappingProxyType({"lv_volume": VOLUME})
 
 
 def beat_curves(beat: Beat) -> dict[str, Curve]:
@@ -30,6 +29,16 @@ def beat_curves(beat: Beat) -> dict[str, Curve]:
     }
 
 
+def operators(
+    curves: Iterable[str],
+    volume: CurveFeatures = VOLUME,
+    pressure: CurveFeatures = PRESSURE,
+) -> dict[str, CurveFeatures]:
+    """The operators for what was measured: on the LV's volume, and on its pressure if there is one."""
+    wanted = {"lv_volume": volume, "lv_pressure": pressure}
+    return {name: wanted[name] for name in wanted if name in set(curves)}
+
+
 def observe(
     curves: Mapping[str, Curve], features: Mapping[str, CurveFeatures] = LEFT_VOLUME
 ) -> dict[str, float]:
@@ -41,35 +50,17 @@ def observe(
 
 
 def observe_measured(
-    curves: Mapping[str, Curve], features: Mapping[str, CurveFeatures] = LEFT_VOLUME, **noise: float
+    curves: Mapping[str, Curve],
+    features: Mapping[str, CurveFeatures] = LEFT_VOLUME,
+    period_uncertainty: float = 0.05,
 ) -> list[Observation]:
-    """Z_obs with noise; `noise` are the keyword arguments of `heartfit.observation.noise.measure`."""
+    """Z_obs, each number with the noise `heartfit.observation.noise.measure` finds for it."""
     _require(curves, features)
     return [
         observation
         for curve, operator in features.items()
-        for observation in measure(operator, curves[curve], **noise)
+        for observation in measure(operator, curves[curve], period_uncertainty=period_uncertainty)
     ]
-
-
-@dataclass(frozen=True)
-class CurveFit:
-    """Simulated against measured: root mean square over the frames (SI) at the time shift (s)."""
-
-    root_mean_square: float
-    shift: float
-
-
-def compare(
-    measured: Mapping[str, Curve], simulated: Mapping[str, Curve], limit: float = 0.1
-) -> dict[str, CurveFit]:
-    """The fit of every curve both have, at the one shift, |s| <= limit, that suits the LV volume best."""
-    shift = fit_shift(measured["lv_volume"], simulated["lv_volume"], limit)
-    return {
-        name: CurveFit(root_mean_square(curve, simulated[name], shift), shift)
-        for name, curve in measured.items()
-        if name in simulated
-    }
 
 
 def cavity_indices(curves: Mapping[str, Curve], side: str = "lv") -> dict[str, float]:

@@ -4,12 +4,15 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from heartfit.errors import InputError
 
 SMALLEST_NUMBER_OF_PHASES = 8
 VOLUMES = (5e-6, 1e-3)  # m^3, a ventricle of a human: 5 mL to 1 L
 PRESSURES = (-5e3, 40e3)  # Pa
+VOLUME_MISTAKES = {"mL taken for m^3": 1e-6, "L taken for m^3": 1e-3, "L taken for mL": 1e3}
+PRESSURE_MISTAKES = {"kPa taken for Pa": 1e3, "mmHg taken for Pa": 133.322, "mmHg taken for kPa": 0.133322}
 
 
 @dataclass(frozen=True)
@@ -68,28 +71,28 @@ class Curve:
             )
 
     @classmethod
-    def of_volume(cls, times: np.ndarray, values: np.ndarray, period: float) -> Self:
+    def of_volume(cls, times: ArrayLike, values: ArrayLike, period: float) -> Self:
         """A cavity's volume in m^3; raises InputError for what no human ventricle can hold."""
-        curve = cls(times, values, period)
-        _check_range(curve.values, VOLUMES, "volume", "m^3", {"mL": 1e-6, "L": 1e-3})
+        curve = cls(np.asarray(times), np.asarray(values), period)
+        _check_range(curve.values, VOLUMES, "volume", "m^3", VOLUME_MISTAKES)
         return curve
 
     @classmethod
-    def of_pressure(cls, times: np.ndarray, values: np.ndarray, period: float) -> Self:
+    def of_pressure(cls, times: ArrayLike, values: ArrayLike, period: float) -> Self:
         """A pressure in Pa; raises InputError for what no human heart bears."""
-        curve = cls(times, values, period)
-        _check_range(curve.values, PRESSURES, "pressure", "Pa", {"kPa": 1e3, "mmHg": 133.322})
+        curve = cls(np.asarray(times), np.asarray(values), period)
+        _check_range(curve.values, PRESSURES, "pressure", "Pa", PRESSURE_MISTAKES)
         if np.abs(curve.values).max() < 200.0:
             raise InputError(
                 f"pressure: the largest value is {np.abs(curve.values).max():g} Pa; expected kilopascals in "
                 "a beat: "
-                "probably given in kPa or mmHg, so convert to Pa"
+                "probably kPa or mmHg taken for Pa: convert it"
             )
         return curve
 
-    def __call__(self, times: np.ndarray) -> np.ndarray:
+    def __call__(self, times: ArrayLike) -> np.ndarray:
         """Values at any times, linear between samples and periodic."""
-        return np.interp(times, self.times, self.values, period=self.period)
+        return np.interp(np.asarray(times), self.times, self.values, period=self.period)
 
     def shifted(self, start: float) -> Self:
         """The same curve with time zero at `start`."""
@@ -102,15 +105,17 @@ class Curve:
 
 
 def _check_range(
-    values: np.ndarray, bounds: tuple[float, float], name: str, unit: str, others: dict[str, float]
+    values: np.ndarray, bounds: tuple[float, float], name: str, unit: str, mistakes: dict[str, float]
 ) -> None:
     low, high = values.min(), values.max()
     if bounds[0] <= low and high <= bounds[1]:
         return
     guesses = [
-        other for other, factor in others.items() if bounds[0] <= low * factor and high * factor <= bounds[1]
+        mistake
+        for mistake, factor in mistakes.items()
+        if bounds[0] <= low * factor and high * factor <= bounds[1]
     ]
-    hint = f"probably given in {' or '.join(guesses)}: convert to {unit}" if guesses else "check the numbers"
+    hint = f"probably {' or '.join(guesses)}: convert it" if guesses else "check the numbers"
     raise InputError(
         f"{name}: values from {low:g} to {high:g} {unit}; expected {bounds[0]:g} to {bounds[1]:g} {unit}; "
         f"{hint}"

@@ -1,0 +1,41 @@
+"""A simulated beat as two files: its curves (CSV) and beside them what happened (JSON)."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from heartfit.beat import Beat
+from heartfit.io.curves import KINDS, kind_of, read_table_of_curves, write_table_of_curves
+from heartfit.io.results import read_result, write_result
+
+
+def write_beat(path: Path, beat: Beat, fingerprint: str) -> None:
+    """Write `path` and the curves as .csv beside it, without rows for a failed beat; nodes are not kept."""
+    state = {
+        "status": beat.status,
+        "reason": beat.reason,
+        "period": beat.period,
+        "trigger": beat.trigger,
+        "diagnostics": beat.diagnostics,
+    }
+    write_table_of_curves(Path(path).with_suffix(".csv"), beat.time, _arrays(beat), beat.period)
+    write_result(path, state, fingerprint, {"period": "s", "trigger": "s"})
+
+
+def read_beat(path: Path) -> Beat:
+    """The beat whose JSON is `path`."""
+    state = read_result(path)
+    time, values, _ = read_table_of_curves(Path(path).with_suffix(".csv"))
+    groups: dict[str, dict[str, np.ndarray]] = {"volume": {}, "pressure": {}, "flow": {}}
+    for name, array in values.items():
+        kind = kind_of(name)
+        groups[kind][name.removesuffix(f"_{kind}")] = array
+    return Beat(time, groups["volume"], groups["pressure"], groups["flow"], **state)
+
+
+def _arrays(beat: Beat) -> Mapping[str, np.ndarray]:
+    if not beat.completed:
+        return {name: np.empty(0) for name in KINDS}
+    groups = {"volume": beat.volume, "pressure": beat.pressure, "flow": beat.flow}
+    return {f"{name}_{kind}": values for kind, group in groups.items() for name, values in group.items()}

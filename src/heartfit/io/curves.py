@@ -1,0 +1,134 @@
+"""Curves of a beat as CSV: one time column, one column per curve, the unit in the column's name.
+
+# period_s = 0.829
+time_s,lv_volume_ml,rv_volume_ml,lv_pressure_kpa,mitral_flow_ml_per_s
+0.0,174.49,170.1,1.3,0.0
+"""
+
+import difflib
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from heartfit.errors import InputError
+from heartfit.io.atomic import write_text
+from heartfit.observation.curve import Curve
+
+UNITS = {"volume": ("ml", 1e-6), "pressure": ("kpa", 1e3), "flow": ("ml_per_s", 1e-6)}
+PLACES = {
+    "volume": ("lv", "rv"),
+    "pressure": ("lv", "rv", "aorta", "pulmonary_artery", "left_atrium", "right_atrium"),
+    "flow": ("aortic", "mitral", "pulmonary", "tricuspid"),
+}
+KINDS = {f"{place}_{kind}": kind for kind, places in PLACES.items() for place in places}
+COLUMNS = {f"{name}_{UNITS[kind][0]}": name for name, kind in KINDS.items()}
+FLOW = re.compile(r"(\w+_flow)_ml_per_s")  # any branch: a mechanism may add one
+
+
+def kind_of(name: str) -> str:
+    """ "volume", "pressure" or "flow" of a curve's name."""
+    return name.rsplit("_", 1)[1]
+
+
+def _name_of(column: str) -> str | None:
+    branch = FLOW.fullmatch(column)
+    return branch[1] if branch else COLUMNS.get(column)
+
+
+def write_table_of_curves(
+    path: Path, times: np.ndarray, values: Mapping[str, np.ndarray], period: float
+) -> None:
+    """Write SI arrays by name ("lv_volume", ...) over one time axis in the file's units."""
+    table = {"time_s": times}
+    for name, array in values.items():
+        unit, factor = UNITS[kind_of(name)]
+        table[f"{name}_{unit}"] = array / factor
+    body = pd.DataFrame(table).to_csv(index=False, float_format="%.12g", lineterminator="\n")
+    write_text(path, f"# period_s = {float(period)!r}\n{body}")
+
+
+def read_table_of_curves(
+    path: Path, period: float | None = None
+) -> tuple[np.ndarray, dict[str, np.ndarray], float]:
+    """Times s, SI arrays by name, and the period s, as the file states it or as given.
+
+    Raises InputError for a missing file, time column or period, an unknown column, text or NaN where a number
+    belongs.
+    """
+    table = _read_csv(path)
+    for column in table.columns:
+        _check_column(path, table[column])
+    values = {
+        name: table[column].to_numpy(float) * UNITS[kind_of(name)][1]
+        for column in table.columns
+        if (name := _name_of(column))
+    }
+    return table["time_s"].to_numpy(float), values, _period(path) if period is None else period
+
+
+def write_curves(path: Path, curves: Mapping[str, Curve]) -> None:
+    """Write curves that share their times and period; raises ValueError if they do not."""
+    first = next(iter(curves.values()))
+    for name, curve in curves.items():
+        if curve.period != first.period or not np.array_equal(curve.times, first.times):
+            raise ValueError(f"curves: {name} has its own times or period; expected one time axis in a file")
+    write_table_of_curves(
+        path, first.times, {name: curve.values for name, curve in curves.items()}, first.period
+    )
+
+
+def read_curves(path: Path, period: float | None = None) -> dict[str, Curve]:
+    """Curves by name, SI; raises InputError that names the file for anything a curve refuses."""
+    times, values, period = read_table_of_curves(path, period)
+    makers = {"volume": Curve.of_volume, "pressure": Curve.of_pressure, "flow": Curve}
+    try:
+        return {name: makers[kind_of(name)](times, array, period) for name, array in values.items()}
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def _read_csv(path: Path) -> pd.DataFrame:
+    if not Path(path).is_file():
+        raise InputError(f"{path}: no such file; expected curves as CSV: correct the path")
+    try:
+        table = pd.read_csv(path, comment="#", skipinitialspace=True)
+    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
+        raise InputError(
+            f"{path}: not a CSV table ({error}); expected a header such as time_s,lv_volume_ml"
+        ) from error
+    if "time_s" not in table.columns:
+        raise InputError(
+            f"{path}: no column time_s among {', '.join(table.columns)}; expected times in seconds: name it "
+            "time_s"
+        )
+    if len(table.columns) == 1:
+        raise InputError(f"{path}: no curve beside time_s; expected a column such as lv_volume_ml")
+    return table
+
+
+def _check_column(path: Path, column: pd.Series) -> None:
+    if column.name != "time_s" and _name_of(str(column.name)) is None:
+        near = difflib.get_close_matches(str(column.name).lower(), COLUMNS, n=1, cutoff=0.0)
+        raise InputError(
+            f"{path}: unknown column {column.name}; did you mean {near[0]}? Rename it or leave it out"
+        )
+    numbers = pd.to_numeric(column, errors="coerce")
+    bad = np.flatnonzero(~np.isfinite(numbers))
+    if bad.size:
+        raise InputError(
+            f"{path}: {column.name} in data row {bad[0] + 1} is {column.iloc[bad[0]]}; expected a finite "
+            "number: "
+            "fill or drop the row"
+        )
+
+
+def _period(path: Path) -> float:
+    found = re.search(
+        r"^#\s*period_s\s*=\s*([0-9.eE+-]+)\s*$", Path(path).read_text(encoding="utf-8"), re.MULTILINE
+    )
+    if not found:
+        raise InputError(f"{path}: no period; expected a first line such as '# period_s = 0.829'")
+    return float(found[1])

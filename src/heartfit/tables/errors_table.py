@@ -1,0 +1,65 @@
+"""Table 1: relative errors between simulated and measured observations, beside the paper's."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+
+from heartfit.tables.case import CaseResult
+from heartfit.tables.fingerprints import require_one_fingerprint
+
+PAPER = "Marchesseau et al. 2012"
+
+
+def error_table(cases: Sequence[CaseResult], paper: pd.DataFrame) -> pd.DataFrame:
+    """One row per case and setting, the mean of each setting, then the paper's volunteers and their mean.
+
+    Errors are unsigned percentages as in the paper; "floor" is the measurement's own noise. paper: its Table
+    1 as published (observation, 1..7, mean). Raises FingerprintMismatchError for rows of different code.
+    """
+    require_one_fingerprint(cases)
+    rows = [_row(case) for case in cases]
+    settings = dict.fromkeys(case.setting for case in cases)
+    means = [_mean(setting, [row for row in rows if row["setting"] == setting]) for setting in settings]
+    return pd.DataFrame([*rows, *means, *_paper_rows(paper)])
+
+
+def _row(case: CaseResult) -> dict[str, object]:
+    errors = {name: abs(error) for name, error in case.errors().items()}
+    prior = [abs(error) for error in case.reference_errors().values()]
+    floor = case.floor()
+    row: dict[str, object] = {"setting": case.setting, "case": case.case}
+    for name, error in errors.items():
+        row |= {f"{name} (%)": error, f"{name} floor (%)": floor[name]}
+    return row | {
+        "mean (%)": np.mean(list(errors.values())),
+        "prior mean (%)": np.mean(prior),
+        **_fits(case.root_mean_square),
+        "failed points": f"{case.failed_points} of {case.sigma_points}",
+    }
+
+
+def _fits(root_mean_square: Mapping[str, float]) -> dict[str, float]:
+    return {
+        f"{side.upper()} RMS (mL)": 1e6 * root_mean_square[f"{side}_volume"]
+        for side in ("lv", "rv")
+        if f"{side}_volume" in root_mean_square
+    }
+
+
+def _mean(setting: str, rows: Sequence[Mapping[str, object]]) -> dict[str, object]:
+    numbers = pd.DataFrame(rows).select_dtypes("number").mean()
+    return {"setting": setting, "case": f"mean of {len(rows)}", **numbers.to_dict()}
+
+
+def _paper_rows(paper: pd.DataFrame) -> list[dict[str, object]]:
+    table = paper.set_index("observation")
+    return [
+        {
+            "setting": PAPER,
+            "case": "mean of 7" if column == "mean" else f"volunteer {column}",
+            **{f"{name} (%)": error for name, error in table[column].items()},
+            "mean (%)": table[column].mean(),
+        }
+        for column in table.columns
+    ]

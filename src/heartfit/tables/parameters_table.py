@@ -1,0 +1,66 @@
+"""Table 2: the estimated parameters, beside the paper's and, where there is one, the truth."""
+
+from collections.abc import Mapping, Sequence
+
+import pandas as pd
+
+from heartfit.tables.case import CaseResult
+from heartfit.tables.display import heading, printed
+from heartfit.tables.errors_table import PAPER
+from heartfit.tables.evaluation import truth_errors
+from heartfit.tables.fingerprints import require_one_fingerprint
+
+
+def parameter_table(
+    cases: Sequence[CaseResult],
+    paper: pd.DataFrame,
+    truths: Mapping[str, Mapping[str, float]] | None = None,
+) -> pd.DataFrame:
+    """The prior of each setting, one row per case with posterior deviations, then the paper's volunteers.
+
+    "sd" is the relative standard deviation in percent, "of truth" the relative error against the truth of a
+    virtual volunteer (truths: by case, SI), where the generator has that parameter. paper: its Table 2 as
+    published (parameter, unit, 1..7, mean). Raises FingerprintMismatchError for rows of different code.
+    """
+    require_one_fingerprint(cases)
+    first = {case.setting: case for case in reversed(cases)}
+    rows = []
+    for setting in dict.fromkeys(case.setting for case in cases):
+        rows.append(_prior_row(first[setting]))
+        rows += [_row(case, (truths or {}).get(case.case, {})) for case in cases if case.setting == setting]
+    return pd.DataFrame([*rows, *_paper_rows(paper)])
+
+
+def _prior_row(case: CaseResult) -> dict[str, object]:
+    row: dict[str, object] = {"setting": case.setting, "case": "prior"}
+    for name, value in case.prior.items():
+        row |= {
+            heading(name, case.units[name]): printed(value, case.units[name]),
+            f"{name} sd (%)": 100 * case.prior_sd[name],
+        }
+    return row
+
+
+def _row(case: CaseResult, truth: Mapping[str, float]) -> dict[str, object]:
+    errors = truth_errors(case, truth)
+    row: dict[str, object] = {"setting": case.setting, "case": case.case}
+    for name, value in case.estimate.items():
+        row |= {
+            heading(name, case.units[name]): printed(value, case.units[name]),
+            f"{name} sd (%)": 100 * case.estimate_sd[name],
+        }
+        if name in errors:
+            row[f"{name} of truth (%)"] = errors[name]
+    return row
+
+
+def _paper_rows(paper: pd.DataFrame) -> list[dict[str, object]]:
+    table = paper.set_index(["parameter", "unit"])
+    return [
+        {
+            "setting": PAPER,
+            "case": "mean of 7" if column == "mean" else f"volunteer {column}",
+            **{heading(name, unit): printed(value, unit) for (name, unit), value in table[column].items()},
+        }
+        for column in table.columns
+    ]

@@ -1,0 +1,119 @@
+"""Results survive a file, carry their fingerprint, and are never half written."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from heartfit.beat import Beat, failed_beat
+from heartfit.calibration.gaussian import Gaussian
+from heartfit.calibration.unscented import sigma_points
+from heartfit.calibration.update import Posterior, calibrate
+from heartfit.errors import InputError
+from heartfit.io.atomic import replacing
+from heartfit.io.beats import read_beat, write_beat
+from heartfit.io.results import (
+    read_fingerprint,
+    read_observations,
+    read_posterior,
+    read_result,
+    read_sigma_points,
+    write_observations,
+    write_posterior,
+    write_result,
+    write_sigma_points,
+)
+from heartfit.observation.noise import Observation
+
+PRIOR = Gaussian.of_relative({"sigma_0": 240e3, "mu": 7e3}, {"sigma_0": 0.2, "mu": 0.3})
+
+
+def posterior() -> Posterior:
+    outcomes = [{"V_min": 1e-4 * float(np.exp(point.z @ [-0.3, 0.1]))} for point in sigma_points(PRIOR)]
+    return calibrate(PRIOR, outcomes, {"V_min": outcomes[1]["V_min"]})
+
+
+def beat() -> Beat:
+    time = np.linspace(0, 0.8, 41)
+    wave = np.cos(2 * np.pi * time / 0.8)
+    return Beat(
+        time=time,
+        volume={"lv": 120e-6 + 50e-6 * wave, "rv": 110e-6 + 40e-6 * wave},
+        pressure={"lv": 8e3 - 7e3 * wave, "left_atrium": 1e3 + 0 * wave},
+        flow={"mitral": 1e-4 * wave, "mitral_regurgitation": 1e-5 * wave},
+        period=0.8,
+        trigger=0.18,
+        diagnostics={"drift": 1e-7, "beats": 3.0},
+    )
+
+
+def test_posterior_there_and_back(tmp_path: Path) -> None:
+    write_posterior(tmp_path / "p.json", posterior(), "abc")
+    found = read_posterior(tmp_path / "p.json")
+    assert found.estimate.physical() == pytest.approx(posterior().estimate.physical(), rel=1e-14)
+    assert found.gain == pytest.approx(posterior().gain, rel=1e-14)
+    assert found.observations == ("V_min",)
+    assert read_fingerprint(tmp_path / "p.json") == "abc"
+    assert read_result(tmp_path / "p.json")["summary"]["estimate"] == posterior().estimate.physical()
+
+
+def test_sigma_points_there_and_back(tmp_path: Path) -> None:
+    points = sigma_points(PRIOR)
+    write_sigma_points(tmp_path / "p.json", PRIOR, points, "abc")
+    prior, found = read_sigma_points(tmp_path / "p.json")
+    assert prior.names == PRIOR.names
+    assert [point.label for point in found] == [point.label for point in points]
+    assert found[3].parameters == points[3].parameters
+
+
+def test_observations_there_and_back(tmp_path: Path) -> None:
+    observations = [Observation("V_min", 72e-6, "m^3", 1.3e-6)]
+    write_observations(tmp_path / "o.json", observations, "abc")
+    assert read_observations(tmp_path / "o.json") == observations
+
+
+def test_beat_there_and_back(tmp_path: Path) -> None:
+    write_beat(tmp_path / "3.json", beat(), "abc")
+    found = read_beat(tmp_path / "3.json")
+    assert found.completed
+    assert found.trigger == 0.18
+    assert found.diagnostics == {"drift": 1e-7, "beats": 3.0}
+    for group in ("volume", "pressure", "flow"):
+        expected = getattr(beat(), group)
+        assert getattr(found, group).keys() == expected.keys()
+        for name, values in expected.items():
+            assert getattr(found, group)[name] == pytest.approx(values, rel=1e-10)
+
+
+def test_a_failed_beat_keeps_its_reason(tmp_path: Path) -> None:
+    write_beat(tmp_path / "3.json", failed_beat("element 7 inverted", 0.8, 0.18, {"beats": 1.0}), "abc")
+    found = read_beat(tmp_path / "3.json")
+    assert not found.completed
+    assert found.reason == "element 7 inverted"
+    assert found.time.size == 0
+
+
+def test_an_interrupted_write_leaves_the_old_file(tmp_path: Path) -> None:
+    write_result(tmp_path / "r.json", {"a": 1}, "abc")
+
+    def interrupted() -> None:
+        with replacing(tmp_path / "r.json") as draft:
+            draft.write_text("half")
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    assert read_result(tmp_path / "r.json") == {"a": 1}
+    assert [path.name for path in tmp_path.iterdir()] == ["r.json"]
+
+
+@pytest.mark.parametrize("content", ["{", "[1]", '{"content": 1}'])
+def test_a_broken_result_is_named(tmp_path: Path, content: str) -> None:
+    (tmp_path / "r.json").write_text(content)
+    with pytest.raises(InputError, match=r"r\.json: .*run the stage again"):
+        read_result(tmp_path / "r.json")
+
+
+def test_numbers_that_json_cannot_hold_become_null(tmp_path: Path) -> None:
+    write_result(tmp_path / "r.json", {"shift": float("nan"), "count": np.int64(3)}, "abc")
+    assert read_result(tmp_path / "r.json") == {"shift": None, "count": 3}

@@ -1,0 +1,37 @@
+"""The figures show every curve that exists and survive the ones that do not."""
+
+import numpy as np
+
+from heartfit.observation.curve import Curve
+from heartfit.observation.operator import VolumeFeatures
+from heartfit.tables.figures import plot_case
+
+PERIOD = 0.8
+
+
+def ventricles(samples: int, late: float = 0.0) -> dict[str, Curve]:
+    times = np.arange(samples) * PERIOD / samples
+    wave = np.cos(2 * np.pi * (times - late) / PERIOD)
+    return {
+        "lv_volume": Curve(times, 120e-6 + 50e-6 * wave, PERIOD),
+        "rv_volume": Curve(times, 110e-6 + 45e-6 * wave, PERIOD),
+        "lv_pressure": Curve(times, 8e3 - 7e3 * wave, PERIOD),
+        "aorta_pressure": Curve(times, 12e3 - 2e3 * wave, PERIOD),
+    }
+
+
+def test_volumes_and_the_shift_are_drawn() -> None:
+    measured = {name: curve for name, curve in ventricles(25).items() if "volume" in name}
+    curves = {"measured": measured, "reference": ventricles(200), "calibrated": ventricles(200, late=0.05)}
+    figure = plot_case(curves, "volunteer, physical", VolumeFeatures(), shift=0.05)
+    lines = figure.axes[0].get_lines()
+    assert [line.get_label() for line in lines] == ["measured", "reference", "calibrated"]
+    time, volume = lines[2].get_data()
+    assert (np.diff(time) > 0).all()
+    assert abs(time[np.argmin(volume)] - PERIOD / 2) < 0.01
+    assert "volunteer, physical" in figure.get_suptitle()
+
+
+def test_a_failed_beat_is_left_out() -> None:
+    figure = plot_case({"measured": ventricles(25), "reference": {}}, "t", VolumeFeatures())
+    assert len(figure.axes[0].get_lines()) == 1
