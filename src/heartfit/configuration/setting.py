@@ -1,0 +1,77 @@
+"""A setting: which model, what is estimated of it, and from which prior."""
+
+from collections.abc import Mapping
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, PositiveFloat, model_validator
+
+from heartfit.calibration.gaussian import Gaussian
+from heartfit.catalogue import declared
+from heartfit.configuration.strict import Strict
+from heartfit.heart import Heart
+from heartfit.mechanics.body import Tissue
+from heartfit.parameter import Parameter
+
+
+class Prior(Strict):
+    """Median and relative standard deviation of a parameter; where nothing is said, the declared ones."""
+
+    mean: PositiveFloat | None = None
+    sd: Annotated[float | None, Field(gt=0, lt=1)] = None
+
+    def over(self, other: "Prior | Parameter") -> "Prior":
+        """What this one says, else what `other` says."""
+        base = Prior(mean=other.value, sd=other.sd) if isinstance(other, Parameter) else other
+        return Prior(mean=self.mean or base.mean, sd=self.sd or base.sd)
+
+
+class Setting(Strict):
+    """A model and what is estimated of it."""
+
+    element: Literal["mixed", "p1"]
+    reference: Literal["unloaded", "end_diastolic"] = Field("unloaded", description="the stress-free state")
+    estimate: tuple[str, ...] = Field(min_length=1)
+    heart: dict[str, float] = Field({}, description="parameters that differ from their declared value")
+    prior: dict[str, Prior] = Field({}, description="what differs from the study's prior")
+
+    @model_validator(mode="after")
+    def _names_are_sound(self) -> Self:
+        for name in (*self.estimate, *self.heart, *self.prior):
+            require_known(name)
+        both = sorted(set(self.estimate) & set(self.heart))
+        if both:
+            raise ValueError(f"{both[0]} is estimated and fixed at once; give its mean under prior instead")
+        return self
+
+    def with_prior(self, table: Mapping[str, Prior]) -> "Setting":
+        """The setting with the prior complete: its own, over the study's, over the declared one."""
+        merged = {
+            name: self.prior.get(name, Prior()).over(table.get(name, Prior())).over(declared(name))
+            for name in self.estimate
+        }
+        vague = [name for name, prior in merged.items() if prior.sd is None]
+        if vague:
+            raise ValueError(f"{vague[0]} is estimated and has no prior; give its sd under prior")
+        return self.model_copy(update={"prior": merged})
+
+    def gaussian(self) -> Gaussian:
+        """The complete prior."""
+        means = {name: self.prior[name].mean or 0.0 for name in self.estimate}
+        return Gaussian.of_relative(means, {name: self.prior[name].sd or 0.0 for name in self.estimate})
+
+    def base_heart(self, period: float) -> Heart:
+        """The heart at the mean of the prior."""
+        heart = Heart(tissue=Tissue(element=self.element), period=period)
+        return heart.with_parameters({**self.heart, **self.gaussian().physical()})
+
+    def units(self) -> dict[str, str]:
+        """SI unit of each estimated parameter."""
+        return {name: declared(name).unit for name in self.estimate}
+
+
+def require_known(name: str) -> None:
+    """Raise ValueError, as validation wants it, when no parameter has this name."""
+    try:
+        declared(name)
+    except KeyError as unknown:
+        raise ValueError(str(unknown.args[0])) from None
