@@ -17,6 +17,10 @@ from heartfit.mechanics.body import StepFailed
 from heartfit.mechanics.statics import inflate
 from heartfit.mechanism import COMPARTMENTS
 
+SHIFT = 0.62
+"""Part of the periodic pressure shift that is taken: a higher pressure lowers the stroke volume, which undoes the
+rest of it (the feedback on the measured heart is -0.6)."""
+
 Progress = Callable[[float], None]
 
 
@@ -96,7 +100,7 @@ class _Run:
             if cuts == 0:
                 raise StepFailed(f"at {start:.4f} s, step {dt:.2g} s: {failure}") from failure
         self.cuts += 1
-        half = self._advance(replace(state, trend=None), start, 0.5 * dt, cuts - 1)
+        half = self._advance(replace(state, trend=()), start, 0.5 * dt, cuts - 1)
         return self._advance(half, start + 0.5 * dt, 0.5 * dt, cuts - 1)
 
     def _shift(self, state: HeartState, history: list[HeartState]) -> HeartState:
@@ -104,7 +108,7 @@ class _Run:
         for side, (tree, held) in enumerate(zip(self.heart.circulation.trees(), state.trees, strict=True)):
             mean = float(np.mean([past.trees[side].P_c for past in history[1:]]))
             stroke = float(np.ptp([past.volumes[side] for past in history]))
-            shift = tree.periodic_shift(mean, stroke, self.heart.period)
+            shift = SHIFT * tree.periodic_shift(mean, stroke, self.heart.period)
             trees.append(WindkesselState(held.P_c + shift, held.q_L))
         return replace(state, trees=tuple(trees))
 

@@ -19,8 +19,16 @@ import numpy as np
 from heartfit.circulation.network import Circulation, NetworkStep
 from heartfit.circulation.windkessel import WindkesselState
 from heartfit.geometry.arrays import Floats
+from heartfit.mechanics.acceleration import Anderson
 from heartfit.mechanics.body import StepFailed
 from heartfit.mechanism import Mechanism
+
+
+EXTRAPOLATION: tuple[tuple[float, ...], ...] = ((), (1.0,), (2.0, -1.0))
+"""Weights of the known velocities in the predicted one."""
+
+PRESSURE_WEIGHT = 1e-4
+"""Weight of a cavity pressure, 1/Pa, beside the body's weights in the mixing of changes."""
 
 
 class Body(Protocol):
@@ -37,7 +45,7 @@ class Body(Protocol):
 class Tolerances:
     """When a step has converged, and when the factorisation is renewed."""
 
-    force: float = 1e-3  # N
+    force: float = 5e-3  # N
     volume: float = 1e-10  # m^3
     iterations: int = 25
     contraction: float = 0.6
@@ -45,13 +53,13 @@ class Tolerances:
 
 @dataclass(frozen=True, eq=False)
 class HeartState:
-    """State of wall and circuit at one time; ``trend`` is the last change of x per second."""
+    """State of wall and circuit at one time; ``trend`` holds the last velocity of x and the one before."""
 
     body: Any
     pressures: Floats
     volumes: Floats
     trees: tuple[WindkesselState, WindkesselState]
-    trend: Floats | None = None
+    trend: tuple[Floats, ...] = ()
 
 
 class Coupling:
@@ -79,6 +87,7 @@ class Coupling:
     def _newton(self, step: Any, network: NetworkStep, state: HeartState) -> tuple[Floats, Floats]:
         x, forces = self._predict(step, state, network.dt)
         pressures, previous, fresh = state.pressures.copy(), np.inf, False
+        anderson = Anderson(np.concatenate([step.weights(x).ravel(), np.full(4, PRESSURE_WEIGHT)]))
         for _ in range(self.tolerances.iterations):
             gradients = self.body.volume_gradients(x)
             residual = forces - gradients @ pressures[:2]
@@ -88,24 +97,29 @@ class Coupling:
             fresh = self._factor is None or (not fresh and size > self.tolerances.contraction * previous)
             if fresh:
                 self._renew(step, x, gradients)
+                anderson.forget()
             previous = size
             change = -self._factor.solve(residual)
             new = self._solve_circuit(x, change, gradients, pressures, network, state)
             change += self._response @ (new - pressures)[:2]
-            x, forces = self._move(step, x, change.reshape(x.shape))
-            pressures = new
+            z, proposed = np.concatenate([x.ravel(), pressures]), np.concatenate([change, new - pressures])
+            mixed = anderson.mix(z, proposed)
+            x, forces = self._move(step, x, mixed[:-4].reshape(x.shape))
+            pressures = pressures + mixed[-4:]
             self.iterations += 1
         raise StepFailed(f"no equilibrium in {self.tolerances.iterations} iterations, residual {size:.3g} N")
 
-    def _predict(self, step: Any, state: HeartState, dt: float) -> tuple[Floats, Floats]:
+    @staticmethod
+    def _predict(step: Any, state: HeartState, dt: float) -> tuple[Floats, Floats]:
         """First guess by extrapolation, with its forces; the old state where that is not admissible."""
         x: Floats = state.body.x
-        if state.trend is not None:
-            try:
-                return x + dt * state.trend, step.forces(x + dt * state.trend)
-            except StepFailed:
-                pass
-        return x.copy(), step.forces(x)
+        velocity = sum(
+            (c * v for c, v in zip(EXTRAPOLATION[len(state.trend)], state.trend, strict=True)), 0.0 * x
+        )
+        try:
+            return x + dt * velocity, step.forces(x + dt * velocity)
+        except StepFailed:
+            return x.copy(), step.forces(x)
 
     def _renew(self, step: Any, x: Floats, gradients: Floats) -> None:
         self._factor = step.tangent(x)
@@ -165,5 +179,5 @@ class Coupling:
             tree.advance(held, -inflow, network.dt)
             for tree, held, inflow in zip(self.circulation.trees(), state.trees, out[2:], strict=True)
         )
-        trend = (x - state.body.x) / network.dt
+        trend = ((x - state.body.x) / network.dt, *state.trend[:1])
         return HeartState(step.commit(x), pressures, self.body.volumes(x), trees, trend)  # type: ignore[arg-type]

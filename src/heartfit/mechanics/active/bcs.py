@@ -33,6 +33,10 @@ LARGEST_INCREMENT = 0.1
 """Largest change of e_c in a step; beyond it the scalar equation has spurious roots."""
 
 
+CONVERGED = 1e-12
+"""Change of e_c, below which its equation is solved: E_s times it is far below a pascal."""
+
+
 @dataclass(frozen=True)
 class BestelClementSorine:
     """Contractile law: five constants and the length dependence of the number of available bridges."""
@@ -136,9 +140,10 @@ def _imbalance(d, rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam): 
 
 @njit(cache=True)
 def _increment(rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam):  # type: ignore[no-untyped-def]
-    """Newton from d = e_1D - e_c (the spring is stiff), safeguarded by a bracket."""
+    """Newton from an unchanged spring (it is stiff), safeguarded by a bracket."""
     low, high = -LARGEST_INCREMENT, LARGEST_INCREMENT
-    d = min(max(e_new - e_c, low), high)
+    spring = (e_old - e_c) / (1.0 + 2.0 * e_c)
+    d = min(max((e_new - spring) / (1.0 + 2.0 * spring) - e_c, low), high)
     for _ in range(60):
         value, slope, s, ds = _imbalance(d, rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam)
         if value > 0.0:
@@ -150,7 +155,7 @@ def _increment(rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam):  # 
             following = 0.5 * (low + high)
         change = abs(following - d)
         d = following
-        if change < 1e-13:
+        if change < CONVERGED:
             break
     _, _, s, ds = _imbalance(d, rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam)
     return d, s, ds
