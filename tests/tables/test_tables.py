@@ -10,7 +10,7 @@ from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import calibrate
 from heartfit.observation.curve import Curve
-from heartfit.observation.noise import Observation
+from heartfit.observation.vector import observe_measured, operators
 from heartfit.tables.case import CaseResult, summarise
 from heartfit.tables.errors_table import PAPER, error_table
 from heartfit.tables.fingerprints import FingerprintMismatchError
@@ -102,26 +102,52 @@ def test_text_has_symbols_blanks_and_no_raw_special_characters() -> None:
     assert "| real" in to_markdown(error_table([case()], PAPER_ERRORS))
 
 
-def test_a_record_takes_everything_from_the_posterior_and_the_curves() -> None:
-    prior = Gaussian.of_relative({"sigma_0": 240e3, "R_p": 1.14e8}, {"sigma_0": 0.2, "R_p": 0.1})
-    outcomes = [{"V_min": float(np.exp(point.z.sum() / 10))} for point in sigma_points(prior)]
-    posterior = calibrate(prior, [*outcomes[:-1], None], {"V_min": outcomes[0]["V_min"]})
-    times = np.arange(25) * 0.033
-    wave = Curve(times, 120e-6 + 50e-6 * np.cos(2 * np.pi * times / 0.825), 0.825)
-    late = {"lv_volume": wave.shifted(-0.02)}
-    record = summarise(
+def wave(late: float = 0.0, size: float = 50e-6) -> dict[str, Curve]:
+    times = np.arange(50) * 0.0165
+    return {"lv_volume": Curve(times, 120e-6 + size * np.cos(2 * np.pi * (times - late) / 0.825), 0.825)}
+
+
+def record(calibrated: dict[str, Curve]) -> CaseResult:
+    features = operators(wave(), frames=25)
+    observations = observe_measured(wave(), features)
+    prior = Gaussian.of_relative(
+        {"sigma_0": 240e3, "mu": 7e3, "R_p": 1.14e8}, {"sigma_0": 0.2, "mu": 0.2, "R_p": 0.1}
+    )
+    observed = {o.name: o.value for o in observations}
+    outcomes = [
+        {
+            name: value * float(np.exp(point.z[i] - prior.mean[i]))
+            for i, (name, value) in enumerate(observed.items())
+        }
+        for point in sigma_points(prior)
+    ]
+    posterior = calibrate(prior, [*outcomes[:-1], None], observed)
+    return summarise(
         {"case": "real", "setting": "physical", "fingerprint": "abc"},
         posterior,
-        [Observation("V_min", outcomes[0]["V_min"], "m^3", 0.1)],
-        {"reference": outcomes[0], "calibrated": outcomes[0]},
-        {"measured": {"lv_volume": wave}, "calibrated": late},
-        {"sigma_0": "Pa", "R_p": "Pa.s/m^3"},
-        [True] * 4 + [False],
-        {"EDV": 170e-6},
+        observations,
+        {"measured": wave(), "reference": wave(size=40e-6), "calibrated": calibrated},
+        features,
+        {"sigma_0": "Pa", "mu": "Pa.s", "R_p": "Pa.s/m^3"},
+        {"wall_volume_loss": 0.02},
     )
-    assert record.shift == pytest.approx(0.02, abs=1e-3)
-    assert record.root_mean_square["lv_volume"] < 1e-6
-    assert record.reference_root_mean_square == {}
-    assert (record.failed_points, record.sigma_points) == (1, 5)
-    assert record.prior == pytest.approx({"sigma_0": 240e3, "R_p": 1.14e8})
-    assert "R_p-" in record.notes[0]
+
+
+def test_a_record_takes_everything_from_the_posterior_and_the_curves() -> None:
+    found = record(wave(late=0.02))
+    assert found.shift == pytest.approx(0.02, abs=1e-3)
+    assert found.root_mean_square["lv_volume"] < 0.1e-6
+    assert found.reference_root_mean_square["lv_volume"] == pytest.approx(10e-6 / np.sqrt(2), rel=1e-2)
+    assert (found.failed_points, found.sigma_points) == (1, 7)
+    assert found.prior == pytest.approx({"sigma_0": 240e3, "mu": 7e3, "R_p": 1.14e8})
+    assert "R_p-" in found.notes[0]
+    assert found.reference_errors()["q_max"] == pytest.approx(-20, abs=0.1)
+    assert abs(found.errors()["V_min"]) < 1
+    assert found.guards["wall_volume_loss"] == 0.02
+    assert found.guards["lv_EDV_error_percent"] == pytest.approx(-0.3, abs=0.1)
+
+
+def test_a_failed_verification_is_a_row_without_errors() -> None:
+    found = record({})
+    assert np.isnan(list(found.errors().values())).all()
+    assert "nan" not in to_markdown(error_table([found], PAPER_ERRORS))

@@ -86,12 +86,12 @@ def sigma_labels(names: Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class Moments:
-    """Zbar (m,), Cov(X, Z) (n, m) and Cov(Z, Z) (m, m) of the transformed points, and what was mended."""
+    """Zbar (m,), Cov(X, Z) (n, m), Cov(Z, Z) (m, m), and the labels of the points that are not in them."""
 
     mean: np.ndarray
     cov_xz: np.ndarray
     cov_zz: np.ndarray
-    notes: tuple[str, ...] = ()
+    failed: tuple[str, ...] = ()
 
 
 def transform(
@@ -114,12 +114,11 @@ def transform(
     z = np.where(done[:, None], z, 0.0)
     mean = mean_weight @ z
     deviation = z - mean
-    lost = [label for label, ok in zip(labels, done, strict=True) if not ok]
     return Moments(
         mean,
         (weight[:, None] * (x - x[0])).T @ deviation,
         (weight[:, None] * deviation).T @ deviation,
-        (f"failed sigma points: {', '.join(lost)}; weights rescaled over the rest",) if lost else (),
+        tuple(label for label, ok in zip(labels, done, strict=True) if not ok),
     )
 
 

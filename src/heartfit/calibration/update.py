@@ -32,7 +32,8 @@ class Posterior:
 
     prior, estimate: mean and covariance before and after; predicted (m,) Zbar; gain (n, m); cov_xz (n, m);
     cov_zz (m, m) without R; step (n,) in prior standard deviations; sensitivity (n, m) is Cov(X, Z) with rows
-    divided by sd_X and columns by sd_Z, singular_values those of it: the paper's tool to choose parameters.
+    divided by sd_X and columns by sd_Z, singular_values those of it: the paper's tool to choose parameters;
+    failed names the sigma points without a beat.
     """
 
     prior: Gaussian
@@ -45,6 +46,7 @@ class Posterior:
     step: np.ndarray
     sensitivity: np.ndarray
     singular_values: np.ndarray
+    failed: tuple[str, ...]
     notes: tuple[str, ...]
 
 
@@ -97,7 +99,8 @@ def update(
         step,
         sensitivity,
         np.linalg.svd(sensitivity, compute_uv=False),
-        (*moments.notes, *_long_steps(prior.names, step)),
+        moments.failed,
+        (*_failures(moments.failed), *_long_steps(prior.names, step)),
     )
 
 
@@ -133,6 +136,10 @@ def _positive(covariance: np.ndarray, prior: np.ndarray) -> np.ndarray:
     values, vectors = np.linalg.eigh((covariance + covariance.T) / 2)
     floor = 1e-12 * np.trace(prior) / len(prior)
     return (vectors * np.maximum(values, floor)) @ vectors.T
+
+
+def _failures(failed: tuple[str, ...]) -> list[str]:
+    return [f"failed sigma points: {', '.join(failed)}; weights rescaled over the rest"] if failed else []
 
 
 def _long_steps(names: Sequence[str], step: np.ndarray) -> list[str]:

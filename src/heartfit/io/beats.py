@@ -1,6 +1,6 @@
 """A simulated beat as two files: its curves (CSV) and beside them what happened (JSON)."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -32,6 +32,11 @@ def read_beat(path: Path) -> Beat:
         kind = kind_of(name)
         groups[kind][name.removesuffix(f"_{kind}")] = array
     return Beat(time, groups["volume"], groups["pressure"], groups["flow"], **state)
+
+
+def read_beats(paths: Iterable[Path]) -> list[Beat]:
+    """Beats in the order of their paths."""
+    return [read_beat(path) for path in paths]
 
 
 def _arrays(beat: Beat) -> Mapping[str, np.ndarray]:

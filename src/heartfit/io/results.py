@@ -74,6 +74,7 @@ def read_posterior(path: Path) -> Posterior:
         prior=_gaussian(content["prior"]),
         estimate=_gaussian(content["estimate"]),
         observations=tuple(content["observations"]),
+        failed=tuple(content["failed"]),
         notes=tuple(content["notes"]),
         **{name: np.array(content[name]) for name in arrays},
     )

@@ -2,11 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 from heartfit.calibration.update import Posterior
 from heartfit.observation.alignment import fit_curves
 from heartfit.observation.curve import Curve
 from heartfit.observation.noise import Observation
+from heartfit.observation.operator import CurveFeatures
+from heartfit.observation.vector import cavity_indices, observe
 
 
 @dataclass(frozen=True)
@@ -61,43 +64,55 @@ def summarise(
     identity: Mapping[str, str],
     posterior: Posterior,
     observations: Sequence[Observation],
-    predicted: Mapping[str, Mapping[str, float]],
     curves: Mapping[str, Mapping[str, Curve]],
+    features: Mapping[str, CurveFeatures],
     units: Mapping[str, str],
-    points: Sequence[bool],
-    guards: Mapping[str, float],
+    diagnostics: Mapping[str, float] = MappingProxyType({}),
     shift_limit: float = 0.1,
 ) -> CaseResult:
     """The record of one case.
 
-    identity: case, setting, fingerprint; predicted: observations of "reference" and "calibrated"; curves:
-    "measured", "reference", "calibrated", time zero at the trigger; units of the parameters; points: which
-    sigma points completed.
+    identity: case, setting, fingerprint; curves: "measured", "reference" (prior X0), "calibrated" (X_new),
+    time zero at the trigger, empty for a failed beat; features: the operators; units of the parameters;
+    diagnostics of the calibrated beat, kept among the guards.
     """
     names = posterior.prior.names
-    fits = {
-        name: _fit(curves["measured"], curves.get(name, {}), shift_limit)
-        for name in ("reference", "calibrated")
-    }
+    fit = {name: _fit(curves["measured"], curves[name], shift_limit) for name in ("reference", "calibrated")}
     return CaseResult(
         **identity,
         observed={o.name: o.value for o in observations},
         noise={o.name: o.noise for o in observations},
-        reference=predicted["reference"],
-        calibrated=predicted["calibrated"],
+        reference=_observe(curves["reference"], features),
+        calibrated=_observe(curves["calibrated"], features),
         prior=posterior.prior.physical(),
         prior_sd=dict(zip(names, posterior.prior.sd.tolist(), strict=True)),
         estimate=posterior.estimate.physical(),
         estimate_sd=dict(zip(names, posterior.estimate.sd.tolist(), strict=True)),
         units={name: units[name] for name in names},
-        failed_points=len(points) - sum(points),
-        sigma_points=len(points),
-        root_mean_square=fits["calibrated"][1],
-        reference_root_mean_square=fits["reference"][1],
-        shift=fits["calibrated"][0],
-        guards=guards,
+        failed_points=len(posterior.failed),
+        sigma_points=2 * len(names) + 1,
+        root_mean_square=fit["calibrated"][1],
+        reference_root_mean_square=fit["reference"][1],
+        shift=fit["calibrated"][0],
+        guards={**guards(curves["measured"], curves["calibrated"]), **diagnostics},
         notes=posterior.notes,
     )
+
+
+def guards(measured: Mapping[str, Curve], simulated: Mapping[str, Curve]) -> dict[str, float]:
+    """What no observation holds: errors in percent of EDV and ESV, peak pressures in Pa, per ventricle."""
+    found: dict[str, float] = {}
+    for side in ("lv", "rv"):
+        if f"{side}_volume" in measured and f"{side}_volume" in simulated:
+            errors = relative_errors(cavity_indices(simulated, side), cavity_indices(measured, side))
+            found |= {f"{side}_{name}_error_percent": errors[name] for name in ("EDV", "ESV")}
+        if f"{side}_pressure" in simulated:
+            found[f"{side}_peak_pressure"] = float(simulated[f"{side}_pressure"].values.max())
+    return found
+
+
+def _observe(curves: Mapping[str, Curve], features: Mapping[str, CurveFeatures]) -> dict[str, float]:
+    return observe(curves, features) if curves else {}
 
 
 def _fit(

@@ -46,7 +46,7 @@ def plot_case(
     for panel in (axes[0, 0], axes[0, 2]):
         if panel.get_legend_handles_labels()[0]:
             panel.legend(frameon=False, fontsize=8)
-    moved_by = f"simulated time moved by {1e3 * shift:+.0f} ms" if shift else ""
+    moved_by = f"simulated trigger moved by {1e3 * shift:+.0f} ms" if shift else ""
     figure.suptitle(title + (f" ({moved_by})" if moved_by else ""), fontsize=11)
     return figure
 
