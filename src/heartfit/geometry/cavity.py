@@ -57,47 +57,45 @@ class Cavity:
 
 
 @njit(cache=True)
-def _lid_apices(x: Floats, rim: Integers, start: Integers) -> Floats:
-    apices = np.zeros((len(start) - 1, 3))
-    for opening in range(len(start) - 1):
+def _with_lid_apices(x: Floats, rim: Integers, start: Integers) -> Floats:
+    """The nodes, followed by the lids' apices from the last opening to the first, so that index -1 - o is opening o."""
+    n, openings = len(x), len(start) - 1
+    corners = np.zeros((n + openings, 3))
+    corners[:n] = x
+    for opening in range(openings):
+        size = start[opening + 1] - start[opening]
         for i in range(start[opening], start[opening + 1]):
-            apices[opening] += x[rim[i]] / (start[opening + 1] - start[opening])
-    return apices
-
-
-@njit(cache=True)
-def _corner(x: Floats, apices: Floats, node: int) -> Floats:
-    return x[node] if node >= 0 else apices[-1 - node]
-
-
-@njit(cache=True)
-def _cross(a: Floats, b: Floats) -> tuple[float, float, float]:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+            for axis in range(3):
+                corners[-1 - opening, axis] += x[rim[i], axis] / size
+    return corners
 
 
 @njit(cache=True)
 def _volume(x: Floats, triangles: Integers, rim: Integers, start: Integers) -> float:
-    apices = _lid_apices(x, rim, start)
+    corners = _with_lid_apices(x, rim, start)
     six_volumes = 0.0
     for t in range(len(triangles)):
-        a = _corner(x, apices, triangles[t, 0])
-        n = _cross(_corner(x, apices, triangles[t, 1]), _corner(x, apices, triangles[t, 2]))
-        six_volumes -= a[0] * n[0] + a[1] * n[1] + a[2] * n[2]
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            six_volumes -= corners[a, i] * (corners[b, j] * corners[c, k] - corners[b, k] * corners[c, j])
     return six_volumes / 6.0
 
 
 @njit(cache=True)
 def _gradient(x: Floats, triangles: Integers, rim: Integers, start: Integers) -> Floats:
-    apices = _lid_apices(x, rim, start)
-    gradient, of_apices = np.zeros_like(x), np.zeros_like(apices)
+    corners = _with_lid_apices(x, rim, start)
+    gradient = np.zeros_like(corners)
     for t in range(len(triangles)):
-        for i in range(3):
-            node, b, c = triangles[t, i], triangles[t, (i + 1) % 3], triangles[t, (i + 2) % 3]
-            n = _cross(_corner(x, apices, b), _corner(x, apices, c))
-            target = gradient[node] if node >= 0 else of_apices[-1 - node]
-            for d in range(3):
-                target[d] -= n[d] / 6.0
+        for corner in range(3):
+            a, b, c = triangles[t, corner], triangles[t, (corner + 1) % 3], triangles[t, (corner + 2) % 3]
+            for i in range(3):
+                j, k = (i + 1) % 3, (i + 2) % 3
+                cross = corners[b, j] * corners[c, k] - corners[b, k] * corners[c, j]
+                gradient[a, i] -= cross / 6.0
     for opening in range(len(start) - 1):
+        size = start[opening + 1] - start[opening]
         for i in range(start[opening], start[opening + 1]):
-            gradient[rim[i]] += of_apices[opening] / (start[opening + 1] - start[opening])
-    return gradient
+            for axis in range(3):
+                gradient[rim[i], axis] += gradient[-1 - opening, axis] / size
+    return gradient[: len(x)]

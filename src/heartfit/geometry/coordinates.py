@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from heartfit.geometry.arrays import Floats, Integers
 from heartfit.geometry.mesh import VentricularMesh
@@ -12,9 +13,10 @@ from heartfit.geometry.topology import rim_loops
 
 @dataclass(frozen=True, eq=False)
 class LeftVentricularAxes:
-    """Origin at the epicardial apex, axis to the centre of the valve rings, septal towards the right ventricle.
+    """The long axis through the left cavity's apex and the centre of its valve rings; septal towards the right.
 
-    apex (3,) m; axis, septal, anterior (3,) orthonormal, anterior = axis x septal; length m from apex to ring centre.
+    apex (3,) m, where the axis leaves the wall; axis from there to the rings, septal, anterior (3,) orthonormal with
+    anterior = axis x septal; length m from apex to ring centre.
     """
 
     apex: Floats
@@ -25,17 +27,14 @@ class LeftVentricularAxes:
 
     @classmethod
     def of(cls, mesh: VentricularMesh) -> "LeftVentricularAxes":
-        """The axes of a mesh, from the left rims, the epicardium and the septal part of the right endocardium."""
+        """The axes of a mesh, from its endocardial surfaces and their rims."""
         ring = mesh.points[np.concatenate(rim_loops(mesh.surfaces["lv_endo"]))].mean(axis=0)
-        outer = mesh.points[np.unique(mesh.surfaces["epi"])]
-        apex = outer[np.linalg.norm(outer - ring, axis=1).argmax()]
-        length = float(np.linalg.norm(ring - apex))
-        axis = (ring - apex) / length
-        centre = mesh.points[np.unique(mesh.surfaces["lv_endo"])].mean(axis=0)
-        towards = mesh.points[np.unique(mesh.surfaces["rv_endo"])].mean(axis=0) - centre
-        septal = towards - (towards @ axis) * axis
-        septal /= np.linalg.norm(septal)
-        return cls(apex, axis, septal, np.cross(axis, septal), length)
+        left = mesh.points[np.unique(mesh.surfaces["lv_endo"])]
+        axis = _unit(ring - left[np.linalg.norm(left - ring, axis=1).argmax()])
+        length = float(((ring - mesh.points) @ axis).max())
+        towards = mesh.points[np.unique(mesh.surfaces["rv_endo"])].mean(axis=0) - left.mean(axis=0)
+        septal = _unit(towards - (towards @ axis) * axis)
+        return cls(ring - length * axis, axis, septal, np.cross(axis, septal), length)
 
     def longitudinal(self, points: Floats) -> Floats:
         """0 at the apex, 1 at the height of the valve rings and above: zeta = (x - apex).axis / length."""
@@ -52,7 +51,18 @@ class LeftVentricularAxes:
 
 
 def septal_faces(mesh: VentricularMesh, axes: LeftVentricularAxes) -> Integers:
-    """The triangles of the right endocardium on the septum: those that face away from the left ventricle's axis."""
+    """The triangles of the right endocardium on the septum.
+
+    They face away from the left ventricle's axis and are at most twice as far from the left endocardium as is usual
+    among those: the outflow tract faces away too, but lies farther off.
+    """
     faces = mesh.surfaces["rv_endo"]
-    outward = (triangle_normals(mesh.points, faces) * axes.away(mesh.points[faces].mean(axis=1))).sum(axis=1)
-    return faces[outward > 0.0]
+    centres = mesh.points[faces].mean(axis=1)
+    away = faces[(triangle_normals(mesh.points, faces) * axes.away(centres)).sum(axis=1) > 0.0]
+    left = cKDTree(mesh.points[np.unique(mesh.surfaces["lv_endo"])])
+    thickness, _ = left.query(mesh.points[away].mean(axis=1))
+    return away[thickness < 2.0 * np.median(thickness)]
+
+
+def _unit(vector: Floats) -> Floats:
+    return vector / np.linalg.norm(vector)

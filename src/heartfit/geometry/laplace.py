@@ -31,4 +31,4 @@ def element_gradients(points: Floats, tets: Integers, field: Floats) -> Floats:
 
 
 def _basis(points: Floats, tets: Integers) -> Basis:
-    return Basis(MeshTet(points.T, tets.T), ElementTetP1(), intorder=1)
+    return Basis(MeshTet(np.ascontiguousarray(points.T), np.ascontiguousarray(tets.T)), ElementTetP1(), intorder=1)

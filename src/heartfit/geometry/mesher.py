@@ -7,7 +7,8 @@ two calls give two different meshes of the same quality: what is computed on a m
 import os
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import wildmeshing
@@ -53,7 +54,7 @@ def _tetrahedralise(
     surface: LabelledSurface, edge_length: float, tolerance: float
 ) -> tuple[Floats, Integers]:
     scale = surface.diagonal()
-    with _silent_output():
+    with _silent_output(), TemporaryDirectory() as scratch, chdir(scratch):
         mesher = wildmeshing.Tetrahedralizer(
             epsilon=tolerance / scale, edge_length_r=edge_length / scale, coarsen=True, max_threads=1
         )
