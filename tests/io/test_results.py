@@ -13,17 +13,20 @@ from heartfit.errors import InputError
 from heartfit.io.atomic import replacing
 from heartfit.io.beats import read_beat, write_beat
 from heartfit.io.results import (
+    read_case,
     read_fingerprint,
     read_observations,
     read_posterior,
     read_result,
     read_sigma_points,
+    write_case,
     write_observations,
     write_posterior,
     write_result,
     write_sigma_points,
 )
 from heartfit.observation.noise import Observation
+from heartfit.tables.case import CaseResult
 
 PRIOR = Gaussian.of_relative({"sigma_0": 240e3, "mu": 7e3}, {"sigma_0": 0.2, "mu": 0.3})
 
@@ -117,3 +120,22 @@ def test_a_broken_result_is_named(tmp_path: Path, content: str) -> None:
 def test_numbers_that_json_cannot_hold_become_null(tmp_path: Path) -> None:
     write_result(tmp_path / "r.json", {"shift": float("nan"), "count": np.int64(3)}, "abc")
     assert read_result(tmp_path / "r.json") == {"shift": None, "count": 3}
+
+
+def test_a_case_there_and_back(tmp_path: Path) -> None:
+    numbers = {"sigma_0": 240e3}
+    record = CaseResult(
+        *("real", "physical", "abc"),
+        *({"V_min": value} for value in (72e-6, 1e-6, 80e-6, 73e-6)),
+        *(numbers for _ in range(4)),
+        units={"sigma_0": "Pa"},
+        failed_points=0,
+        sigma_points=9,
+        shift=float("nan"),
+        notes=("long step",),
+    )
+    write_case(tmp_path / "c.json", record)
+    found = read_case(tmp_path / "c.json")
+    assert found.errors() == record.errors()
+    assert np.isnan(found.shift)
+    assert list(found.notes) == ["long step"]

@@ -1,10 +1,14 @@
 """The figures show every curve that exists and survive the ones that do not."""
 
 import numpy as np
+import pytest
 
+from heartfit.calibration.gaussian import Gaussian
+from heartfit.calibration.unscented import sigma_points
+from heartfit.calibration.update import calibrate
 from heartfit.observation.curve import Curve
 from heartfit.observation.operator import VolumeFeatures
-from heartfit.tables.figures import plot_case
+from heartfit.tables.figures import plot_case, plot_sensitivity
 
 PERIOD = 0.8
 
@@ -35,3 +39,11 @@ def test_volumes_and_the_shift_are_drawn() -> None:
 def test_a_failed_beat_is_left_out() -> None:
     figure = plot_case({"measured": ventricles(25), "reference": {}}, "t", VolumeFeatures())
     assert len(figure.axes[0].get_lines()) == 1
+
+
+def test_sensitivities_are_bars_of_every_parameter_and_observation() -> None:
+    prior = Gaussian.of_relative({"sigma_0": 240e3, "mu": 7e3}, {"sigma_0": 0.2, "mu": 0.3})
+    outcomes = [{"V_min": 80 - 20 * point.z[0], "q_max": 400 + point.z[1]} for point in sigma_points(prior)]
+    posterior = calibrate(prior, outcomes, outcomes[0])
+    bars = plot_sensitivity(posterior, "real").axes[0].patches
+    assert [bar.get_height() for bar in bars] == pytest.approx([-1, 0, 0, 1], abs=1e-6)

@@ -90,7 +90,9 @@ def write_case(path: Path, case: CaseResult) -> None:
 
 
 def read_case(path: Path) -> CaseResult:
-    return CaseResult(**read_result(path))
+    content = read_result(path)
+    shift = float("nan") if content["shift"] is None else content["shift"]
+    return CaseResult(**{**content, "shift": shift})
 
 
 def _read(path: Path) -> dict[str, Any]:

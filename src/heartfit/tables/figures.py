@@ -33,11 +33,13 @@ def plot_case(
 
     curves: "measured", "reference" (prior X0) and "calibrated", time zero at the trigger; a beat that failed
     is left out. Flows are taken by the observation operator, so that simulation and measurement are
-    comparable. shift (s): the simulated time of measured time zero, subtracted from the simulated times.
+    comparable. shift (s): the simulated time of measured time zero, subtracted from the simulated times; NaN
+    if none was found.
     """
     figure = Figure(figsize=(13, 6), layout="constrained")
     axes = figure.subplots(2, 4)
-    moved = {name: _moved(group, 0.0 if name == "measured" else shift) for name, group in curves.items()}
+    start = shift if np.isfinite(shift) else 0.0
+    moved = {name: _moved(group, 0.0 if name == "measured" else start) for name, group in curves.items()}
     for row, (side, (label, atrium, artery)) in zip(axes, SIDES.items(), strict=True):
         _volumes(row[0], moved, side, label)
         _flows(row[1], moved, side, operator)
@@ -46,8 +48,9 @@ def plot_case(
     for panel in (axes[0, 0], axes[0, 2]):
         if panel.get_legend_handles_labels()[0]:
             panel.legend(frameon=False, fontsize=8)
-    moved_by = f"simulated trigger moved by {1e3 * shift:+.0f} ms" if shift else ""
-    figure.suptitle(title + (f" ({moved_by})" if moved_by else ""), fontsize=11)
+    figure.suptitle(
+        title + (f" (simulated trigger moved by {1e3 * start:+.0f} ms)" if start else ""), fontsize=11
+    )
     return figure
 
 
