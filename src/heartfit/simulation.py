@@ -10,7 +10,6 @@ import numpy as np
 from heartfit.beat import Beat, failed_beat
 from heartfit.circulation.coupling import Body, Coupling, HeartState, Tolerances
 from heartfit.circulation.network import NetworkStep
-from heartfit.circulation.windkessel import WindkesselState
 from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
 from heartfit.mechanics.body import StepFailed
@@ -79,7 +78,7 @@ class _Run:
             self.drift = _drift(first, state, history)
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
                 return self._beat(history)
-            state = self._shift(state, history)
+            state = self._shift(first, state)
 
     @property
     def dt(self) -> float:
@@ -103,14 +102,13 @@ class _Run:
         half = self._advance(replace(state, trend=()), start, 0.5 * dt, cuts - 1)
         return self._advance(half, start + 0.5 * dt, 0.5 * dt, cuts - 1)
 
-    def _shift(self, state: HeartState, history: list[HeartState]) -> HeartState:
-        trees = []
-        for side, (tree, held) in enumerate(zip(self.heart.circulation.trees(), state.trees, strict=True)):
-            mean = float(np.mean([past.trees[side].P_c for past in history[1:]]))
-            stroke = float(np.ptp([past.volumes[side] for past in history]))
-            shift = SHIFT * tree.periodic_shift(mean, stroke, self.heart.period)
-            trees.append(WindkesselState(held.P_c + shift, held.q_L))
-        return replace(state, trees=tuple(trees))
+    def _shift(self, first: HeartState, last: HeartState) -> HeartState:
+        sides = zip(self.heart.circulation.trees(), first.trees, last.trees, strict=True)
+        trees = tuple(
+            replace(after, P_c=after.P_c + SHIFT * tree.periodic_shift(before, after, self.heart.period))
+            for tree, before, after in sides
+        )
+        return replace(last, trees=trees)  # type: ignore[arg-type]
 
     def _beat(self, history: list[HeartState]) -> Beat:
         time = np.arange(self.steps + 1) * self.dt

@@ -47,9 +47,13 @@ class Windkessel:
         P_c = (state.P_c + rise * (inflow + self.P_ve / self.R_p)) / (1.0 + dt / self.tau)
         return WindkesselState(P_c=P_c, q_L=(state.q_L + theta * inflow) / (1.0 + theta))
 
-    def periodic_shift(self, mean_P_c: float, stroke_volume: float, period: float) -> float:
-        """Change of P_c that makes the mean outflow through R_p equal the stroke volume per period."""
-        return self.P_ve + self.R_p * stroke_volume / period - mean_P_c
+    def periodic_shift(self, start: WindkesselState, end: WindkesselState, period: float) -> float:
+        r"""Change of the mean P_c, Pa, that would balance the mean inflow of the beat from ``start`` to ``end``.
+
+        Blood balance over a beat: :math:`C (P_c(T) - P_c(0)) = T (\bar q - (\bar P_c - P_{ve})/R_p)`, so the
+        mean pressure is short of its periodic value by :math:`\tau (P_c(T) - P_c(0))/T`.
+        """
+        return self.tau * (end.P_c - start.P_c) / period
 
 
 PULMONARY = Windkessel(R_p=1.5e7, tau=0.5, Z_c=2.5e6, L=1e5, P_ve=900.0)

@@ -42,9 +42,17 @@ class MooneyRivlin:
         r"""Fill ``D`` (m, 6, 6) with :math:`2\,\partial S/\partial C` of the isochoric stress."""
         _tangent(C, J, scale, self.c_1, self.c_2, D)
 
-    def in_plane_energy_slope(self, stretch: float) -> float:
-        r""":math:`dW/d\Lambda` of the incompressible equibiaxial stretch :math:`(\Lambda, \Lambda, \Lambda^{-2})`, Pa."""
-        return 4.0 * self.c_1 * (stretch - stretch**-5) + 4.0 * self.c_2 * (stretch**3 - stretch**-3)
+    def in_plane_stress(self, stretch: Floats) -> Floats:
+        r""":math:`dW/d\Lambda` of the incompressible stretch :math:`(\Lambda, \Lambda, \Lambda^{-2})`, Pa."""
+        first = 4.0 * self.c_1 * (stretch - stretch**-5)
+        result: Floats = first + 4.0 * self.c_2 * (stretch**3 - stretch**-3)
+        return result
+
+    def in_plane_stiffness(self, stretch: Floats) -> Floats:
+        """Derivative of :meth:`in_plane_stress`, Pa."""
+        first = 4.0 * self.c_1 * (1.0 + 5.0 * stretch**-6)
+        result: Floats = first + 4.0 * self.c_2 * (3.0 * stretch**2 + 3.0 * stretch**-4)
+        return result
 
 
 @njit(cache=True)

@@ -1,0 +1,163 @@
+r"""Two thick-walled spheres of the same tissue law, in the slot of the finite-element ventricles.
+
+A sphere of mid-wall radius :math:`R_0` and thickness :math:`d_0` has the in-plane stretch
+:math:`\Lambda = 1 + y/R_0` and, being incompressible, the radial stretch :math:`\Lambda^{-2}`:
+
+.. math::
+    V &= \tfrac43 \pi R_0^3 \Big(\Lambda - \frac{d_0}{2 R_0} \Lambda^{-2}\Big)^3, \qquad \Omega = 4\pi R_0^2 d_0 \\
+    P \frac{dV}{dy} &= \frac{\Omega}{R_0} \Big[ \frac{dW}{d\Lambda} + \eta \dot E : \frac{\partial E}{\partial\Lambda}
+        + \Lambda\, \overline{\sigma_{1D}} \Big]
+
+The bar is the mean over fibres that are activated at different times, as those of a ventricle are.
+Source: Caruel et al., BMMB 13 (2014) 897, with version A of the fibre law.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from heartfit.geometry.arrays import Floats
+from heartfit.mechanics.active.bcs import Drive
+from heartfit.mechanics.body import StepFailed, Tissue
+
+ACTIVATION = np.linspace(0.0, 0.07, 8)
+"""Activation times of the fibres, s: a healthy QRS complex."""
+
+SMALLEST_STRETCH, LARGEST_STRETCH = 0.4, 2.0
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """Reference radius of the mid-wall and wall thickness, m."""
+
+    radius: float
+    thickness: float
+
+    @classmethod
+    def of(cls, cavity: float, wall: float) -> "Sphere":
+        """The sphere with the given volumes of cavity and wall, m^3."""
+        radius = brentq(lambda r: _cavity(r, wall / (4.0 * np.pi * r * r), 1.0) - cavity, 1e-3, 1.0)
+        return cls(radius, wall / (4.0 * np.pi * radius**2))
+
+    @property
+    def wall(self) -> float:
+        """Wall volume, m^3."""
+        return 4.0 * np.pi * self.radius**2 * self.thickness
+
+
+def _cavity(radius: float, thickness: float, stretch: float) -> float:
+    inner = stretch - 0.5 * thickness / radius * stretch**-2
+    return 4.0 / 3.0 * np.pi * radius**3 * float(np.sign(inner)) * abs(inner) ** 3
+
+
+@dataclass(frozen=True, eq=False)
+class SphereState:
+    """Displacements ``x`` (2, 1) of the mid-walls and fibre states (3, 2 k)."""
+
+    x: Floats
+    fibres: Floats
+
+
+class SphericalBody:
+    """A left and a right ventricle, each a sphere; see the module's equations."""
+
+    def __init__(self, left: Sphere, right: Sphere, tissue: Tissue, activation: Floats = ACTIVATION) -> None:
+        self.tissue, self.activation = tissue, np.tile(activation, 2)
+        self.radius = np.array([left.radius, right.radius])
+        self.ratio = np.array([0.5 * s.thickness / s.radius for s in (left, right)])
+        self.wall = np.array([left.wall, right.wall])
+
+    def rest(self) -> SphereState:
+        return SphereState(np.zeros((2, 1)), self.tissue.active.rest(len(self.activation)))
+
+    def stretch(self, x: Floats) -> Floats:
+        r""":math:`\Lambda` (2,)."""
+        return 1.0 + x[:, 0] / self.radius
+
+    def volumes(self, x: Floats) -> Floats:
+        stretch = self.stretch(x)
+        result: Floats = 4.0 / 3.0 * np.pi * self.radius**3 * (stretch - self.ratio * stretch**-2) ** 3
+        return result
+
+    def volume_gradients(self, x: Floats) -> Floats:
+        stretch = self.stretch(x)
+        inner = stretch - self.ratio * stretch**-2
+        slope = 4.0 * np.pi * self.radius**2 * inner**2 * (1.0 + 2.0 * self.ratio * stretch**-3)
+        return np.diag(slope)
+
+    def wall_volume(self, x: Floats) -> float:  # noqa: ARG002
+        return float(self.wall.sum())
+
+    def step(self, state: SphereState, start: float, dt: float, period: float) -> "SphereStep":
+        rate, attach = self.tissue.control.mean(start, dt, self.activation, period)
+        n_0 = self.tissue.active.starling.available(state.fibres[0])
+        return SphereStep(self, state, Drive(rate, attach, n_0, dt))
+
+    def endless_step(self, state: SphereState) -> "SphereStep":
+        none = np.zeros(len(self.activation))
+        return SphereStep(self, state, Drive(none, none, none, np.inf))
+
+
+class SphereStep:
+    """Forces and stiffness of both spheres at the end of one step."""
+
+    def __init__(self, body: SphericalBody, state: SphereState, drive: Drive) -> None:
+        self.body, self.state, self.drive = body, state, drive
+        self._old = body.stretch(state.x)
+        self._fibre = np.empty((3, len(body.activation)))
+
+    def forces(self, x: Floats) -> Floats:
+        """Internal forces (2,), conjugate to the displacements of the mid-walls."""
+        stretch = self.body.stretch(x)
+        if not ((stretch > SMALLEST_STRETCH) & (stretch < LARGEST_STRETCH)).all():
+            raise StepFailed(f"the spheres are stretched to {stretch.round(3)} of their reference radii")
+        self._respond(stretch)
+        passive, viscous = self.body.tissue.passive, self._viscous(stretch)[0]
+        stress = passive.in_plane_stress(stretch) + viscous + stretch * self._mean(0)
+        return self.body.wall / self.body.radius * stress
+
+    def _respond(self, stretch: Floats) -> None:
+        count = len(self.body.activation) // 2
+        old, new = (np.repeat(0.5 * (s * s - 1.0), count) for s in (self._old, stretch))
+        self.body.tissue.active.respond(self.drive, old, new, self.state.fibres, self._fibre)
+
+    def _mean(self, row: int) -> Floats:
+        return self._fibre[row].reshape(2, -1).mean(axis=1)
+
+    def _viscous(self, stretch: Floats) -> tuple[Floats, Floats]:
+        rate = self.body.tissue.passive.eta / self.drive.dt
+        plane, radial = 0.5 * (stretch**2 - self._old**2), 0.5 * (stretch**-4 - self._old**-4)
+        stress = rate * (2.0 * plane * stretch - 2.0 * radial * stretch**-5)
+        slope = rate * (2.0 * plane + 2.0 * stretch**2 + 10.0 * radial * stretch**-6 + 4.0 * stretch**-10)
+        return stress, slope
+
+    def tangent(self, x: Floats) -> "Stiffness":
+        """Derivative of the forces where they were last evaluated, which is ``x``."""
+        stretch = self.body.stretch(x)
+        slope = self.body.tissue.passive.in_plane_stiffness(stretch) + self._viscous(stretch)[1]
+        slope = slope + stretch**2 * self._mean(1) + self._mean(0)
+        return Stiffness(self.body.wall / self.body.radius**2 * slope)
+
+    def commit(self, x: Floats) -> SphereState:
+        return SphereState(
+            x.copy(), self.body.tissue.active.advance(self.drive, self.state.fibres, self._fibre[2])
+        )
+
+    def size(self, residual: Floats) -> float:
+        return float(np.linalg.norm(residual))
+
+    def weights(self, x: Floats) -> Floats:
+        return np.full_like(x, 1e3)
+
+
+@dataclass(frozen=True, eq=False)
+class Stiffness:
+    """A diagonal stiffness, N/m."""
+
+    diagonal: Floats
+
+    def solve(self, right: Floats) -> Floats:
+        scale = self.diagonal if right.ndim == 1 else self.diagonal[:, None]
+        result: Floats = right / scale
+        return result
