@@ -1,4 +1,4 @@
-"""Everything that is declared, read from the declarations: the parameters of a heart and of the mechanisms."""
+"""Everything that is declared, from the declarations: the parameters of hearts and mechanisms."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -19,7 +19,7 @@ the paper's fourteen are marked with *; "off" is the value at which a mechanism 
 
 
 def declared(name: str) -> Parameter:
-    """The declaration of a parameter by the name that Heart.with_parameters takes; raises KeyError as it does."""
+    """The declaration of a parameter by a name as Heart.with_parameters takes; raises KeyError as it does."""
     *parts, last = Heart().path_of(name).split(".")
     part: Any = Heart()
     for step in parts:

@@ -8,7 +8,7 @@ from pydantic import Field, PositiveFloat, PositiveInt, model_validator
 from heartfit.calibration.unscented import Scaling
 from heartfit.configuration.setting import Prior, Setting, require_known
 from heartfit.configuration.strict import Strict
-from heartfit.observation.operator import VolumeFeatures
+from heartfit.observation.operator import CurveFeatures, VolumeFeatures
 from heartfit.simulation import Numerics
 
 
@@ -39,9 +39,9 @@ class Operator(Strict):
     order: int = Field(ge=1)
     period_uncertainty: float = Field(ge=0, lt=0.5, description="relative standard deviation")
 
-    def features(self) -> VolumeFeatures:
-        """As the observation takes it."""
-        return VolumeFeatures(frames=self.frames, window=self.window, order=self.order)
+    def features(self) -> dict[str, CurveFeatures]:
+        """The operator of each curve that is observed."""
+        return {"lv_volume": VolumeFeatures(frames=self.frames, window=self.window, order=self.order)}
 
 
 class Transform(Strict):
@@ -75,6 +75,7 @@ class Cohort(Strict):
 class Study(Strict):
     """Everything config/config.yaml says."""
 
+    results: str = Field("results", description="folder of all that is computed")
     cases: str = Field(description="table of the cases")
     measured_heart: tuple[str, ...] = Field(description="folders; the first that exists is used")
     mesh: MeshSize

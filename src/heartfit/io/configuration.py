@@ -3,6 +3,8 @@
 import csv
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import reduce
 from pathlib import Path
 from typing import Any
 
@@ -16,12 +18,36 @@ from heartfit.errors import InputError
 UNITS = {"_s": 1.0, "_ml": 1e-6, "_mm": 1e-3}
 
 
-def read_study(*paths: Path) -> Study:
-    """The study that the files say together, later ones over earlier ones."""
-    content: dict[str, Any] = {}
-    for path in paths:
-        content = _layered(content, _read_yaml(path))
-    return validated(Study, content, " + ".join(map(str, paths)))
+@dataclass(frozen=True)
+class Plan:
+    """A study with the cases that can be run, by name, and in one line what is left out, if anything."""
+
+    study: Study
+    cases: Mapping[str, Case]
+    measured_heart: Path | None
+    left_out: str
+
+
+def plan_study(content: Mapping[str, Any], where: str = "configuration") -> Plan:
+    """What can be run of the study that `content` describes; raises InputError before anything is."""
+    study = validated(Study, content, where)
+    folder = next((Path(each) for each in study.measured_heart if Path(each).is_dir()), None)
+    cases = {case.case: case for case in read_cases(Path(study.cases))}
+    absent = [name for name, case in cases.items() if case.kind == "measured" and folder is None]
+    kept = {name: case for name, case in cases.items() if name not in absent}
+    return Plan(study, kept, folder, _left_out(absent, study) if absent else "")
+
+
+def _left_out(absent: Sequence[str], study: Study) -> str:
+    return (
+        f"{', '.join(absent)} left out: no measured heart in {' or '.join(study.measured_heart)}; "
+        "`snakemake --cores 1 fetch_measured_heart` brings it"
+    )
+
+
+def read_configuration(paths: Sequence[Path]) -> dict[str, Any]:
+    """What the files say together, later ones over earlier ones, as Snakemake's --configfile does."""
+    return reduce(_layered, map(_read_yaml, paths), {})
 
 
 def read_cases(path: Path) -> list[Case]:
@@ -41,11 +67,6 @@ def read_cases(path: Path) -> list[Case]:
         problem = f"{twice[0]} stands in two rows; rename one" if twice else "no case; add a row"
         raise InputError(f"{path}: {problem}")
     return cases
-
-
-def measured_heart_folder(candidates: Sequence[str]) -> Path | None:
-    """The first folder that exists."""
-    return next((Path(folder) for folder in candidates if Path(folder).is_dir()), None)
 
 
 def schema() -> str:

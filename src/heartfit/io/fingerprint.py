@@ -1,6 +1,6 @@
 """A fingerprint of all code that a script rests on.
 
-Snakemake watches a script, not the modules it imports. The fingerprint, given as a parameter of the rule, closes
+Snakemake watches a script, not the modules it imports. The fingerprint, given as a rule's parameter, closes
 the gap: it changes when the script or any module of this package that it imports, directly or not, does.
 A module that is only loaded by name while running, as a mechanism's of the registry, is not seen.
 """

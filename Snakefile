@@ -1,0 +1,31 @@
+"""The study: from measured hearts and virtual volunteers to calibrated models and their tables."""
+
+
+configfile: "config/config.yaml"
+
+
+include: "workflow/rules/common.smk"
+
+
+pathvars:
+    results=STUDY.results,
+    logs=f"{STUDY.results}/logs",
+    benchmarks=f"{STUDY.results}/benchmarks",
+
+
+rule all:
+    default_target: True
+    input:
+        expand("<results>/tables/table{number}.{kind}", number=(1, 2), kind=("csv", "md", "tex")),
+        expand("<results>/figures/{case}_{setting}.{kind}", case=CASES, setting=SETTINGS, kind=("png", "pdf")),
+
+
+include: "workflow/rules/resources.smk"
+include: "workflow/rules/cohort.smk"
+include: "workflow/rules/geometry.smk"
+include: "workflow/rules/registration.smk"
+include: "workflow/rules/curves.smk"
+include: "workflow/rules/reference.smk"
+include: "workflow/rules/calibration.smk"
+include: "workflow/rules/verification.smk"
+include: "workflow/rules/tables.smk"

@@ -1,0 +1,63 @@
+import os
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+
+from heartfit.errors import InputError
+from heartfit.io.configuration import plan_study
+from heartfit.io.fingerprint import fingerprint
+
+# one thread a job: the jobs are what runs in parallel
+for library in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
+    os.environ[f"{library}_NUM_THREADS"] = "1"
+
+try:
+    PLAN = plan_study(config)
+except InputError as problem:
+    raise WorkflowError(str(problem)) from None
+if PLAN.left_out:
+    logger.warning(PLAN.left_out)
+
+STUDY, CASES, HEART = PLAN.study, PLAN.cases, PLAN.measured_heart
+SETTINGS = list(STUDY.settings)
+MEASURED = [name for name, case in CASES.items() if case.kind == "measured"]
+VIRTUAL = [name for name, case in CASES.items() if case.kind == "virtual"]
+
+
+wildcard_constraints:
+    case="|".join(CASES),
+    setting="|".join(SETTINGS),
+    point=r"\d+",
+
+
+def code(script):
+    """The fingerprint of a script and all library modules it rests on; see heartfit.io.fingerprint."""
+    return fingerprint(Path(workflow.basedir, "workflow", "scripts", script))
+
+
+def one_of(cases):
+    """A wildcard constraint: one of these cases, or nothing that exists."""
+    return "|".join(cases) or "no-such-case"
+
+
+def case_of(wildcards):
+    return CASES[wildcards.case]
+
+
+def setting_of(wildcards):
+    return STUDY.setting(wildcards.setting)
+
+
+def sigma_point_beats(wildcards):
+    """The beats of all sigma points, whose number follows from the setting."""
+    return expand(
+        "<results>/{case}/{setting}/calibration/beats/{point}.json",
+        case=wildcards.case,
+        setting=wildcards.setting,
+        point=STUDY.sigma_points()[wildcards.setting],
+    )
+
+
+def measured_files(_):
+    """All files of the measured heart that are read."""
+    return sorted(str(file) for file in HEART.rglob("*") if file.suffix in {".txt", ".mat", ".json"})

@@ -1,0 +1,46 @@
+rule make_tables:
+    input:
+        cases=expand(
+            "<results>/{case}/{setting}/verification/errors.json",
+            case=CASES,
+            setting=SETTINGS,
+        ),
+        truths=expand("<results>/{case}/cohort/truth.json", case=VIRTUAL),
+        paper=expand("resources/marchesseau2012/table{number}.csv", number=(1, 2)),
+    output:
+        errors=expand("<results>/tables/table1.{suffix}", suffix=("csv", "md", "tex")),
+        parameters=expand("<results>/tables/table2.{suffix}", suffix=("csv", "md", "tex")),
+    log:
+        "<logs>/make_tables.log",
+    benchmark:
+        "<benchmarks>/make_tables.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        virtual=VIRTUAL,
+        code=code("make_tables.py"),
+    script:
+        "../scripts/make_tables.py"
+
+
+rule plot_case:
+    input:
+        measured="<results>/{case}/curves/measured.csv",
+        reference="<results>/{case}/{setting}/calibration/beats/0.json",
+        calibrated="<results>/{case}/{setting}/verification/beat.json",
+        errors="<results>/{case}/{setting}/verification/errors.json",
+    output:
+        expand("<results>/figures/{{case}}_{{setting}}.{suffix}", suffix=("png", "pdf")),
+    log:
+        "<logs>/{case}/{setting}/plot_case.log",
+    benchmark:
+        "<benchmarks>/{case}/{setting}/plot_case.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        operator=STUDY.observation,
+        code=code("plot_case.py"),
+    script:
+        "../scripts/plot_case.py"

@@ -1,0 +1,11 @@
+"""Fetch the measured heart from its public repository and put the beat lengths of its cines beside it."""
+
+from pathlib import Path
+from shutil import copyfile
+
+from heartfit.io.fetch import fetch
+from heartfit.io.log import record
+
+record(snakemake.log[0])
+fetch(Path(snakemake.input.manifest), snakemake.params.address, Path(snakemake.params.folder))
+copyfile(snakemake.input.timing, snakemake.output.timing)

@@ -1,0 +1,15 @@
+"""Generate a virtual volunteer: what a scanner would see of a hidden heart, and the truth, kept apart."""
+
+from pathlib import Path
+
+from heartfit.cohort.generate import generate
+from heartfit.io.log import record
+from heartfit.io.meshes import write_mesh, write_motion
+from heartfit.io.results import write_result
+
+record(snakemake.log[0])
+given = snakemake.params
+volunteer = generate(given.case, given.cohort, given.pressures)
+write_mesh(Path(snakemake.output.mesh), volunteer.mesh)
+write_motion(Path(snakemake.output.motion), volunteer.motion)
+write_result(Path(snakemake.output.truth), {"parameters": volunteer.truth}, given.code)

@@ -1,0 +1,14 @@
+"""Carry the mesh of the measured heart through the phases of its surface."""
+
+from pathlib import Path
+
+from heartfit.io.log import record
+from heartfit.io.measured_heart import read_measured_heart
+from heartfit.io.meshes import read_mesh, write_motion
+from heartfit.registration.carry import carry_mesh
+
+record(snakemake.log[0])
+mesh = read_mesh(Path(snakemake.input.mesh))
+heart = read_measured_heart(Path(snakemake.params.folder))
+motion = carry_mesh(mesh, heart.surface, heart.positions, heart.times, heart.period)
+write_motion(Path(snakemake.output[0]), motion)

@@ -1,0 +1,16 @@
+"""Simulate one more beat, at the calibrated parameters."""
+
+from pathlib import Path
+
+from heartfit.io.beats import write_beat
+from heartfit.io.log import record
+from heartfit.io.meshes import read_mesh
+from heartfit.io.results import read_posterior
+from heartfit.protocol import run_beat
+
+record(snakemake.log[0])
+reference = read_mesh(Path(snakemake.input.reference))
+parameters = read_posterior(Path(snakemake.input.posterior)).estimate.physical()
+given = snakemake.params
+beat = run_beat(reference, given.setting, given.case.period, parameters, given.scheme)
+write_beat(Path(snakemake.output.beat), beat, given.code)

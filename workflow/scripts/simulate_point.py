@@ -1,0 +1,17 @@
+"""Simulate the beat of one sigma point."""
+
+from pathlib import Path
+
+from heartfit.io.beats import write_beat
+from heartfit.io.log import record
+from heartfit.io.meshes import read_mesh
+from heartfit.io.results import read_sigma_points
+from heartfit.protocol import run_beat
+
+record(snakemake.log[0])
+reference = read_mesh(Path(snakemake.input.reference))
+_, points = read_sigma_points(Path(snakemake.input.points))
+parameters = points[int(snakemake.wildcards.point)].parameters
+given = snakemake.params
+beat = run_beat(reference, given.setting, given.case.period, parameters, given.scheme)
+write_beat(Path(snakemake.output.beat), beat, given.code)
