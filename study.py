@@ -30,8 +30,8 @@ LINTS = (
     ("ruff", "format", "--check", "."),
     ("mypy",),
     ("snakefmt", "--check", "Snakefile", "workflow/rules"),
-    ("snakemake", "--lint"),
 )
+CONDA = "Specify a conda environment or container for each rule."  # the lock file is what fixes the software
 COMPILE_LOCK = (
     *(
         "uv",
@@ -131,7 +131,19 @@ def lint(_: list[str]) -> int:
     for check in LINTS:
         print("lint:", *check, flush=True)
         failed |= subprocess.run(tool(*check), check=False).returncode
-    return int(failed != 0)
+    return int(failed != 0 or bool(workflow_advice()))
+
+
+def workflow_advice() -> list[str]:
+    """What Snakemake's own lint finds, but for the advice to use conda; also printed."""
+    print("lint: snakemake --lint", flush=True)
+    found = subprocess.run(tool("snakemake", "--lint"), capture_output=True, text=True, check=False)
+    advice = [line.strip() for line in found.stderr.splitlines() if line.startswith("    * ")]
+    if found.returncode and not advice:
+        advice = [found.stderr]
+    advice = [line for line in advice if CONDA not in line]
+    print("\n".join(advice) or "All checks passed!", flush=True)
+    return advice
 
 
 def lock(_: list[str]) -> int:

@@ -1,4 +1,4 @@
-"""The steps of a calibration, each from values to values: what the workflow's scripts and the command line call."""
+"""The steps of a calibration, each from values to values, for scripts and command line."""
 
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -12,12 +12,9 @@ from heartfit.configuration.study import Operator, Pressures, TimeScheme, Transf
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics.body import FiniteElementBody
 from heartfit.mechanics.unloading import unload
-from heartfit.observation.beat import beat_curves, observe_beats
-from heartfit.observation.curve import Curve
+from heartfit.observation.beat import observe_beats
 from heartfit.observation.noise import Observation
-from heartfit.observation.vector import cavity_indices
 from heartfit.simulation import Progress, simulate
-from heartfit.tables.case import CaseResult, summarise
 
 
 def stress_free(
@@ -57,45 +54,3 @@ def estimate(
     observed = {each.name: each.value for each in observations}
     outcomes = observe_beats(beats, operator.features())
     return calibrate(prior, outcomes, observed, noise, transform.scaling())
-
-
-def compare(
-    identity: Mapping[str, str],
-    posterior: Posterior,
-    observations: Sequence[Observation],
-    measured: Mapping[str, Curve],
-    points: Sequence[Beat],
-    calibrated: Beat,
-    setting: Setting,
-    operator: Operator,
-) -> CaseResult:
-    """The record of a case: what was measured against the beats at the prior's mean and at the estimate.
-
-    identity: case, setting, fingerprint; points: the beats of all sigma points, of which the first is the centre.
-    """
-    names, beats = ("reference", "calibrated"), (points[0], calibrated)
-    predicted = [each or {} for each in observe_beats(beats, operator.features())]
-    return summarise(
-        identity,
-        posterior,
-        observations,
-        dict(zip(names, predicted, strict=True)),
-        {"measured": measured, **dict(zip(names, map(beat_curves, beats), strict=True))},
-        setting.units(),
-        [beat.completed for beat in points],
-        _guards(calibrated),
-    )
-
-
-def _guards(beat: Beat) -> dict[str, float]:
-    """What was not observed and must hold all the same: volumes, peak pressures and the wall's volume."""
-    if not beat.completed:
-        return {}
-    curves = beat_curves(beat)
-    volumes = {
-        f"{side}_{name}": value
-        for side in ("lv", "rv")
-        for name, value in cavity_indices(curves, side).items()
-    }
-    peaks = {f"{side}_P_max": float(beat.pressure[side].max()) for side in ("lv", "rv")}
-    return {**volumes, **peaks, **beat.diagnostics}

@@ -14,6 +14,5 @@ rule fetch_measured_heart:
     params:
         address="https://raw.githubusercontent.com/UOA-Heart-Mechanics-Research/biv-me/"
         "d01024f8d824a7600cab3daf24b63d202f127d87/",
-        folder="resources/bivme_patient1",
     script:
         "../scripts/fetch_measured_heart.py"

@@ -26,8 +26,8 @@ rule compare_case:
         posterior="<results>/{case}/{setting}/calibration/posterior.json",
         observations="<results>/{case}/curves/observations.json",
         measured="<results>/{case}/curves/measured.csv",
-        points=sigma_point_beats,
-        beat="<results>/{case}/{setting}/verification/beat.json",
+        reference="<results>/{case}/{setting}/calibration/beats/0.json",
+        calibrated="<results>/{case}/{setting}/verification/beat.json",
     output:
         "<results>/{case}/{setting}/verification/errors.json",
     log:

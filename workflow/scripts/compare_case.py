@@ -6,18 +6,22 @@ from heartfit.io.beats import read_beat
 from heartfit.io.curves import read_curves
 from heartfit.io.log import record
 from heartfit.io.results import read_fingerprint, read_observations, read_posterior, write_case
-from heartfit.protocol import compare
+from heartfit.observation.beat import beat_curves
+from heartfit.tables.case import summarise
 
 record(snakemake.log[0])
-given, files = snakemake.params, snakemake.input
-result = compare(
-    {**dict(snakemake.wildcards.items()), "fingerprint": read_fingerprint(Path(files.beat))},
-    read_posterior(Path(files.posterior)),
-    read_observations(Path(files.observations)),
-    read_curves(Path(files.measured)),
-    list(map(read_beat, map(Path, files.points))),
-    read_beat(Path(files.beat)),
-    given.setting,
-    given.operator,
+files, setting = snakemake.input, snakemake.params.setting
+identity = {**dict(snakemake.wildcards.items()), "fingerprint": read_fingerprint(Path(files.calibrated))}
+calibrated = read_beat(Path(files.calibrated))
+curves = {
+    "measured": read_curves(Path(files.measured)),
+    "reference": beat_curves(read_beat(Path(files.reference))),
+    "calibrated": beat_curves(calibrated),
+}
+posterior = read_posterior(Path(files.posterior))
+observations = read_observations(Path(files.observations))
+features = snakemake.params.operator.features()
+result = summarise(
+    identity, posterior, observations, curves, features, setting.units(), calibrated.diagnostics
 )
 write_case(Path(snakemake.output[0]), result)

@@ -7,5 +7,6 @@ from heartfit.io.fetch import fetch
 from heartfit.io.log import record
 
 record(snakemake.log[0])
-fetch(Path(snakemake.input.manifest), snakemake.params.address, Path(snakemake.params.folder))
+folder = Path(snakemake.output.timing).parents[1]
+fetch(Path(snakemake.input.manifest), snakemake.params.address, folder)
 copyfile(snakemake.input.timing, snakemake.output.timing)

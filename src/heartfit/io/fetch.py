@@ -15,8 +15,8 @@ TIMEOUT = 60  # s
 def fetch(manifest: Path, address: str, folder: Path) -> None:
     """Fetch what `manifest` lists from below `address` (its end a slash) into `folder`.
 
-    The manifest has the columns file (its place in the folder), source (its place below the address) and sha256;
-    files that are there and right are kept. Raises InputError for bytes that are not those of the checksum.
+    The manifest has the columns file (place in the folder), source (place below the address) and sha256.
+    Files that are there and right are kept. Raises InputError for bytes that are not those of the checksum.
     """
     with manifest.open(newline="", encoding="utf-8") as lines:
         rows = list(csv.DictReader((line for line in lines if not line.startswith("#")), delimiter="\t"))
