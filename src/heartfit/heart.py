@@ -35,8 +35,8 @@ class Heart:
 
     @property
     def trigger(self) -> float:
-        """Simulated time of the ECG trigger: the onset of ventricular activation."""
-        return self.tissue.control.onset
+        """Simulated time of the ECG trigger, s."""
+        return self.tissue.control.onset + self.tissue.control.trigger_delay
 
     def parameters(self) -> dict[str, float]:
         """All parameters by dotted path below the heart; see :meth:`with_parameters` for short names."""

@@ -16,6 +16,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from heartfit.circulation.circuit import Circuit
 from heartfit.circulation.network import Circulation, NetworkStep
 from heartfit.circulation.windkessel import WindkesselState
 from heartfit.geometry.arrays import Floats
@@ -140,21 +141,9 @@ class Coupling:
         state: HeartState,
     ) -> Floats:
         """Pressures that balance the circuit, the body being linear about x + change."""
-        affine = self._affine(state, network.dt)
-        compliance = gradients.T @ self._response
         volumes = self.body.volumes(x) + gradients.T @ change - state.volumes
-        p = pressures.copy()
-        for _ in range(20):
-            out, slope = network.outflow(p)
-            matrix = np.vstack([network.dt * slope[:2], affine[:, 1:] * slope[2:] + np.eye(4)[2:]])
-            matrix[:2, :2] += compliance
-            right = volumes + compliance @ (p - pressures)[:2] + network.dt * out[:2]
-            right = np.concatenate([right, p[2:] - affine[:, 0] + affine[:, 1] * out[2:]])
-            move = np.linalg.solve(matrix, right)
-            p -= move
-            if np.abs(move).max() < 1e-6:
-                break
-        return p
+        windkessels = self._affine(state, network.dt)
+        return Circuit(network, windkessels, volumes, gradients.T @ self._response, pressures).solve()
 
     def _affine(self, state: HeartState, dt: float) -> Floats:
         """Rows (a, b) of the two Windkessels."""

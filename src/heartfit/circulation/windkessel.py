@@ -25,10 +25,10 @@ class WindkesselState:
 class Windkessel:
     """Arterial tree of one side; the defaults are systemic."""
 
-    R_p: float = parameter(1.14e8, unit="Pa.s/m^3", symbol="R_p", meaning="peripheral resistance", sd=0.20)
+    R_p: float = parameter(1.05e8, unit="Pa.s/m^3", symbol="R_p", meaning="peripheral resistance", sd=0.20)
     tau: float = parameter(1.6, unit="s", symbol=r"\tau", meaning="characteristic time R_p C", sd=0.20)
     Z_c: float = parameter(7.5e6, unit="Pa.s/m^3", symbol="Z_c", meaning="characteristic resistance", sd=0.25)
-    L: float = parameter(4e5, unit="Pa.s^2/m^3", symbol="L", meaning="total arterial inertance", sd=0.30)
+    L: float = parameter(6e5, unit="Pa.s^2/m^3", symbol="L", meaning="total arterial inertance", sd=0.30)
     P_ve: float = parameter(1200.0, unit="Pa", symbol="P_{ve}", meaning="venous pressure")
 
     def __post_init__(self) -> None:

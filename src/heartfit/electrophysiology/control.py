@@ -19,14 +19,18 @@ from heartfit.parameter import parameter, require_admissible
 class Control:
     """Rates and timing of the electrical control."""
 
-    k_ATP: float = parameter(8.0, unit="1/s", symbol="k_{ATP}", meaning="rate of contraction", sd=0.25)
-    k_RS: float = parameter(15.0, unit="1/s", symbol="k_{RS}", meaning="rate of relaxation", sd=0.25)
-    duration: float = parameter(0.32, unit="s", symbol="APD", meaning="action potential duration", sd=0.08)
+    k_ATP: float = parameter(6.0, unit="1/s", symbol="k_{ATP}", meaning="rate of contraction", sd=0.25)
+    k_RS: float = parameter(14.0, unit="1/s", symbol="k_{RS}", meaning="rate of relaxation", sd=0.25)
+    duration: float = parameter(0.34, unit="s", symbol="APD", meaning="action potential duration", sd=0.08)
     onset: float = parameter(
         0.15,
         unit="s",
         symbol="t_0",
         meaning="earliest ventricular activation after the start of atrial systole",
+    )
+
+    trigger_delay: float = parameter(
+        0.045, unit="s", symbol="t_R", meaning="ECG trigger (R wave) after the earliest activation"
     )
 
     def __post_init__(self) -> None:

@@ -41,12 +41,12 @@ CONVERGED = 1e-12
 class BestelClementSorine:
     """Contractile law: five constants and the length dependence of the number of available bridges."""
 
-    sigma_0: float = parameter(240e3, unit="Pa", symbol=r"\sigma_0", meaning="maximum contractility", sd=0.20)
+    sigma_0: float = parameter(280e3, unit="Pa", symbol=r"\sigma_0", meaning="maximum contractility", sd=0.20)
     k_0: float = parameter(120e3, unit="Pa", symbol="k_0", meaning="maximum bridge stiffness", sd=0.30)
     alpha: float = parameter(
         8.0, unit="1", symbol=r"\alpha", meaning="bridge destruction by fast motion", sd=0.4
     )
-    mu: float = parameter(7e3, unit="Pa.s", symbol=r"\mu", meaning="friction in the sarcomere", sd=0.20)
+    mu: float = parameter(9e3, unit="Pa.s", symbol=r"\mu", meaning="friction in the sarcomere", sd=0.20)
     E_s: float = parameter(3e7, unit="Pa", symbol="E_s", meaning="stiffness of the series element", sd=0.30)
     starling: Starling = field(default_factory=Starling)
 

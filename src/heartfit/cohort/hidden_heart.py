@@ -1,0 +1,41 @@
+"""The hidden heart of a virtual volunteer.
+
+It differs from the calibrator's model on purpose, as a real heart does: valves obey Bernoulli's law instead of a
+conductance, the number of bridges depends on length, the trigger comes earlier, and parameters that nobody
+estimates are not at their standard values either.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from heartfit.circulation.network import Circulation
+from heartfit.circulation.valves import OrificeValve
+from heartfit.heart import FOURTEEN, Heart
+
+ESTIMATED = ("sigma_0", "mu", "c_1", "R_p")
+OTHERS = ("k_RS", "k_ATP", "k_0", "alpha", "tau", "Z_c", "L")
+ESTIMATED_SPREAD, OTHER_SPREAD = 0.15, 0.08
+"""Standard deviations of the logarithms: healthy adults scatter, but not to the edges of the prior."""
+
+VALVES = Circulation(
+    mitral=OrificeValve(area=5e-4),
+    aortic=OrificeValve(area=4e-4),
+    tricuspid=OrificeValve(area=6e-4),
+    pulmonary=OrificeValve(area=4e-4),
+)
+OTHER_MODEL = {"slope": 0.3, "trigger_delay": 0.03}
+
+
+def draw_heart(standard: Mapping[str, float], period: float, seed: int) -> tuple[Heart, dict[str, float]]:
+    """A heart scattered about the ``standard`` values, and the truth: its value of the paper's parameters."""
+    rng = np.random.default_rng(seed)
+    heart = Heart(circulation=VALVES, period=period).with_parameters({**standard, **OTHER_MODEL})
+    values = heart.parameters()
+    drawn = {
+        name: values[heart.path_of(name)] * float(np.exp(spread * rng.standard_normal()))
+        for names, spread in ((ESTIMATED, ESTIMATED_SPREAD), (OTHERS, OTHER_SPREAD))
+        for name in names
+    }
+    heart = heart.with_parameters(drawn)
+    return heart, {name: heart.parameters()[heart.path_of(name)] for name in FOURTEEN}
