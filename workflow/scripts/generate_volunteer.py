@@ -9,7 +9,8 @@ from heartfit.io.results import write_result
 
 record(snakemake.log[0])
 given = snakemake.params
-volunteer = generate(given.case, given.cohort, given.pressures)
+protocol = given.cohort.protocol(given.pressures)
+volunteer = generate(given.case.shape(), given.cohort.heart, given.case.period, given.case.seed, protocol)
 write_mesh(Path(snakemake.output.mesh), volunteer.mesh)
 write_motion(Path(snakemake.output.motion), volunteer.motion)
 write_result(Path(snakemake.output.truth), {"parameters": volunteer.truth}, given.code)

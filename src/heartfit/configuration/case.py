@@ -5,6 +5,7 @@ from typing import Literal, Self
 from pydantic import Field, model_validator
 
 from heartfit.configuration.strict import Strict
+from heartfit.geometry.parametric import ParametricVentricles
 
 
 class Case(Strict):
@@ -27,6 +28,6 @@ class Case(Strict):
             raise ValueError(f"{self.case} is virtual and lacks {', '.join(missing)}; give a number")
         return self
 
-    def shape(self) -> dict[str, float]:
-        """What ParametricVentricles takes."""
-        return self.model_dump(exclude={"case", "kind", "period", "seed"})
+    def shape(self) -> ParametricVentricles:
+        """The ventricles of a virtual case."""
+        return ParametricVentricles(**self.model_dump(exclude={"case", "kind", "period", "seed"}))

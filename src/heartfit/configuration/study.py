@@ -6,6 +6,7 @@ from typing import Self
 from pydantic import Field, PositiveFloat, PositiveInt, model_validator
 
 from heartfit.calibration.unscented import Scaling
+from heartfit.cohort.generate import Protocol
 from heartfit.configuration.setting import Prior, Setting, require_known
 from heartfit.configuration.strict import Strict
 from heartfit.observation.operator import CurveFeatures, VolumeFeatures
@@ -69,7 +70,20 @@ class Cohort(Strict):
 
     mesh: MeshSize
     numerics: TimeScheme
-    noise: float = Field(ge=0, lt=5e-3, description="m, of the surface in every frame")
+    frames: int = Field(25, ge=8)
+    noise: float = Field(ge=0, lt=5e-3, description="m, of the acquired wall in every frame")
+    heart: dict[str, float] = Field({}, description="parameters about which the hidden hearts scatter")
+
+    def protocol(self, pressures: Pressures) -> Protocol:
+        """As the generator takes it."""
+        return Protocol(
+            self.mesh.edge_length,
+            self.mesh.tolerance,
+            self.numerics.numerics(),
+            self.noise,
+            (pressures.lv, pressures.rv),
+            self.frames,
+        )
 
 
 class Study(Strict):
@@ -89,7 +103,7 @@ class Study(Strict):
 
     @model_validator(mode="after")
     def _prior_is_known(self) -> Self:
-        for name in self.prior:
+        for name in (*self.prior, *self.cohort.heart):
             require_known(name)
         self.sigma_points()
         return self

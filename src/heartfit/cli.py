@@ -1,0 +1,124 @@
+"""The console command heartfit, for people without Snakemake."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from heartfit.catalogue import parameter_page
+from heartfit.console import Progress, beat_summary
+from heartfit.errors import InputError
+from heartfit.io.beats import write_beat
+from heartfit.io.configuration import Plan, plan_study, read_configuration, schema
+from heartfit.io.fingerprint import fingerprint
+from heartfit.io.measured_heart import read_measured_heart
+from heartfit.io.meshes import read_mesh
+from heartfit.protocol import run_beat, stress_free
+
+STANDARD = Path("config/config.yaml")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Carry out a command; 0 if it did, 1 if the simulation failed, 2 for bad input, said in one line."""
+    given = _parser().parse_args(arguments)
+    try:
+        return int(given.carry_out(given))
+    except InputError as problem:
+        print(f"heartfit: {problem}", file=sys.stderr)
+        return 2
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="heartfit", description=__doc__)
+    commands = parser.add_subparsers(required=True, metavar="command")
+    for carry_out, text in ((simulate, "run beats of one heart"), (check, "validate a study before it runs")):
+        command = commands.add_parser(carry_out.__name__, help=text, description=carry_out.__doc__)
+        command.set_defaults(carry_out=carry_out)
+        command.add_argument(
+            "--config",
+            type=Path,
+            nargs="+",
+            default=[STANDARD],
+            metavar="YAML",
+            help="later ones over earlier ones",
+        )
+        if carry_out is simulate:
+            _simulate_arguments(command)
+    for page in (parameters, configuration_schema):
+        command = commands.add_parser(page.__name__.replace("_", "-"), help=page.__doc__)
+        command.set_defaults(carry_out=page)
+    return parser
+
+
+def _simulate_arguments(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "mesh", type=Path, help="ventricles (.vtu) at end diastole, as the study builds them"
+    )
+    command.add_argument("--setting", default="physical", help="a setting of the configuration")
+    command.add_argument("--set", nargs="+", default=[], metavar="NAME=VALUE", help="parameters, SI units")
+    command.add_argument("--period", type=float, default=0.829, metavar="S", help="duration of a beat")
+    command.add_argument(
+        "--unloaded", action="store_true", help="the mesh is the stress-free reference already"
+    )
+    command.add_argument(
+        "--output", type=Path, default=Path("beat.json"), help="curves go into the .csv beside it"
+    )
+
+
+def simulate(given: argparse.Namespace) -> int:
+    """Run beats of one heart until they are periodic and write the last one."""
+    study = _plan(given.config).study
+    if given.setting not in study.settings:
+        raise InputError(f"no setting {given.setting!r}; known are {', '.join(study.settings)}")
+    setting = study.setting(given.setting)
+    changed = dict(_assignment(text) for text in given.set)
+    reference = read_mesh(given.mesh)
+    if not given.unloaded:
+        print("finding the stress-free reference", file=sys.stderr)
+        reference = stress_free(reference, setting, given.period, study.end_diastolic_pressure)
+    try:
+        beat = run_beat(reference, setting, given.period, changed, study.numerics, Progress())
+    except KeyError as unknown:
+        raise InputError(str(unknown.args[0])) from None
+    write_beat(given.output, beat, fingerprint(Path(__file__)))
+    print("\n".join([f"{len(reference.tets)} tetrahedra, {setting.element}", *beat_summary(beat)]))
+    return 0 if beat.completed else 1
+
+
+def _assignment(text: str) -> tuple[str, float]:
+    name, _, value = text.partition("=")
+    try:
+        return name, float(value)
+    except ValueError:
+        raise InputError(f"--set {text}: expected NAME=VALUE with a number, as sigma_0=240e3") from None
+
+
+def check(given: argparse.Namespace) -> int:
+    """Read everything that a study would read before it runs and say in a line each that it is in order."""
+    plan = _plan(given.config)
+    files, settings = ", ".join(map(str, given.config)), ", ".join(plan.study.settings)
+    print(f"configuration: {files} in order, settings {settings}")
+    print(f"cases: {', '.join(plan.cases)}")
+    if plan.measured_heart:
+        heart = read_measured_heart(plan.measured_heart)
+        phases, points = heart.positions.shape[:2]
+        print(f"measured heart: {phases} phases of {points} points, {heart.period:.3f} s")
+    if plan.left_out:
+        print(plan.left_out)
+    return 0
+
+
+def _plan(paths: Sequence[Path]) -> Plan:
+    return plan_study(read_configuration(paths), " + ".join(map(str, paths)))
+
+
+def parameters(_: argparse.Namespace) -> int:
+    """print the reference page of all parameters"""
+    print(parameter_page(), end="")
+    return 0
+
+
+def configuration_schema(_: argparse.Namespace) -> int:
+    """print the JSON schema of a configuration"""
+    print(schema(), end="")
+    return 0

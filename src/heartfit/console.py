@@ -1,0 +1,48 @@
+"""What the command line says of a beat: while it runs, and when it is done."""
+
+import sys
+import time
+
+from heartfit.beat import Beat
+from heartfit.observation.beat import beat_curves
+from heartfit.observation.vector import cavity_indices
+
+KILOPASCAL, MILLILITRE = 1e3, 1e-6
+EVERY = 1.0  # s
+
+
+class Progress:
+    """Says on standard error, once a second, how much is done and how long the rest takes at this pace."""
+
+    def __init__(self) -> None:
+        self._begin = self._said = time.monotonic()
+
+    def __call__(self, done: float) -> None:
+        now = time.monotonic()
+        if now - self._said >= EVERY:
+            self._said = now
+            left = (now - self._begin) * (1.0 - done) / done
+            sys.stderr.write(f"{100 * done:3.0f} % of the most beats allowed, {left:.0f} s left or less\n")
+
+
+def beat_summary(beat: Beat) -> list[str]:
+    """Lines that tell cost, periodicity, volumes and pressures of a beat, or why there is none."""
+    if not beat.completed:
+        return [f"failed: {beat.reason}"]
+    seen = beat.diagnostics
+    return [
+        f"{seen['beats']:.0f} beats, {seen['cpu_s'] / seen['beats']:.2f} CPU s a beat, "
+        f"drift {100 * seen['drift']:.2f} %, wall volume loss {100 * seen['wall_volume_loss']:.2f} %",
+        _ventricle(beat, "lv", "aorta"),
+        _ventricle(beat, "rv", "pulmonary_artery"),
+    ]
+
+
+def _ventricle(beat: Beat, side: str, artery: str) -> str:
+    indices = cavity_indices(beat_curves(beat), side)
+    end_diastolic, end_systolic = (indices[name] / MILLILITRE for name in ("EDV", "ESV"))
+    pressure, peak = beat.pressure[artery] / KILOPASCAL, beat.pressure[side].max() / KILOPASCAL
+    return (
+        f"{side.upper()}: EDV {end_diastolic:.1f} mL, ESV {end_systolic:.1f} mL, EF {100 * indices['EF']:.1f} %, "
+        f"peak {peak:.2f} kPa, {artery.replace('_', ' ')} {pressure.min():.2f} to {pressure.max():.2f} kPa"
+    )
