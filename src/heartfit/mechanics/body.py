@@ -20,6 +20,7 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics import assembly, kinematics
 from heartfit.mechanics.active.bcs import BestelClementSorine, Drive
 from heartfit.mechanics.elements import ELEMENTS, Element
+from heartfit.mechanics.kinematics import StepFailed as StepFailed
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 from heartfit.mechanics.solver import Factor, nested_dissection
 from heartfit.mechanics.support import Support
@@ -28,10 +29,6 @@ SMALLEST_JACOBIAN = 0.05
 """Relative element volume below which a trial state is refused."""
 
 CHAMBERS = ("lv", "rv")
-
-
-class StepFailed(ArithmeticError):
-    """A time step has no admissible solution at this length; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -57,8 +54,11 @@ class BodyState:
 class FiniteElementBody:
     """Ventricles of linear tetrahedra on a stress-free reference mesh."""
 
-    def __init__(self, reference: VentricularMesh, tissue: Tissue) -> None:
+    def __init__(
+        self, reference: VentricularMesh, tissue: Tissue, pattern: assembly.SparsityPattern | None = None
+    ) -> None:
         self.reference, self.tissue = reference, tissue
+        self._pattern = pattern
         self.element: Element = ELEMENTS[tissue.element]
         self.tets = reference.tets
         self.gradients, self.element_volumes = kinematics.shape_gradients(reference.points, self.tets)
@@ -70,7 +70,9 @@ class FiniteElementBody:
 
     @cached_property
     def pattern(self) -> assembly.SparsityPattern:
-        """Sparsity of the tangent, in METIS order; shared by all bodies of the same tetrahedra."""
+        """Sparsity of the tangent, in METIS order; may be handed on to bodies of the same tetrahedra."""
+        if self._pattern is not None:
+            return self._pattern
         nodes = len(self.reference.points)
         return assembly.SparsityPattern(
             self.tets, nodes, self.element.dofs, nested_dissection(self.tets, nodes)

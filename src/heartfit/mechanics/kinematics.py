@@ -13,16 +13,20 @@ ROW = np.array([0, 1, 2, 0, 0, 1])
 COLUMN = np.array([0, 1, 2, 1, 2, 2])
 
 
+class StepFailed(ArithmeticError):
+    """There is no admissible state at this load or step length; the message says why."""
+
+
 def shape_gradients(points: Floats, tets: Integers) -> tuple[Floats, Floats]:
     r"""Gradients :math:`\nabla N_a` (m, 4, 3) of the linear shape functions and volumes (m,) of the tetrahedra.
 
-    Raises ``ValueError`` if a tetrahedron has no positive volume.
+    Raises StepFailed if a tetrahedron has no positive volume.
     """
     edges = points[tets[:, 1:]] - points[tets[:, :1]]
     volumes = np.linalg.det(edges) / 6.0
     if not (volumes > 0.0).all():
         worst = int(np.argmin(volumes))
-        raise ValueError(f"tetrahedron {worst} has volume {volumes[worst]:g} m^3: expected a positive volume")
+        raise StepFailed(f"tetrahedron {worst} has volume {volumes[worst]:g} m^3: expected a positive volume")
     inner = np.linalg.inv(edges).transpose(0, 2, 1)
     return np.concatenate([-inner.sum(axis=1, keepdims=True), inner], axis=1), volumes
 
