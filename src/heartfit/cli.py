@@ -5,7 +5,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from heartfit.catalogue import parameter_page
+from heartfit.catalogue import declared, parameter_page
 from heartfit.console import Progress, beat_summary
 from heartfit.errors import InputError
 from heartfit.io.beats import write_beat
@@ -76,10 +76,7 @@ def simulate(given: argparse.Namespace) -> int:
     if not given.unloaded:
         print("finding the stress-free reference", file=sys.stderr)
         reference = stress_free(reference, setting, given.period, study.end_diastolic_pressure)
-    try:
-        beat = run_beat(reference, setting, given.period, changed, study.numerics, Progress())
-    except KeyError as unknown:
-        raise InputError(str(unknown.args[0])) from None
+    beat = run_beat(reference, setting, given.period, changed, study.numerics, Progress())
     write_beat(given.output, beat, fingerprint(Path(__file__)))
     print("\n".join([f"{len(reference.tets)} tetrahedra, {setting.element}", *beat_summary(beat)]))
     return 0 if beat.completed else 1
@@ -88,9 +85,12 @@ def simulate(given: argparse.Namespace) -> int:
 def _assignment(text: str) -> tuple[str, float]:
     name, _, value = text.partition("=")
     try:
+        declared(name)
         return name, float(value)
     except ValueError:
         raise InputError(f"--set {text}: expected NAME=VALUE with a number, as sigma_0=240e3") from None
+    except KeyError as unknown:
+        raise InputError(f"--set {text}: {unknown.args[0]}") from None
 
 
 def check(given: argparse.Namespace) -> int:

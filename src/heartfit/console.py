@@ -43,6 +43,7 @@ def _ventricle(beat: Beat, side: str, artery: str) -> str:
     end_diastolic, end_systolic = (indices[name] / MILLILITRE for name in ("EDV", "ESV"))
     pressure, peak = beat.pressure[artery] / KILOPASCAL, beat.pressure[side].max() / KILOPASCAL
     return (
-        f"{side.upper()}: EDV {end_diastolic:.1f} mL, ESV {end_systolic:.1f} mL, EF {100 * indices['EF']:.1f} %, "
-        f"peak {peak:.2f} kPa, {artery.replace('_', ' ')} {pressure.min():.2f} to {pressure.max():.2f} kPa"
+        f"{side.upper()}: EDV {end_diastolic:.1f} mL, ESV {end_systolic:.1f} mL, "
+        f"EF {100 * indices['EF']:.1f} %, peak {peak:.2f} kPa, "
+        f"{artery.replace('_', ' ')} {pressure.min():.2f} to {pressure.max():.2f} kPa"
     )

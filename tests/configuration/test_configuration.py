@@ -1,0 +1,151 @@
+"""Bad input is refused in one line that says what, where, what was expected and what to do."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from heartfit.catalogue import declared
+from heartfit.configuration.case import Case
+from heartfit.configuration.strict import validated
+from heartfit.configuration.study import Study
+from heartfit.errors import InputError
+from heartfit.io.configuration import plan_study, read_cases, read_configuration, schema
+
+ROOT = Path(__file__).parents[2]
+CONFIG = ROOT / "config" / "config.yaml"
+
+
+@pytest.fixture
+def content():
+    return yaml.safe_load(CONFIG.read_text())
+
+
+def complaint(kind, content):
+    with pytest.raises(InputError) as refused:
+        validated(kind, content, "config.yaml")
+    message = str(refused.value)
+    assert message.startswith("config.yaml: ")
+    assert "\n" not in message
+    return message
+
+
+def test_the_studies_that_are_shipped_are_valid():
+    for names in (["config.yaml"], ["config.yaml", "smoke.yaml"]):
+        validated(Study, read_configuration([ROOT / "config" / name for name in names]), names[-1])
+    assert read_cases(ROOT / "config" / "cases.tsv")
+
+
+@pytest.mark.parametrize(
+    ("path", "key", "meant"),
+    [
+        ((), "mseh", "mesh"),
+        (("mesh",), "edge_lenght", "edge_length"),
+        (("settings", "paper"), "elment", "element"),
+    ],
+)
+def test_an_unknown_key_names_the_nearest_known_one(content, path, key, meant):
+    table = content
+    for step in path:
+        table = table[step]
+    table[key] = 1
+    message = complaint(Study, content)
+    assert f"unknown key {'.'.join((*path, key))}" in message
+    assert f"did you mean {meant}?" in message
+
+
+def test_an_unknown_parameter_names_the_nearest_known_one(content):
+    content["settings"]["physical"]["estimate"] = ["sigma0"]
+    assert "sigma_0" in complaint(Study, content)
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "value", "expected"),
+    [
+        ("mesh", "edge_length", 13.5, "less than 0.05"),
+        ("numerics", "time_step", "five", "number"),
+        ("observation", "frames", 5, "greater than or equal to 8"),
+        ("end_diastolic_pressure", "lv", 120e3, "less than 5000"),
+    ],
+)
+def test_a_number_that_cannot_be_is_refused(content, table, key, value, expected):
+    content[table][key] = value
+    message = complaint(Study, content)
+    assert f"{table}.{key} = {value!r}" in message
+    assert expected in message
+
+
+def test_a_missing_table_is_named(content):
+    del content["numerics"]
+    assert "numerics is missing" in complaint(Study, content)
+
+
+def test_a_parameter_is_not_both_estimated_and_fixed(content):
+    content["settings"]["paper"]["heart"] = {"K": 1e6}
+    assert "K is estimated and fixed at once" in complaint(Study, content)
+
+
+def test_a_parameter_without_prior_is_not_estimated(content):
+    content["settings"]["paper"]["estimate"] = ["k_b"]
+    assert "k_b is estimated and has no prior" in complaint(Study, content)
+
+
+def test_the_prior_of_a_setting_stands_over_the_study_s_over_the_declared_one(content):
+    content["prior"] = {"mu": {"mean": 8e3}}
+    content["settings"]["physical"]["prior"] = {"sigma_0": {"sd": 0.1}}
+    setting = validated(Study, content, "config.yaml").setting("physical")
+    assert setting.prior["mu"].mean == 8e3
+    assert setting.prior["mu"].sd == declared("mu").sd
+    assert setting.prior["sigma_0"].mean == declared("sigma_0").value
+    assert setting.prior["sigma_0"].sd == 0.1
+
+
+def test_the_heart_stands_at_the_mean_of_the_prior(content):
+    content["settings"]["physical"]["heart"] = {"alpha": 5.0}
+    content["prior"]["mu"] = {"mean": 8e3}
+    heart = validated(Study, content, "config.yaml").setting("physical").base_heart(0.9)
+    assert heart.period == 0.9
+    assert heart.tissue.active.alpha == 5.0
+    assert heart.tissue.active.mu == pytest.approx(8e3)
+
+
+def test_a_virtual_case_lacks_nothing():
+    assert "anna is virtual and lacks seed, edv" in complaint(
+        Case, {"case": "anna", "kind": "virtual", "period": 0.9}
+    )
+
+
+def test_cases_are_read_in_si_units(tmp_path):
+    table = tmp_path / "cases.tsv"
+    table.write_text("case\tkind\tperiod_s\tedv_ml\na\tmeasured\t0.9\t150\n")
+    (case,) = read_cases(table)
+    assert case.edv == pytest.approx(1.5e-4)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("case\tkind\tperiod_s\na\tmeasured\t900\n", "line 2: period = 900"),
+        ("case\tkind\tperiod_s\na\tmeasured\tfast\n", "period_s = 'fast'"),
+        ("case\tkind\tperiod_s\na\tmeasured\t0.9\na\tmeasured\t0.8\n", "a stands in two rows"),
+        ("case\tkind\tperiod_s\n", "no case"),
+    ],
+)
+def test_a_bad_table_of_cases_is_refused(tmp_path, text, expected):
+    (tmp_path / "cases.tsv").write_text(text)
+    with pytest.raises(InputError, match=expected):
+        read_cases(tmp_path / "cases.tsv")
+
+
+def test_without_the_measured_heart_virtual_cases_remain_and_one_line_says_so(content, tmp_path):
+    content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": [str(tmp_path / "nowhere")]}
+    plan = plan_study(content)
+    assert {case.kind for case in plan.cases.values()} == {"virtual"}
+    assert plan.left_out.startswith("patient1 left out: no measured heart in ")
+    assert "\n" not in plan.left_out
+
+
+def test_the_schema_is_in_step():
+    assert (ROOT / "config" / "schema.json").read_text() == schema(), (
+        "write it anew: heartfit configuration-schema > config/schema.json"
+    )

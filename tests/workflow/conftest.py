@@ -1,0 +1,57 @@
+"""A copy of the workflow that tests may edit, with the library beside it."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PARTS = ("Snakefile", "workflow", "config", "resources", "profiles", "src")
+
+
+class Workflow:
+    """A project in its own folder, without any measured heart unless one is linked."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        folder.mkdir()
+        for part in PARTS:
+            source = ROOT / part
+            if source.is_dir():
+                ignore = shutil.ignore_patterns("__pycache__", "bivme_patient1", "*.nbc", "*.nbi")
+                shutil.copytree(source, folder / part, ignore=ignore)
+            else:
+                shutil.copy(source, folder / part)
+
+    def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        """Run Snakemake with the folder's own library; output and errors in one."""
+        command = [sys.executable, "-m", "snakemake", "--workflow-profile", "none", *arguments]
+        environment = os.environ | {"PYTHONPATH": str(self.folder / "src")}
+        return subprocess.run(
+            command,
+            cwd=self.folder,
+            env=environment,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
+
+    def add_measured_heart(self) -> None:
+        """Files in the places of a measured heart; a dry run reads none of them."""
+        for name in ("control_points/frame_000.txt", "template/ETIndicesSorted.txt"):
+            file = self.folder / "resources" / "bivme_patient1" / name
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.touch()
+
+    def edit(self, file: str, text: str) -> None:
+        """Append to a file."""
+        with (self.folder / file).open("a") as opened:
+            opened.write(text)
+
+
+@pytest.fixture
+def workflow(tmp_path):
+    return Workflow(tmp_path / "project")

@@ -1,0 +1,71 @@
+"""The graph of jobs: how many, who reads what, what is done again and what is refused."""
+
+import re
+
+import pytest
+
+POINTS = "results/volunteer1/physical/calibration/points.json"
+
+
+def job_counts(output):
+    table = output.rsplit("Job stats:", 1)[1]
+    return {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+)$", table, re.MULTILINE)}
+
+
+def jobs(output):
+    """Rule and the text of its job, of each job that a dry run shows."""
+    return re.findall(r"^(?:local)?rule (\w+):\n((?: +.*\n)+)", output, re.MULTILINE)
+
+
+def inputs(job):
+    found = re.search(r"^ +input: (.*)$", job, re.MULTILINE)
+    return found[1].split(", ") if found else []
+
+
+def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_only(workflow):
+    workflow.add_measured_heart()
+    run = workflow.snakemake("-n")
+    counts = job_counts(run.stdout)
+    cases, settings, points = 3, 2, 9
+    assert run.returncode == 0, run.stdout
+    assert counts["simulate_point"] == cases * settings * points
+    assert counts["simulate_calibrated"] == cases * settings
+    assert counts["generate_volunteer"] == 2
+    assert counts["make_tables"] == 1
+    readers = {rule for rule, job in jobs(run.stdout) if any("truth" in name for name in inputs(job))}
+    assert readers == {"make_tables"}
+
+
+def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(workflow):
+    run = workflow.snakemake("-n")
+    assert run.returncode == 0, run.stdout
+    assert "build_measured_mesh" not in job_counts(run.stdout)
+    assert job_counts(run.stdout)["simulate_point"] == 2 * 2 * 9
+    said = [line for line in run.stdout.splitlines() if "left out" in line]
+    assert len(said) == 1
+    assert "fetch_measured_heart" in said[0]
+
+
+def test_an_edit_of_the_library_repeats_what_rests_on_it_and_nothing_else(workflow):
+    assert workflow.snakemake("--cores", "1", POINTS).returncode == 0
+    assert "Nothing to be done" in workflow.snakemake("-n", POINTS).stdout
+    workflow.edit("src/heartfit/registration/carry.py", "# elsewhere\n")
+    assert "Nothing to be done" in workflow.snakemake("-n", POINTS).stdout
+    workflow.edit("src/heartfit/calibration/gaussian.py", "# below\n")
+    assert job_counts(workflow.snakemake("-n", POINTS).stdout)["draw_sigma_points"] == 1
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "expected"),
+    [
+        ("config/config.yaml", "mehs: 1\n", "unknown key mehs; did you mean mesh?"),
+        ("config/cases.tsv", "x\tvirtual\t0.9\n", "x is virtual and lacks seed"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line_before_anything_runs(workflow, file, text, expected):
+    workflow.edit(file, text)
+    run = workflow.snakemake("--cores", "1")
+    assert run.returncode != 0
+    assert len([line for line in run.stdout.splitlines() if expected in line]) == 1
+    assert "Traceback" not in run.stdout
+    assert not (workflow.folder / "results").exists()
