@@ -13,7 +13,7 @@ from heartfit.io.configuration import Plan, plan_study, read_configuration, sche
 from heartfit.io.fingerprint import fingerprint
 from heartfit.io.measured_heart import read_measured_heart
 from heartfit.io.meshes import read_mesh
-from heartfit.protocol import run_beat, stress_free
+from heartfit.protocol import run_beat
 
 STANDARD = Path("config/config.yaml")
 
@@ -72,13 +72,12 @@ def simulate(given: argparse.Namespace) -> int:
         raise InputError(f"no setting {given.setting!r}; known are {', '.join(study.settings)}")
     setting = study.setting(given.setting)
     changed = dict(_assignment(text) for text in given.set)
-    reference = read_mesh(given.mesh)
-    if not given.unloaded:
-        print("finding the stress-free reference", file=sys.stderr)
-        reference = stress_free(reference, setting, given.period, study.end_diastolic_pressure)
-    beat = run_beat(reference, setting, given.period, changed, study.numerics, Progress())
+    if given.unloaded:
+        setting = setting.model_copy(update={"reference": "end_diastolic"})
+    mesh, pressures = read_mesh(given.mesh), study.end_diastolic_pressure
+    beat = run_beat(mesh, setting, given.period, changed, pressures, study.numerics, Progress())
     write_beat(given.output, beat, fingerprint(Path(__file__)))
-    print("\n".join([f"{len(reference.tets)} tetrahedra, {setting.element}", *beat_summary(beat)]))
+    print("\n".join([f"{len(mesh.tets)} tetrahedra, {setting.element}", *beat_summary(beat)]))
     return 0 if beat.completed else 1
 
 

@@ -4,41 +4,40 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from heartfit.beat import Beat
+from heartfit.beat import Beat, failed_beat
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.update import Posterior, calibrate
 from heartfit.configuration.setting import Setting
 from heartfit.configuration.study import Operator, Pressures, TimeScheme, Transform
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.mechanics.body import FiniteElementBody
+from heartfit.mechanics.body import FiniteElementBody, StepFailed
 from heartfit.mechanics.unloading import unload
 from heartfit.observation.beat import observe_beats
 from heartfit.observation.noise import Observation
 from heartfit.simulation import Progress, simulate
 
 
-def stress_free(
-    mesh: VentricularMesh, setting: Setting, period: float, pressures: Pressures
-) -> VentricularMesh:
-    """The reference state of a mesh measured at end diastole, found once, at the mean of the prior.
-
-    With the reference "end_diastolic" (the paper's assumption) it is the mesh itself.
-    """
-    if setting.reference == "end_diastolic":
-        return mesh
-    return unload(mesh, setting.base_heart(period).tissue, np.array([pressures.lv, pressures.rv]))
-
-
 def run_beat(
-    reference: VentricularMesh,
+    mesh: VentricularMesh,
     setting: Setting,
     period: float,
     parameters: Mapping[str, float],
+    pressures: Pressures,
     scheme: TimeScheme,
     progress: Progress | None = None,
 ) -> Beat:
-    """The beat of a setting with some parameters changed."""
+    """The beat of a setting with some parameters changed, of ventricles that were measured at end diastole.
+
+    The stress-free reference is found for these very parameters: a reference frozen at other passive parameters
+    would change the end-diastolic volume that was measured. With the setting's reference "end_diastolic" (the
+    paper's assumption) it is the mesh itself.
+    """
     heart = setting.base_heart(period).with_parameters(parameters)
+    loads = np.array([pressures.lv, pressures.rv])
+    try:
+        reference = mesh if setting.reference == "end_diastolic" else unload(mesh, heart.tissue, loads)
+    except StepFailed as failure:
+        return failed_beat(str(failure), period, heart.trigger, {})
     return simulate(heart, FiniteElementBody(reference, heart.tissue), scheme.numerics(), progress)
 
 

@@ -18,7 +18,7 @@ rule draw_sigma_points:
 
 rule simulate_point:
     input:
-        reference="<results>/{case}/{setting}/reference/mesh.vtu",
+        mesh="<results>/{case}/geometry/mesh.vtu",
         points="<results>/{case}/{setting}/calibration/points.json",
     output:
         beat="<results>/{case}/{setting}/calibration/beats/{point}.json",
@@ -33,6 +33,7 @@ rule simulate_point:
     params:
         case=case_of,
         setting=setting_of,
+        pressures=STUDY.end_diastolic_pressure,
         scheme=STUDY.numerics,
         code=code("simulate_point.py"),
     script:

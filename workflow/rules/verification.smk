@@ -1,6 +1,6 @@
 rule simulate_calibrated:
     input:
-        reference="<results>/{case}/{setting}/reference/mesh.vtu",
+        mesh="<results>/{case}/geometry/mesh.vtu",
         posterior="<results>/{case}/{setting}/calibration/posterior.json",
     output:
         beat="<results>/{case}/{setting}/verification/beat.json",
@@ -15,6 +15,7 @@ rule simulate_calibrated:
     params:
         case=case_of,
         setting=setting_of,
+        pressures=STUDY.end_diastolic_pressure,
         scheme=STUDY.numerics,
         code=code("simulate_calibrated.py"),
     script:

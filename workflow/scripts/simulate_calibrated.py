@@ -9,8 +9,8 @@ from heartfit.io.results import read_posterior
 from heartfit.protocol import run_beat
 
 record(snakemake.log[0])
-reference = read_mesh(Path(snakemake.input.reference))
+mesh = read_mesh(Path(snakemake.input.mesh))
 parameters = read_posterior(Path(snakemake.input.posterior)).estimate.physical()
 given = snakemake.params
-beat = run_beat(reference, given.setting, given.case.period, parameters, given.scheme)
+beat = run_beat(mesh, given.setting, given.case.period, parameters, given.pressures, given.scheme)
 write_beat(Path(snakemake.output.beat), beat, given.code)

@@ -9,9 +9,9 @@ from heartfit.io.results import read_sigma_points
 from heartfit.protocol import run_beat
 
 record(snakemake.log[0])
-reference = read_mesh(Path(snakemake.input.reference))
+mesh = read_mesh(Path(snakemake.input.mesh))
 _, points = read_sigma_points(Path(snakemake.input.points))
 parameters = points[int(snakemake.wildcards.point)].parameters
 given = snakemake.params
-beat = run_beat(reference, given.setting, given.case.period, parameters, given.scheme)
+beat = run_beat(mesh, given.setting, given.case.period, parameters, given.pressures, given.scheme)
 write_beat(Path(snakemake.output.beat), beat, given.code)
