@@ -1,0 +1,71 @@
+"""The console command: exit codes, one line for bad input, and what it says of a beat."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from heartfit import cli
+from heartfit.beat import Beat, failed_beat
+from heartfit.console import Progress, beat_summary
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture(autouse=True)
+def in_the_project(monkeypatch):
+    monkeypatch.chdir(ROOT)
+
+
+def test_pages_are_printed(capsys):
+    assert cli.main(["parameters"]) == 0
+    assert "sigma_0" in capsys.readouterr().out
+    assert cli.main(["configuration-schema"]) == 0
+    assert capsys.readouterr().out.startswith("{")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["check", "--config", "nowhere.yaml"], "nowhere.yaml: no such file"),
+        (["simulate", "nowhere.vtu"], "nowhere.vtu: missing"),
+        (["simulate", "x.vtu", "--setting", "fysical"], "known are paper, physical"),
+        (["simulate", "x.vtu", "--set", "sigma0=1"], "nearest are"),
+        (["simulate", "x.vtu", "--set", "sigma_0"], "expected NAME=VALUE"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(arguments, expected, capsys):
+    assert cli.main(arguments) == 2
+    message = capsys.readouterr().err
+    assert message.startswith("heartfit: ")
+    assert expected in message
+    assert message.count("\n") == 1
+
+
+def test_check_says_what_is_left_out(tmp_path, capsys):
+    (tmp_path / "no_heart.yaml").write_text(f"measured_heart: ['{tmp_path}/nowhere']\n")
+    assert cli.main(["check", "--config", "config/config.yaml", str(tmp_path / "no_heart.yaml")]) == 0
+    assert "patient1 left out" in capsys.readouterr().out
+
+
+def test_a_beat_is_summed_up_in_clinical_units():
+    time = np.linspace(0.0, 1.0, 101)
+    volume = 1e-4 + 5e-5 * np.cos(2 * np.pi * time)
+    same = dict.fromkeys(("lv", "rv", "aorta", "pulmonary_artery"), np.full(101, 12e3))
+    seen = {"beats": 2.0, "cpu_s": 3.0, "drift": 0.01, "wall_volume_loss": 0.02}
+    lines = beat_summary(Beat(time, {"lv": volume, "rv": volume}, same, {}, 1.0, 0.0, diagnostics=seen))
+    assert "2 beats, 1.50 CPU s a beat, drift 1.00 %, wall volume loss 2.00 %" in lines[0]
+    assert "LV: EDV 150.0 mL, ESV 50.0 mL, EF 66.7 %, peak 12.00 kPa" in lines[1]
+
+
+def test_a_failed_beat_says_why():
+    assert beat_summary(failed_beat("beat 1: inverted", 0.8, 0.1, {})) == ["failed: beat 1: inverted"]
+
+
+def test_progress_estimates_the_rest(monkeypatch, capsys):
+    clock = iter([0.0, 0.5, 10.0])
+    monkeypatch.setattr("heartfit.console.time.monotonic", lambda: next(clock))
+    progress = Progress()
+    progress(0.01)
+    progress(0.25)
+    assert capsys.readouterr().err == " 25 % of the most beats allowed, 30 s left or less\n"

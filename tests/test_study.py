@@ -1,0 +1,59 @@
+"""The set-up script: what it refuses and what it adds to Snakemake's lines."""
+
+import subprocess
+import sys
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture
+def study():
+    spec = spec_from_file_location("study", ROOT / "study.py")
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_it_rests_on_the_standard_library_alone():
+    check = "import runpy, sys; sys.argv = ['study.py']; runpy.run_path('study.py', run_name='imported')"
+    run = subprocess.run([sys.executable, "-I", "-S", "-c", check], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+
+
+def test_an_unknown_command_names_the_known_ones():
+    run = subprocess.run([sys.executable, "study.py", "tset"], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 2
+    assert "no command 'tset'; known are run, test, lint, lock" in run.stderr
+
+
+def test_the_time_that_remains_is_added_to_the_count_of_steps(study):
+    assert study.remaining("20 of 80 steps (25%) done", 120.0) == ", 2.0 min so far, about 6.0 min left"
+    assert study.remaining("rule all:", 120.0) == ""
+
+
+def test_nothing_is_set_up_twice(study, tmp_path, monkeypatch):
+    monkeypatch.setattr(study, "STAMP", tmp_path / "stamp")
+    monkeypatch.setattr(study, "create_environment", lambda: ["pip"])
+    calls = []
+    monkeypatch.setattr(study.subprocess, "run", lambda command, check: calls.append(command))
+    study.set_up()
+    assert len(calls) == 2
+    study.set_up()
+    assert len(calls) == 2
+    monkeypatch.setattr(study, "LOCK", ROOT / "LICENSE")
+    study.set_up()
+    assert len(calls) == 4
+
+
+def test_a_python_without_ensurepip_and_pip_is_told_what_to_do(study, monkeypatch):
+    monkeypatch.setattr(study.importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(SystemExit, match="neither ensurepip nor pip"):
+        study.create_environment()
+
+
+def test_the_lock_names_no_address():
+    assert "://" not in (ROOT / "requirements.lock").read_text()
