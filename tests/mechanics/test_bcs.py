@@ -1,0 +1,161 @@
+"""The fibre law against the closed forms of its equations, its energy balance and its own tangent."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.mechanics.active.bcs import BRIDGE_FLOOR, BestelClementSorine, Drive, tension
+from tests.shrinking import assert_derivative
+
+LAW = BestelClementSorine()
+ONE = np.ones(1)
+
+
+def drive(attach: float, detach: float, dt: float, n_0: float = 0.8) -> Drive:
+    return Drive((attach + detach) * ONE, attach * ONE, n_0 * ONE, dt)
+
+
+def held(state: np.ndarray, step: Drive, duration: float) -> np.ndarray:
+    """State after ``duration`` at constant length of the sarcomere."""
+    for _ in range(round(duration / step.dt)):
+        state = LAW.advance(step, state, np.zeros(1))
+    return state
+
+
+def orders(errors: list[float]) -> np.ndarray:
+    """Observed orders of errors whose step is halved each time."""
+    return np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+
+
+def random_steps(count: int, seed: int) -> tuple[Drive, np.ndarray, np.ndarray, np.ndarray]:
+    """Drives, old and new strains and states of ``count`` fibres: shortening and stretched, slack and tense."""
+    rng = np.random.default_rng(seed)
+    active = rng.random(count) < 0.5
+    attach = np.where(active, rng.uniform(1.0, 30.0, count), 0.0)
+    rate = attach + np.where(active, 0.0, rng.uniform(1.0, 30.0, count))
+    e_c = rng.uniform(-0.2, 0.3, count)
+    k_c = 10 ** rng.uniform(0.0, 5.5, count)
+    state = np.array([e_c, k_c, rng.uniform(0.0, 1.0, count) * np.sqrt(k_c)])
+    e_old = e_c + rng.uniform(-2e-3, 4e-3, count)
+    e_new = e_old + rng.choice([-1.0, 1.0], count) * rng.uniform(5e-4, 3e-2, count)
+    dt = 10 ** rng.uniform(-4.0, -1.5)
+    return Drive(rate, attach, rng.uniform(0.0, 1.0, count), dt), e_old, e_new, state
+
+
+def respond(
+    law: BestelClementSorine, step: Drive, e_old: np.ndarray, e_new: np.ndarray, state: np.ndarray
+) -> np.ndarray:
+    out = np.empty((3, e_old.size))
+    law.respond(step, e_old, e_new, state, out)
+    return out
+
+
+def test_isometric_tension_rises_to_the_available_contractility() -> None:
+    exact = 0.8 * LAW.sigma_0 * (1.0 - np.exp(-6.0 * 0.2))
+    errors = [
+        abs(tension(held(LAW.rest(1), drive(6.0, 0.0, dt), 0.2))[0] - exact) for dt in (4e-3, 2e-3, 1e-3)
+    ]
+    assert (orders(errors) > 0.9).all()
+    assert errors[-1] < 0.01 * exact
+
+
+def test_isometric_tension_decays_with_the_rate_of_relaxation() -> None:
+    tense = held(LAW.rest(1), drive(6.0, 0.0, 1e-3), 0.3)
+    exact = tension(tense)[0] * np.exp(-14.0 * 0.1)
+    errors = [abs(tension(held(tense, drive(0.0, 14.0, dt), 0.1))[0] - exact) for dt in (4e-3, 2e-3, 1e-3)]
+    assert (orders(errors) > 0.9).all()
+    assert errors[-1] < 0.01 * exact
+
+
+@pytest.mark.parametrize("velocity", [0.3, 1.0, 3.0])
+@pytest.mark.parametrize("dt", [1e-3, 2e-2])
+def test_steady_shortening_follows_the_force_velocity_relation(velocity: float, dt: float) -> None:
+    """The scheme holds the steady state of the equations exactly, with any step."""
+    u, n_0 = 10.0, 0.7
+    state, step = LAW.rest(1), drive(u, 0.0, dt, n_0)
+    for _ in range(4000):
+        state = LAW.advance(step, state, np.array([-velocity * dt]))
+    turnover = u + LAW.alpha * velocity
+    k_c = n_0 * LAW.k_0 * u / turnover
+    assert state[1, 0] == pytest.approx(k_c, rel=1e-9)
+    assert tension(state)[0] == pytest.approx((n_0 * LAW.sigma_0 * u - velocity * k_c) / turnover, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_every_step_balances_its_energy(seed: int) -> None:
+    """Spring and bridges store what work and attachment bring and friction and detachment do not take."""
+    step, e_old, e_new, state = random_steps(2000, seed)
+    stress, _, d = respond(LAW, step, e_old, e_new, state)
+    new = LAW.advance(step, state, d)
+
+    def energy(e: np.ndarray, fibres: np.ndarray) -> np.ndarray:
+        spring = (e - fibres[0]) / (1.0 + 2.0 * fibres[0])
+        return 0.5 * LAW.E_s * spring**2 + 0.5 * fibres[2] ** 2
+
+    mean, attached = 0.5 * (state[2] + new[2]), step.dt * step.n_0 * step.attach
+    detached = 0.5 * (step.dt * step.rate + LAW.alpha * abs(d)) + 0.5 * attached * LAW.k_0 / new[1]
+    terms = np.array(
+        [
+            energy(e_old, state) - energy(e_new, new),
+            stress * (e_new - e_old),
+            -LAW.mu * d * d / step.dt,
+            -detached * mean**2,
+            attached * LAW.sigma_0 / np.sqrt(new[1]) * mean,
+        ]
+    )
+    regular = abs(d) < 0.099  # beyond, the increment was cut off
+    assert regular.mean() > 0.99
+    assert (abs(terms.sum(axis=0)) <= 1e-9 * abs(terms).sum(axis=0))[regular].all()
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_tangent_is_the_derivative_of_the_stress(seed: int) -> None:
+    step, e_old, e_new, state = random_steps(400, seed)
+    _, slope, d = respond(LAW, step, e_old, e_new, state)
+    smooth = (abs(d) > 2e-4) & (abs(d) < 0.09) & (LAW.advance(step, state, d)[1] > 1.5 * BRIDGE_FLOOR)
+    assert (d[smooth] > 0).any()
+    assert (d[smooth] < 0).any()
+    direction = np.where(smooth, 1e-4, 0.0)
+    for i in np.flatnonzero(smooth):
+        one = Drive(step.rate[i : i + 1], step.attach[i : i + 1], step.n_0[i : i + 1], step.dt)
+
+        def stress(e: np.ndarray, i: int = i, one: Drive = one) -> np.ndarray:
+            return respond(LAW, one, e_old[i : i + 1], e, state[:, i : i + 1])[0]
+
+        assert_derivative(stress, slope[i : i + 1] * 1e-4, e_new[i : i + 1], direction[i : i + 1])
+
+
+def test_a_stiff_spring_hands_the_strain_to_the_sarcomere() -> None:
+    """What the spring keeps of the strain vanishes as 1/E_s."""
+    step, _, e_new, state = random_steps(200, seed=7)
+    e_old = state[0]
+    e_new = e_old + 0.1 * (e_new - e_old)
+
+    def kept(E_s: float) -> float:
+        return float(abs(e_new - e_old - respond(replace(LAW, E_s=E_s), step, e_old, e_new, state)[2]).max())
+
+    assert kept(1e11) / kept(1e10) == pytest.approx(0.1, rel=0.02)
+    assert kept(1e11) < 0.01 * abs(e_new - e_old).max()
+
+
+def test_an_endless_step_leaves_relaxed_fibres_without_stress() -> None:
+    _, e_old, e_new, state = random_steps(50, seed=1)
+    none = np.zeros(50)
+    endless = Drive(none, none, none, np.inf)
+    stress, slope, d = respond(LAW, endless, e_old, e_new, state)
+    assert not stress.any()
+    assert not slope.any()
+    assert LAW.advance(endless, state, d) == pytest.approx(np.vstack([e_new, LAW.rest(50)[1:]]))
+
+
+def test_bridges_never_lose_their_stiffness() -> None:
+    rng = np.random.default_rng(3)
+    state, strain = LAW.rest(100), np.zeros(100)
+    for n in range(300):
+        following = strain + rng.uniform(-0.02, 0.02, 100)
+        step = random_steps(100, n)[0]
+        d = respond(LAW, step, strain, following, state)[2]
+        state, strain = LAW.advance(step, state, d), following
+        assert (state[1] >= BRIDGE_FLOOR).all()
+        assert np.isfinite(state).all()
