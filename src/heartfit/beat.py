@@ -16,8 +16,8 @@ class Beat:
 
     ``time`` (t,); ``volume`` of "lv", "rv"; ``pressure`` of every compartment; ``flow`` through every branch;
     ``trigger`` is the simulated time of the measured frame 0. ``status`` is "completed" or "failed" with a
-    ``reason``; ``diagnostics`` tells beats, drift, cost and what happened to the wall. ``positions`` (t, n, 3) are
-    the nodes at every time, when they were asked for.
+    ``reason``; ``diagnostics`` tells beats, drift, cost and what happened to the wall. ``positions`` (t, n, 3)
+    are the nodes at every time, when they were asked for.
     """
 
     time: Floats

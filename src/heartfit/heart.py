@@ -45,7 +45,7 @@ class Heart:
     def with_parameters(self, values: Mapping[str, float]) -> "Heart":
         """A heart in which some parameters have other values.
 
-        A name is a dotted path ("circulation.pulmonary_tree.R_p") or its end, where that is unique or belongs to
+        A name is a dotted path ("circulation.pulmonary_tree.R_p") or its end, where that is unique or one of
         the paper's fourteen (R_p, tau, Z_c and L then mean the systemic circulation). Raises ``KeyError``
         for an unknown or ambiguous name, naming the nearest known ones.
         """

@@ -16,7 +16,7 @@ from heartfit.parameter import Parameter, parameters_of
 COMPARTMENTS = ("lv", "rv", "aorta", "pulmonary_artery", "left_atrium", "right_atrium")
 
 
-class Mechanism(ABC):
+class Mechanism(ABC):  # noqa: B024
     """What every mechanism offers, whatever its role."""
 
     @classmethod

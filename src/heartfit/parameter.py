@@ -1,7 +1,7 @@
 """Declare a physical parameter once, as a field of the part it belongs to.
 
-A part is a frozen dataclass; each of its parameters is declared with value, unit, symbol, meaning and, if it
-may be calibrated, the relative standard deviation of its prior. Tables, schema and documentation are read
+A part is a frozen dataclass; each of its parameters is declared with value, unit, symbol, meaning and, if
+it may be calibrated, the relative standard deviation of its prior. Tables, schema and documentation are read
 from these declarations.
 """
 
@@ -47,7 +47,7 @@ def parameters_of(part: Any) -> Iterator[Parameter]:
     """The parameters that a part (class or instance) declares, with the values the instance holds."""
     for entry in fields(part):
         if "parameter" in entry.metadata:
-            value = entry.default if isinstance(part, type) else getattr(part, entry.name)
+            value: Any = entry.default if isinstance(part, type) else getattr(part, entry.name)
             yield Parameter(name=entry.name, value=value, **entry.metadata["parameter"])
 
 

@@ -3,7 +3,6 @@
 import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
@@ -17,8 +16,8 @@ from heartfit.mechanics.statics import inflate
 from heartfit.mechanism import COMPARTMENTS
 
 SHIFT = 0.62
-"""Part of the periodic pressure shift that is taken: a higher pressure lowers the stroke volume, which undoes the
-rest of it (the feedback on the measured heart is -0.6)."""
+"""Part of the periodic pressure shift that is taken: a higher pressure lowers the stroke volume, which undoes
+the rest of it (the feedback on the measured heart is -0.6)."""
 
 Progress = Callable[[float], None]
 
@@ -44,9 +43,9 @@ def simulate(
 ) -> Beat:
     """Beat of ``heart`` with the ventricles ``body`` on its limit cycle.
 
-    Between beats the pressures of the Windkessels, whose memory of tau is longer than a beat, are shifted to where
-    the stroke volume of the last beat would hold them; the beat that is returned starts from no shift of
-    its own making: its drift is measured and stated.
+    Between beats the pressures of the Windkessels, whose memory of tau is longer than a beat, are shifted
+    towards where the stroke volume of the last beat would hold them. A beat counts as periodic by its own
+    drift, from start to end, which is stated.
     ``progress`` is called with the fraction done of ``max_beats`` after every time step.
     """
     run = _Run(heart, body, numerics or Numerics(), progress)
@@ -56,12 +55,16 @@ def simulate(
         return failed_beat(f"beat {run.beats + 1}: {failure}", heart.period, heart.trigger, run.diagnostics())
 
 
+def _silence(_: float) -> None:
+    """Progress that nobody watches."""
+
+
 class _Run:
     def __init__(self, heart: Heart, body: Body, numerics: Numerics, progress: Progress | None) -> None:
         self.heart, self.body, self.numerics = heart, body, numerics
         self.coupling = Coupling(body, heart.circulation, heart.mechanisms, numerics.tolerances)
         self.steps = round(heart.period / numerics.time_step)
-        self.progress = progress or (lambda fraction: None)
+        self.progress = progress or _silence
         self.beats, self.cuts, self.drift = 0, 0, np.inf
         self._started = clock.process_time()
 
@@ -111,7 +114,7 @@ class _Run:
         return replace(last, trees=trees)  # type: ignore[arg-type]
 
     def _beat(self, history: list[HeartState]) -> Beat:
-        time = np.arange(self.steps + 1) * self.dt
+        time: Floats = np.arange(self.steps + 1) * self.dt
         volumes = np.array([state.volumes for state in history])
         pressure, flow = self._signals(time, history)
         return Beat(

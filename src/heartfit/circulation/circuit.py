@@ -4,9 +4,9 @@ Unknown are the pressures p of both ventricles and both arteries:
 
 .. math:: v + G (p_v - p_v^0) + \Delta t\, q_v(p) = 0, \qquad p_a - a + b\, q_a(p) = 0,
 
-with v the change of the ventricular volumes since the start of the step at :math:`p^0`, G their compliance, q the
-net outflow of the compartments and (a, b) the Windkessels. The equations are monotone but kinked by the valves:
-Newton's method with a line search.
+with v the change of the ventricular volumes since the start of the step at :math:`p^0`, G their compliance,
+q the net outflow of the compartments and (a, b) the Windkessels. The equations are monotone but kinked by the
+valves: Newton's method with a line search.
 """
 
 from dataclasses import dataclass
@@ -48,6 +48,10 @@ class Circuit:
                     break
             p, residual = trial, following
         return p
+
+    def gaps(self, p: Floats) -> Floats:
+        """Residual (4,) at the pressures p: m^3 for the ventricles, Pa for the arteries."""
+        return self._equations(p)[0] * SCALE
 
     def _equations(self, p: Floats) -> tuple[Floats, Floats]:
         out, slope = self.network.outflow(p)

@@ -5,9 +5,9 @@ Unknowns are the body's x and the pressures of ventricles and arteries. Newton's
 .. math:: f(x) - \sum_c P_c \nabla V_c(x) = 0, \quad V_c(x) - V_c^n + \Delta t \sum q = 0, \quad
           P_a = a + b \sum q
 
-with a factorisation of :math:`\partial f/\partial x` that is kept over many steps. In every iteration the body
-is condensed to its compliance :math:`\nabla V^T K^{-1} \nabla V`, and the small circuit is solved to the end,
-so that the kinks of the valves never reach the large system.
+with a factorisation of :math:`\partial f/\partial x` that is kept over many steps. In every iteration the
+body is condensed to its compliance :math:`\nabla V^T K^{-1} \nabla V`, and the small circuit is solved to the
+end, so that the kinks of the valves never reach the large system.
 """
 
 from collections.abc import Sequence
@@ -24,9 +24,11 @@ from heartfit.mechanics.acceleration import Anderson
 from heartfit.mechanics.body import StepFailed
 from heartfit.mechanism import Mechanism
 
-
 EXTRAPOLATION: tuple[tuple[float, ...], ...] = ((), (1.0,), (2.0, -1.0))
 """Weights of the known velocities in the predicted one."""
+
+HALVINGS = 6
+"""How often a Newton step may be halved before the time step is given up."""
 
 PRESSURE_WEIGHT = 1e-4
 """Weight of a cavity pressure, 1/Pa, beside the body's weights in the mixing of changes."""
@@ -48,6 +50,7 @@ class Tolerances:
 
     force: float = 5e-3  # N
     volume: float = 1e-10  # m^3
+    pressure: float = 1.0  # Pa, of the arteries
     iterations: int = 25
     contraction: float = 0.6
 
@@ -61,6 +64,75 @@ class HeartState:
     volumes: Floats
     trees: tuple[WindkesselState, WindkesselState]
     trend: tuple[Floats, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Iterate:
+    """A trial state: unknowns, their forces (N,), pressures (4,), volumes (2,) and their gradients (N, 2)."""
+
+    x: Floats
+    forces: Floats
+    pressures: Floats
+    volumes: Floats
+    gradients: Floats
+
+    @property
+    def residual(self) -> Floats:
+        """Imbalance (N,) of wall and cavity pressures."""
+        result: Floats = self.forces - self.gradients @ self.pressures[:2]
+        return result
+
+
+class CoupledStep:
+    """The equations of one step of wall and circuit."""
+
+    def __init__(self, body: Body, step: Any, network: NetworkStep, state: HeartState) -> None:
+        self._body, self.step, self._network, self._state = body, step, network, state
+        self._windkessels = network.windkessels(state.trees)
+
+    def predict(self) -> Iterate:
+        """First guess by extrapolation; the old state where that is not admissible."""
+        state, dt = self._state, self._network.dt
+        known = zip(EXTRAPOLATION[len(state.trend)], state.trend, strict=True)
+        velocity = sum((weight * past for weight, past in known), np.zeros_like(state.body.x))
+        try:
+            return self._at(state.body.x + dt * velocity, state.pressures)
+        except StepFailed:
+            return self._at(state.body.x, state.pressures)
+
+    def _at(self, x: Floats, pressures: Floats) -> Iterate:
+        forces = self.step.forces(x)
+        return Iterate(x, forces, pressures, self._body.volumes(x), self._body.volume_gradients(x))
+
+    def gaps(self, now: Iterate) -> Floats:
+        """What is missing in the balances of the ventricles, m^3, and of the arteries, Pa; (4,)."""
+        return self._circuit(now, np.zeros_like(now.residual), np.zeros_like(now.gradients)).gaps(
+            now.pressures
+        )
+
+    def pressures(self, now: Iterate, change: Floats, response: Floats) -> Floats:
+        """Pressures that balance the circuit, the body being linear about ``now`` plus ``change``."""
+        return self._circuit(now, change, response).solve()
+
+    def _circuit(self, now: Iterate, change: Floats, response: Floats) -> Circuit:
+        volumes = now.volumes + now.gradients.T @ change - self._state.volumes
+        compliance = now.gradients.T @ response
+        return Circuit(self._network, self._windkessels, volumes, compliance, now.pressures)
+
+    def move(self, now: Iterate, change: Floats, pressures: Floats) -> Iterate:
+        """The iterate after ``change``, which is halved until no element collapses."""
+        for halving in range(HALVINGS):
+            try:
+                return self._at(now.x + 0.5**halving * change.reshape(now.x.shape), pressures)
+            except StepFailed:
+                continue
+        raise StepFailed("no admissible Newton step: elements collapse")
+
+    def commit(self, now: Iterate) -> HeartState:
+        """State at the end of the step; the Windkessels take the very blood that left the ventricles."""
+        trees = self._network.advance(self._state.trees, now.pressures)
+        trend = ((now.x - self._state.body.x) / self._network.dt, *self._state.trend[:1])
+        return HeartState(self.step.commit(now.x), now.pressures, now.volumes, trees, trend)
 
 
 class Coupling:
@@ -82,91 +154,37 @@ class Coupling:
         network = NetworkStep(self.circulation, self.mechanisms, start + dt, dt, period)
         if dt != self._dt:
             self._factor, self._dt = None, dt
-        x, pressures = self._newton(step, network, state)
-        return self._commit(step, network, state, x, pressures)
+        coupled = CoupledStep(self.body, step, network, state)
+        return coupled.commit(self._newton(coupled))
 
-    def _newton(self, step: Any, network: NetworkStep, state: HeartState) -> tuple[Floats, Floats]:
-        x, forces = self._predict(step, state, network.dt)
-        pressures, previous, fresh = state.pressures.copy(), np.inf, False
-        anderson = Anderson(np.concatenate([step.weights(x).ravel(), np.full(4, PRESSURE_WEIGHT)]))
+    def _newton(self, coupled: CoupledStep) -> Iterate:
+        now, previous, fresh = coupled.predict(), np.inf, False
+        anderson = Anderson(np.append(coupled.step.weights(now.x), np.full(4, PRESSURE_WEIGHT)))
         for _ in range(self.tolerances.iterations):
-            gradients = self.body.volume_gradients(x)
-            residual = forces - gradients @ pressures[:2]
-            size, gap = step.size(residual), self._volume_gap(x, pressures, network, state)
-            if size < self.tolerances.force and gap < self.tolerances.volume:
-                return x, pressures
-            fresh = self._factor is None or (not fresh and size > self.tolerances.contraction * previous)
+            size = coupled.step.size(now.residual)
+            if size < self.tolerances.force and self._balanced(coupled.gaps(now)):
+                return now
+            stale = not fresh and size > self.tolerances.contraction * previous
+            fresh, previous = self._factor is None or stale, size
             if fresh:
-                self._renew(step, x, gradients)
+                self._renew(coupled.step, now)
                 anderson.forget()
-            previous = size
-            change = -self._factor.solve(residual)
-            new = self._solve_circuit(x, change, gradients, pressures, network, state)
-            change += self._response @ (new - pressures)[:2]
-            z, proposed = np.concatenate([x.ravel(), pressures]), np.concatenate([change, new - pressures])
-            mixed = anderson.mix(z, proposed)
-            x, forces = self._move(step, x, mixed[:-4].reshape(x.shape))
-            pressures = pressures + mixed[-4:]
+            now = self._iterate(coupled, now, anderson)
             self.iterations += 1
         raise StepFailed(f"no equilibrium in {self.tolerances.iterations} iterations, residual {size:.3g} N")
 
-    @staticmethod
-    def _predict(step: Any, state: HeartState, dt: float) -> tuple[Floats, Floats]:
-        """First guess by extrapolation, with its forces; the old state where that is not admissible."""
-        x: Floats = state.body.x
-        velocity = sum(
-            (c * v for c, v in zip(EXTRAPOLATION[len(state.trend)], state.trend, strict=True)), 0.0 * x
-        )
-        try:
-            return x + dt * velocity, step.forces(x + dt * velocity)
-        except StepFailed:
-            return x.copy(), step.forces(x)
+    def _balanced(self, gaps: Floats) -> bool:
+        volume, pressure = np.abs(gaps[:2]).max(), np.abs(gaps[2:]).max()
+        return bool(volume < self.tolerances.volume and pressure < self.tolerances.pressure)
 
-    def _renew(self, step: Any, x: Floats, gradients: Floats) -> None:
-        self._factor = step.tangent(x)
-        self._response = self._factor.solve(gradients)
+    def _renew(self, step: Any, now: Iterate) -> None:
+        self._factor = step.tangent(now.x)
+        self._response = self._factor.solve(now.gradients)
         self.factorisations += 1
 
-    def _volume_gap(self, x: Floats, pressures: Floats, network: NetworkStep, state: HeartState) -> float:
-        out, _ = network.outflow(pressures)
-        return float(np.abs(self.body.volumes(x) - state.volumes + network.dt * out[:2]).max())
-
-    def _solve_circuit(
-        self,
-        x: Floats,
-        change: Floats,
-        gradients: Floats,
-        pressures: Floats,
-        network: NetworkStep,
-        state: HeartState,
-    ) -> Floats:
-        """Pressures that balance the circuit, the body being linear about x + change."""
-        volumes = self.body.volumes(x) + gradients.T @ change - state.volumes
-        windkessels = self._affine(state, network.dt)
-        return Circuit(network, windkessels, volumes, gradients.T @ self._response, pressures).solve()
-
-    def _affine(self, state: HeartState, dt: float) -> Floats:
-        """Rows (a, b) of the two Windkessels."""
-        trees = zip(self.circulation.trees(), state.trees, strict=True)
-        return np.array([tree.affine(held, dt) for tree, held in trees])
-
-    @staticmethod
-    def _move(step: Any, x: Floats, change: Floats) -> tuple[Floats, Floats]:
-        """x + change and its forces, the change halved until no element collapses."""
-        for _ in range(6):
-            try:
-                return x + change, step.forces(x + change)
-            except StepFailed:
-                change = 0.5 * change
-        raise StepFailed("no admissible Newton step: elements collapse")
-
-    def _commit(
-        self, step: Any, network: NetworkStep, state: HeartState, x: Floats, pressures: Floats
-    ) -> HeartState:
-        out, _ = network.outflow(pressures)
-        trees = tuple(
-            tree.advance(held, -inflow, network.dt)
-            for tree, held, inflow in zip(self.circulation.trees(), state.trees, out[2:], strict=True)
-        )
-        trend = ((x - state.body.x) / network.dt, *state.trend[:1])
-        return HeartState(step.commit(x), pressures, self.body.volumes(x), trees, trend)  # type: ignore[arg-type]
+    def _iterate(self, coupled: CoupledStep, now: Iterate, anderson: Anderson) -> Iterate:
+        change = -self._factor.solve(now.residual)
+        pressures = coupled.pressures(now, change, self._response)
+        change += self._response @ (pressures - now.pressures)[:2]
+        mixed = anderson.mix(np.append(now.x, now.pressures), np.append(change, pressures - now.pressures))
+        return coupled.move(now, mixed[:-4], now.pressures + mixed[-4:])

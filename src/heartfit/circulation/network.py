@@ -19,6 +19,7 @@ from heartfit.parameter import parameter
 UNKNOWN = COMPARTMENTS[:4]
 """Compartments whose pressure is solved for: both ventricles, then both arteries."""
 
+ATRIOVENTRICULAR, ARTERIAL = LinearValve(open=4e-6), LinearValve(open=5e-6)
 ATRIA = COMPARTMENTS[4:]
 VALVES = {
     "mitral": ("left_atrium", "lv"),
@@ -34,10 +35,10 @@ class Circulation:
 
     systemic: Windkessel = field(default_factory=Windkessel)
     pulmonary_tree: Windkessel = PULMONARY
-    mitral: Valve = LinearValve(open=4e-6)
-    aortic: Valve = LinearValve(open=5e-6)
-    tricuspid: Valve = LinearValve(open=4e-6)
-    pulmonary: Valve = LinearValve(open=5e-6)
+    mitral: Valve = ATRIOVENTRICULAR
+    aortic: Valve = ARTERIAL
+    tricuspid: Valve = ATRIOVENTRICULAR
+    pulmonary: Valve = ARTERIAL
     left_atrium: float = parameter(600.0, unit="Pa", symbol="P_{LA}", meaning="left atrial pressure at rest")
     right_atrium: float = parameter(
         200.0, unit="Pa", symbol="P_{RA}", meaning="right atrial pressure at rest"
@@ -100,3 +101,16 @@ class NetworkStep:
             slope[j, j] += dq
             slope[j, i] -= dq
         return out[:4], slope[:4, :4]
+
+    def windkessels(self, trees: Sequence[WindkesselState]) -> Floats:
+        """Rows (a, b) of the arterial pressures a + b q at the end of the step, aorta first."""
+        sides = zip(self._circulation.trees(), trees, strict=True)
+        return np.array([tree.affine(held, self.dt) for tree, held in sides])
+
+    def advance(
+        self, trees: Sequence[WindkesselState], pressures: Floats
+    ) -> tuple[WindkesselState, WindkesselState]:
+        """States of the Windkessels at the end of the step, given the pressures there."""
+        out, _ = self.outflow(pressures)
+        systemic, pulmonary = self._circulation.trees()
+        return systemic.advance(trees[0], -out[2], self.dt), pulmonary.advance(trees[1], -out[3], self.dt)

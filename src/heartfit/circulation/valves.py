@@ -1,7 +1,7 @@
 r"""Valve laws: flow through a valve as a function of the pressure drop across it.
 
-A law maps the drop :math:`\Delta p` to :math:`(q, dq/d\Delta p)`; it increases with the drop, so that each time
-step of the circuit has one solution.
+A law maps the drop :math:`\Delta p` to :math:`(q, dq/d\Delta p)`; it increases with the drop, so that each
+time step of the circuit has one solution.
 """
 
 from dataclasses import dataclass

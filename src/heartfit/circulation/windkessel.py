@@ -3,8 +3,8 @@ r"""Four-element Windkessel: inertance parallel to the characteristic resistance
 .. math:: C \dot P_c = q - \frac{P_c - P_{ve}}{R_p}, \quad L \dot q_L = Z_c (q - q_L), \quad
           P_{ar} = P_c + Z_c (q - q_L), \quad C = \tau / R_p
 
-Backward Euler over a step, with :math:`\theta = \Delta t\, Z_c / L`, leaves the arterial pressure affine in the
-inflow: :math:`P_{ar} = a + b q`.
+Backward Euler over a step, with :math:`\theta = \Delta t\, Z_c / L`, leaves the arterial pressure affine in
+the inflow: :math:`P_{ar} = a + b q`.
 Source: Stergiopulos, Westerhof and Westerhof, Am. J. Physiol. 276 (1999) H81.
 """
 

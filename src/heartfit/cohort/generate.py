@@ -21,7 +21,7 @@ from heartfit.simulation import Numerics, simulate
 
 @dataclass(frozen=True)
 class Protocol:
-    """How volunteers are made: mesh size and tolerance, m, numerics, frames, noise, m, pressures (lv, rv), Pa."""
+    """How volunteers are made: mesh size, tolerance and noise, m; numerics; pressures (lv, rv), Pa; frames."""
 
     edge_length: float
     tolerance: float
@@ -40,7 +40,7 @@ class Volunteer:
     truth: dict[str, float]
 
 
-class VolunteerDied(RuntimeError):
+class VolunteerError(RuntimeError):
     """The hidden heart did not beat: choose another seed or shape."""
 
 
@@ -55,14 +55,14 @@ def generate(
     body = FiniteElementBody(reference, heart.tissue)
     beat = simulate(heart, body, replace(protocol.numerics, keep_positions=True))
     if not beat.completed:
-        raise VolunteerDied(f"volunteer of seed {seed}: {beat.reason}; choose another seed or shape")
+        raise VolunteerError(f"volunteer of seed {seed}: {beat.reason}; choose another seed or shape")
     motion = acquire(beat, protocol.frames, protocol.noise, np.random.default_rng(seed))
     return Volunteer(bare.with_points(motion.positions[0]), motion, truth)
 
 
 def acquire(beat: Beat, frames: int, noise: float, rng: np.random.Generator) -> Motion:
     """The wall at equidistant times from the trigger, with a dilation and a shift of size ``noise`` per frame."""
-    times = np.arange(frames) * (beat.period / frames)
+    times: Floats = np.arange(frames) * (beat.period / frames)
     clean = np.array([_at(beat, (time + beat.trigger) % beat.period) for time in times])
     centre = clean.mean(axis=1, keepdims=True)
     radius = float(np.sqrt(((clean - centre) ** 2).sum(axis=2).mean()))

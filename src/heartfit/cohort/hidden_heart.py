@@ -1,7 +1,7 @@
 """The hidden heart of a virtual volunteer.
 
-It differs from the calibrator's model on purpose, as a real heart does: valves obey Bernoulli's law instead of a
-conductance, the number of bridges depends on length, the trigger comes earlier, and parameters that nobody
+It differs from the calibrator's model on purpose, as a real heart does: valves obey Bernoulli's law instead
+of a conductance, the number of bridges depends on length, the trigger comes earlier, and parameters that nobody
 estimates are not at their standard values either.
 """
 

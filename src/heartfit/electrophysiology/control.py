@@ -2,8 +2,8 @@ r"""The electrical control u(t) of the contraction.
 
 .. math:: u(X, t) = +k_{ATP} \text{ for } T_d(X) \le t - t_0 < T_d(X) + APD, \quad -k_{RS} \text{ otherwise}
 
-periodic with the heart period. A step of the time scheme uses the exact mean of |u| and |u|_+ over the step, so
-that the sum over a mesh does not depend on how T_d falls between the time levels.
+periodic with the heart period. A step of the time scheme uses the exact mean of |u| and |u|_+ over the step,
+so that the sum over a mesh does not depend on how T_d falls between the time levels.
 Source: Marchesseau et al., MICCAI 2012, section 2.
 """
 

@@ -50,7 +50,7 @@ def add_nodal_forces(
 
 
 @njit(cache=True)
-def element_stiffness(
+def element_stiffness(  # noqa: C901
     F: Floats, S: Floats, D: Floats, gradients: Floats, volumes: Floats, dofs: int, out: Floats
 ) -> None:
     r"""Fill the displacement blocks of ``out`` (m, 4 dofs, 4 dofs) with material and geometric stiffness."""

@@ -1,7 +1,7 @@
 r"""The element slot: how a linear tetrahedron treats the change of volume.
 
-``P1`` takes the volumetric energy :math:`\tfrac K2 (J-1)^2` at face value; nearly incompressible, it locks, and
-K then acts as a stiffness of the whole wall. ``Mixed`` adds one pressure unknown per node,
+``P1`` takes the volumetric energy :math:`\tfrac K2 (J-1)^2` at face value; nearly incompressible, it locks,
+and K then acts as a stiffness of the whole wall. ``Mixed`` adds one pressure unknown per node,
 
 .. math:: \Pi = p (J - 1) - \frac{p^2}{2K} - \frac{\alpha}{2} (p - \bar p)^2 ,
 
@@ -44,7 +44,7 @@ class P1:
 
     dofs: int = 3
 
-    def pressure(self, x: Floats, tets: Integers, J: Floats, K: float) -> tuple[Floats, Floats]:
+    def pressure(self, x: Floats, tets: Integers, J: Floats, K: float) -> tuple[Floats, Floats]:  # noqa: ARG002
         return K * (J - 1.0), np.full_like(J, K)
 
     def add_forces(
@@ -62,7 +62,7 @@ class Mixed:
 
     dofs: int = 4
 
-    def pressure(self, x: Floats, tets: Integers, J: Floats, K: float) -> tuple[Floats, Floats]:
+    def pressure(self, x: Floats, tets: Integers, J: Floats, K: float) -> tuple[Floats, Floats]:  # noqa: ARG002
         return x[tets, 3].mean(axis=1), np.zeros_like(J)
 
     def add_forces(

@@ -6,8 +6,8 @@ engineering strains (shear doubled) to second Piola-Kirchhoff stresses. Arrays r
 
 import numpy as np
 from numba import njit
-from heartfit.geometry.arrays import Floats, Integers
 
+from heartfit.geometry.arrays import Floats, Integers
 
 ROW = np.array([0, 1, 2, 0, 0, 1])
 COLUMN = np.array([0, 1, 2, 1, 2, 2])

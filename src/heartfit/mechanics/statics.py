@@ -28,6 +28,6 @@ def _equilibrium(body: Any, state: Any, pressures: Floats) -> Any:
             return step.commit(x)
         x = x - step.tangent(x).solve(residual).reshape(x.shape)
     raise StepFailed(
-        f"no static equilibrium at {pressures[0]:.0f} / {pressures[1]:.0f} Pa, residual {step.size(residual):.3g} N: "
-        "the wall is too soft for this pressure or the supports are too weak"
+        f"no static equilibrium at {pressures[0]:.0f} / {pressures[1]:.0f} Pa, residual "
+        f"{step.size(residual):.3g} N: the wall is too soft for this pressure or the supports are too weak"
     )

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.arrays import Floats
+from heartfit.geometry.mesh import VentricularMesh
 from heartfit.parameter import parameter, require_admissible
 
 

@@ -77,7 +77,9 @@ class _Search:
             if step.size(residual) < 2.0 * size:
                 self._x = trial
                 return step, residual, halving > 0
-        raise StepFailed(f"no unloaded reference at {pressures[0]:.0f} / {pressures[1]:.0f} Pa: elements collapse")
+        raise StepFailed(
+            f"no unloaded reference at {pressures[0]:.0f} / {pressures[1]:.0f} Pa: elements collapse"
+        )
 
     def _residual(self, x: Floats, pressures: Floats) -> tuple[Step, Floats]:
         """Imbalance at the unknowns ``x``, whose displacements lead from the reference to the loaded mesh."""

@@ -12,7 +12,7 @@ in series with an elastic element, :math:`1 + 2 e_{1D} = (1 + 2 e_c)(1 + 2 e_s)`
 
 The update advances :math:`k_c` and :math:`\lambda_c = \tau_c/\sqrt{k_c}` and finds the increment
 :math:`d = e_c^{n+1} - e_c^n` from one scalar equation. The bridge energy is :math:`\lambda_c^2/2`, that of the
-spring :math:`E_s e_s^2/2`; both balance exactly in every step, of any length (:func:`energy_balance`).
+spring :math:`E_s e_s^2/2`; both balance exactly in every step, of any length.
 Sources: Marchesseau et al., MICCAI 2012, eq. (1); Chapelle et al., IJMCE 10 (2012) for the change of variable;
 the scheme of the kinetics is that of PhysioBlocks' cardiac model.
 """
@@ -22,8 +22,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numba import njit
 
-from heartfit.mechanics.active.starling import Starling
 from heartfit.geometry.arrays import Floats
+from heartfit.mechanics.active.starling import Starling
 from heartfit.parameter import parameter, require_admissible
 
 BRIDGE_FLOOR = 1.0
@@ -151,7 +151,7 @@ def _increment(rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam):  # 
         else:
             low = d
         following = d - value / slope if slope > 0.0 else 0.5 * (low + high)
-        if not low < following < high:
+        if not low <= following <= high:
             following = 0.5 * (low + high)
         change = abs(following - d)
         d = following
