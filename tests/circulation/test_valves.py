@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from tests.shrinking import assert_derivative
 
 from heartfit.circulation.valves import BLOOD_DENSITY, LinearValve, OrificeValve, Valve, orifice_flow
-from tests.shrinking import assert_derivative
 
 VALVES = [LinearValve(), OrificeValve()]
 valves = pytest.mark.parametrize("valve", VALVES, ids=lambda valve: type(valve).__name__)

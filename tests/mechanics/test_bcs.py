@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.shrinking import assert_derivative
 
 from heartfit.mechanics.active.bcs import BRIDGE_FLOOR, BestelClementSorine, Drive, tension
-from tests.shrinking import assert_derivative
 
 LAW = BestelClementSorine()
 ONE = np.ones(1)
@@ -29,7 +29,7 @@ def orders(errors: list[float]) -> np.ndarray:
 
 
 def random_steps(count: int, seed: int) -> tuple[Drive, np.ndarray, np.ndarray, np.ndarray]:
-    """Drives, old and new strains and states of ``count`` fibres: shortening and stretched, slack and tense."""
+    """Drives, old and new strains and states of fibres: shortening and stretched, slack and tense."""
     rng = np.random.default_rng(seed)
     active = rng.random(count) < 0.5
     attach = np.where(active, rng.uniform(1.0, 30.0, count), 0.0)

@@ -1,0 +1,50 @@
+"""What tests of more than one folder share."""
+
+import numpy as np
+import pytest
+
+from heartfit.electrophysiology.onset import assign_activation
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.geometry.mesher import fill_wall
+from heartfit.geometry.parametric import ParametricVentricles
+from heartfit.geometry.prepare import prepare
+from heartfit.heart import Heart
+from heartfit.mechanics.body import FiniteElementBody, Tissue
+from heartfit.mechanics.sphere import Sphere, SphericalBody
+from heartfit.mechanics.unloading import unload
+
+END_DIASTOLIC_PRESSURE = np.array([1000.0, 500.0])
+
+
+@pytest.fixture(scope="session")
+def ventricle() -> VentricularMesh:
+    """Ventricles at end diastole, as coarse as still beats."""
+    shape = ParametricVentricles(
+        edv=130e-6, wall_thickness=10e-3, sphericity=0.95, rv_edv=140e-6, rv_wall_thickness=4.5e-3
+    )
+    mesh = fill_wall(shape.surface(), edge_length=0.017, tolerance=0.0012)
+    return assign_activation(prepare(mesh))
+
+
+@pytest.fixture(scope="session")
+def unloaded(ventricle: VentricularMesh) -> VentricularMesh:
+    """The same ventricles without stress."""
+    return unload(ventricle, Tissue(), END_DIASTOLIC_PRESSURE)
+
+
+@pytest.fixture(scope="session")
+def coarse_body(unloaded: VentricularMesh) -> FiniteElementBody:
+    return FiniteElementBody(unloaded, Tissue())
+
+
+@pytest.fixture(scope="session")
+def spherical_heart() -> Heart:
+    """The standard heart, with the contractility that suits :func:`spheres`."""
+    return Heart().with_parameters({"sigma_0": 150e3})
+
+
+@pytest.fixture(scope="session")
+def spheres(spherical_heart: Heart) -> SphericalBody:
+    """Ventricles of two spheres, which beat in a second."""
+    left, right = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
+    return SphericalBody(left, right, spherical_heart.tissue)

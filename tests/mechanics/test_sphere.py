@@ -1,0 +1,82 @@
+"""The spherical ventricles against their energies, the inflation of a balloon and Laplace's law."""
+
+import numpy as np
+import pytest
+from tests.shrinking import assert_derivative
+
+from heartfit.mechanics.body import StepFailed, Tissue
+from heartfit.mechanics.sphere import Sphere, SphereState, SphericalBody
+from heartfit.mechanics.statics import inflate
+
+LEFT, RIGHT = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
+TISSUE = Tissue()
+BODY = SphericalBody(LEFT, RIGHT, TISSUE)
+
+
+def test_a_sphere_has_the_volumes_it_was_made_of() -> None:
+    assert BODY.volumes(BODY.rest().x) == pytest.approx([80e-6, 90e-6])
+    assert [LEFT.wall, RIGHT.wall] == pytest.approx([130e-6, 45e-6])
+    outer, inner = LEFT.radius + LEFT.thickness / 2, LEFT.radius - LEFT.thickness / 2
+    assert 4.0 / 3.0 * np.pi * inner**3 == pytest.approx(80e-6)
+    assert 4.0 / 3.0 * np.pi * (outer**3 - inner**3) == pytest.approx(130e-6, rel=0.05)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_volume_gradients_and_tangent_are_derivatives(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    first = rng.uniform(-5e-3, 5e-3, (2, 1))
+    fibres = TISSUE.active.rest(16)
+    fibres[0] = np.repeat(0.5 * (BODY.stretch(first) ** 2 - 1.0), 8)
+    fibres[1:] = rng.uniform(1e4, 1e5, 16), rng.uniform(0.0, 200.0, 16)
+    step = BODY.step(SphereState(first, fibres), 0.18, 5e-3, 0.8)
+    x = first + rng.choice([-1.0, 1.0], (2, 1)) * rng.uniform(2e-4, 1e-3, (2, 1))
+    direction = rng.uniform(0.5, 1.0, (2, 1)) * 1e-5
+    step.forces(x)
+    slope = step.tangent(x).diagonal
+    assert_derivative(step.forces, slope * direction[:, 0], x, direction)
+    direction *= 100.0
+    assert_derivative(BODY.volumes, direction[:, 0] @ BODY.volume_gradients(x), x, direction)
+
+
+def work_over_volume(sphere: Sphere, stretch: float) -> float:
+    """P = (dPsi/dLambda) / (dV/dLambda) of a relaxed sphere, term by term."""
+    c_1, c_2 = TISSUE.passive.c_1, TISSUE.passive.c_2
+    energy = c_1 * (4.0 * stretch - 4.0 * stretch**-5) + c_2 * (4.0 * stretch**3 - 4.0 * stretch**-3)
+    ratio = sphere.thickness / (2.0 * sphere.radius)
+    inner = stretch - ratio / stretch**2
+    volume = 4.0 * np.pi * sphere.radius**3 * inner**2 * (1.0 + 2.0 * ratio / stretch**3)
+    return sphere.wall * energy / volume
+
+
+@pytest.mark.parametrize("pressures", [(600.0, 200.0), (1500.0, 500.0)])
+def test_static_inflation_follows_the_closed_form(pressures: tuple[float, float]) -> None:
+    state = inflate(BODY, np.array(pressures))
+    stretch = BODY.stretch(state.x)
+    assert (stretch > 1.005).all()
+    found = [work_over_volume(sphere, s) for sphere, s in zip((LEFT, RIGHT), stretch, strict=True)]
+    assert found == pytest.approx(pressures, rel=1e-4)
+
+
+def test_a_thin_sphere_obeys_laplace() -> None:
+    """P = 2 h sigma / r, up to thickness over radius."""
+    thin = Sphere(radius=0.04, thickness=4e-5)
+    body = SphericalBody(thin, thin, TISSUE)
+    x = np.full((2, 1), 0.006)
+    pressure = body.endless_step(body.rest()).forces(x) / np.diag(body.volume_gradients(x))
+    stretch = 1.15
+    cauchy = 0.5 * stretch * TISSUE.passive.in_plane_stress(np.array([stretch]))
+    laplace = 2.0 * 4e-5 * stretch**-2 * cauchy / (0.04 * stretch)
+    assert pressure == pytest.approx(np.repeat(laplace, 2), rel=2e-3)
+
+
+def test_viscosity_dissipates() -> None:
+    """A faster step of relaxed spheres needs more force, both ways."""
+    rest = BODY.rest()
+    for move in (-1e-4, 1e-4):
+        forces = [BODY.step(rest, 0.0, dt, 0.8).forces(rest.x + move) * move for dt in (1e-1, 1e-2, 1e-3)]
+        assert (np.diff(forces, axis=0) > 0.0).all()
+
+
+def test_a_balloon_fails_with_its_stretch() -> None:
+    with pytest.raises(StepFailed, match="stretched to"):
+        BODY.endless_step(BODY.rest()).forces(np.full((2, 1), 0.1))
