@@ -10,11 +10,11 @@ from heartfit.calibration.update import Posterior, calibrate
 from heartfit.configuration.setting import Setting
 from heartfit.configuration.study import Operator, Pressures, TimeScheme, Transform
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.mechanics.body import FiniteElementBody, StepFailed
-from heartfit.mechanics.unloading import unload
+from heartfit.mechanics.body import StepFailed
 from heartfit.observation.beat import observe_beats
 from heartfit.observation.noise import Observation
 from heartfit.simulation import Progress, simulate
+from heartfit.ventricles import ventricles
 
 
 def run_beat(
@@ -35,10 +35,10 @@ def run_beat(
     heart = setting.base_heart(period).with_parameters(parameters)
     loads = np.array([pressures.lv, pressures.rv])
     try:
-        reference = mesh if setting.reference == "end_diastolic" else unload(mesh, heart.tissue, loads)
+        body = ventricles(mesh, heart.tissue, loads, setting.reference == "unloaded")
     except StepFailed as failure:
         return failed_beat(str(failure), period, heart.trigger, {})
-    return simulate(heart, FiniteElementBody(reference, heart.tissue), scheme.numerics(), progress)
+    return simulate(heart, body, scheme.numerics(), progress)
 
 
 def estimate(

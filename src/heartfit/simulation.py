@@ -114,7 +114,7 @@ class _Run:
         return replace(last, trees=trees)  # type: ignore[arg-type]
 
     def _beat(self, history: list[HeartState]) -> Beat:
-        time: Floats = np.arange(self.steps + 1) * self.dt
+        time = np.linspace(0.0, self.heart.period, self.steps + 1)
         volumes = np.array([state.volumes for state in history])
         pressure, flow = self._signals(time, history)
         return Beat(

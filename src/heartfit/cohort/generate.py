@@ -62,7 +62,7 @@ def generate(
 
 def acquire(beat: Beat, frames: int, noise: float, rng: np.random.Generator) -> Motion:
     """The wall at equidistant times from the trigger, with a dilation and a shift of size ``noise`` per frame."""
-    times: Floats = np.arange(frames) * (beat.period / frames)
+    times = np.linspace(0.0, beat.period, frames, endpoint=False)
     clean = np.array([_at(beat, (time + beat.trigger) % beat.period) for time in times])
     centre = clean.mean(axis=1, keepdims=True)
     radius = float(np.sqrt(((clean - centre) ** 2).sum(axis=2).mean()))

@@ -28,7 +28,7 @@ class Prior(Strict):
 class Setting(Strict):
     """A model and what is estimated of it."""
 
-    element: Literal["mixed", "p1"]
+    element: Literal["mixed", "p1", "sphere"]
     reference: Literal["unloaded", "end_diastolic"] = Field("unloaded", description="the stress-free state")
     estimate: tuple[str, ...] = Field(min_length=1)
     heart: dict[str, float] = Field({}, description="parameters that differ from their declared value")

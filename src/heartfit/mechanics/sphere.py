@@ -20,6 +20,7 @@ from scipy.optimize import brentq
 from heartfit.geometry.arrays import Floats
 from heartfit.mechanics.active.bcs import Drive
 from heartfit.mechanics.body import StepFailed, Tissue
+from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 
 ACTIVATION = np.linspace(0.0, 0.07, 8)
 """Activation times of the fibres, s: a healthy QRS complex."""
@@ -39,6 +40,20 @@ class Sphere:
         """The sphere with the given volumes of cavity and wall, m^3."""
         radius = brentq(lambda r: _cavity(r, wall / (4.0 * np.pi * r * r), 1.0) - cavity, 1e-3, 1.0)
         return cls(radius, wall / (4.0 * np.pi * radius**2))
+
+    @classmethod
+    def unloaded(cls, cavity: float, wall: float, pressure: float, passive: MooneyRivlin) -> "Sphere":
+        """The stress-free sphere whose cavity has the volume ``cavity``, m^3, under ``pressure``, Pa."""
+
+        def excess(smaller: float) -> float:
+            sphere = cls.of(smaller, wall)
+            ratio = 0.5 * sphere.thickness / sphere.radius
+            stretch = brentq(lambda s: _cavity(sphere.radius, sphere.thickness, s) - cavity, 1.0, 3.0)
+            slope = 4.0 * np.pi * sphere.radius**3 * (stretch - ratio * stretch**-2) ** 2
+            slope *= 1.0 + 2.0 * ratio * stretch**-3
+            return float(sphere.wall * passive.in_plane_stress(np.array(stretch)) - pressure * slope)
+
+        return cls.of(brentq(excess, 0.2 * cavity, (1.0 - 1e-9) * cavity), wall)
 
     @property
     def wall(self) -> float:
