@@ -1,4 +1,4 @@
-"""The volume of blood behind an endocardial surface, and its derivative: the load vector of a unit pressure."""
+"""The volume of blood behind an endocardium and its derivative, the load vector of a unit pressure."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -25,8 +25,8 @@ class Cavity:
 
     V(x) = -1/6 sum a.(b x c) over the triangles of endocardium and lids, whose normals point into the cavity.
     A lid's apex is the mean of its rim nodes, so the pressure on the lid is spread over the rim.
-    triangles (k,3) refer to the nodes followed by one apex per opening; rim (r,) holds the nodes of all openings,
-    rim_start (o+1,) where each opening begins in it.
+    triangles (k,3) refer to the nodes followed by one apex per opening; rim (r,) holds the nodes of all
+    openings, rim_start (o+1,) where each opening begins in it.
     """
 
     triangles: Integers
@@ -35,7 +35,7 @@ class Cavity:
 
     @classmethod
     def of(cls, mesh: HasSurfaces, name: str) -> "Cavity":
-        """The cavity behind the endocardium `name`; raises InputError if that surface has no or pinched openings."""
+        """The cavity behind the endocardium `name`; raises InputError if it has no or pinched openings."""
         surface = mesh.surfaces[name]
         loops = rim_loops(surface)
         if not loops:
@@ -58,7 +58,7 @@ class Cavity:
 
 @njit(cache=True)
 def _with_lid_apices(x: Floats, rim: Integers, start: Integers) -> Floats:
-    """The nodes, followed by the lids' apices from the last opening to the first, so that index -1 - o is opening o."""
+    """The nodes, then the lids' apices from the last opening to the first: index -1 - o is opening o."""
     n, openings = len(x), len(start) - 1
     corners = np.zeros((n + openings, 3))
     corners[:n] = x

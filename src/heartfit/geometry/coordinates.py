@@ -10,13 +10,16 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.surface import triangle_normals
 from heartfit.geometry.topology import rim_loops
 
+APICAL_REACH = 0.9
+SEPTAL_REACH = 1.4
+
 
 @dataclass(frozen=True, eq=False)
 class LeftVentricularAxes:
-    """The long axis through the left cavity's apex and the centre of its valve rings; septal towards the right.
+    """The long axis through the left cavity's apex and the centre of its valve rings.
 
-    apex (3,) m, where the axis leaves the wall; axis from there to the rings, septal, anterior (3,) orthonormal with
-    anterior = axis x septal; length m from apex to ring centre.
+    apex (3,) m, where the axis leaves the wall; axis from there to the rings, septal, anterior (3,)
+    orthonormal with anterior = axis x septal; length m from apex to ring centre.
     """
 
     apex: Floats
@@ -30,7 +33,8 @@ class LeftVentricularAxes:
         """The axes of a mesh, from its endocardial surfaces and their rims."""
         ring = mesh.points[np.concatenate(rim_loops(mesh.surfaces["lv_endo"]))].mean(axis=0)
         left = mesh.points[np.unique(mesh.surfaces["lv_endo"])]
-        axis = _unit(ring - left[np.linalg.norm(left - ring, axis=1).argmax()])
+        reach = np.linalg.norm(left - ring, axis=1)
+        axis = _unit(ring - left[reach > APICAL_REACH * reach.max()].mean(axis=0))
         length = float(((ring - mesh.points) @ axis).max())
         towards = mesh.points[np.unique(mesh.surfaces["rv_endo"])].mean(axis=0) - left.mean(axis=0)
         septal = _unit(towards - (towards @ axis) * axis)
@@ -51,17 +55,13 @@ class LeftVentricularAxes:
 
 
 def septal_faces(mesh: VentricularMesh, axes: LeftVentricularAxes) -> Integers:
-    """The triangles of the right endocardium on the septum.
-
-    They face away from the left ventricle's axis and are at most twice as far from the left endocardium as is usual
-    among those: the outflow tract faces away too, but lies farther off.
-    """
+    """The triangles of the right endocardium on the septum: near the left one, facing away from its axis."""
     faces = mesh.surfaces["rv_endo"]
     centres = mesh.points[faces].mean(axis=1)
-    away = faces[(triangle_normals(mesh.points, faces) * axes.away(centres)).sum(axis=1) > 0.0]
-    left = cKDTree(mesh.points[np.unique(mesh.surfaces["lv_endo"])])
-    thickness, _ = left.query(mesh.points[away].mean(axis=1))
-    return away[thickness < 2.0 * np.median(thickness)]
+    away = (triangle_normals(mesh.points, faces) * axes.away(centres)).sum(axis=1) > 0.0
+    left = mesh.points[np.unique(mesh.surfaces["lv_endo"])]
+    thickness = np.asarray(cKDTree(left).query(centres)[0])
+    return faces[away & (thickness < SEPTAL_REACH * np.median(thickness[away]))]
 
 
 def _unit(vector: Floats) -> Floats:

@@ -9,8 +9,9 @@ With harmonic fields phi_lv, phi_rv, phi_epi that are 1 on their surface and 0 o
     f_epi: e_t = grad phi_epi, angle alpha                  f(angle) = cos(angle) e_c + sin(angle) e_l
     f = principal direction of (1 - w) [(1 - d) f_lv f_lv' + d f_rv f_rv'] + w f_epi f_epi'.
 
-Bayer et al. take the angle endo instead of alpha in the endocardial frames: after blending, the mid-wall is then still
-at +30 degrees. Here the mid-wall is circumferential. Blending the tensors f f' needs no sign of f and no quaternions.
+Bayer et al. take the angle endo instead of alpha in the endocardial frames: after blending, the mid-wall is
+then still at +30 degrees. Here the mid-wall is circumferential. Blending the tensors f f' needs no sign of f
+and no quaternions.
 
 References
 ----------
@@ -30,7 +31,7 @@ APICAL_PATCH = 0.05
 def rule_based_fibres(
     mesh: VentricularMesh, endo: float = np.deg2rad(80.0), epi: float = -np.deg2rad(80.0)
 ) -> Floats:
-    """Unit fibre directions (m,3) with helix angles `endo` and `epi` in rad, positive for a right-handed helix."""
+    """Unit fibre directions (m,3) at helix angles `endo` and `epi` in rad, positive if right-handed."""
     fields = {name: _field_of(mesh, name) for name in ("lv_endo", "rv_endo", "epi")}
     lv, rv, w = (field[mesh.tets].mean(axis=1) for field in fields.values())
     d = rv / np.maximum(lv + rv, np.finfo(float).eps)
@@ -53,7 +54,7 @@ def _field_of(mesh: VentricularMesh, name: str) -> Floats:
 
 
 def _transmural(mesh: VentricularMesh, field: Floats) -> Floats:
-    """Gradient (m,3); where all four nodes lie on one surface it vanishes, and the neighbours' mean takes its place."""
+    """Gradient (m,3); where all four nodes lie on one surface it vanishes: the neighbours' mean."""
     gradient = element_gradients(mesh.points, mesh.tets, field)
     volume = mesh.element_volumes()
     for _ in range(3):

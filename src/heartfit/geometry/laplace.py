@@ -1,4 +1,4 @@
-"""Harmonic fields on tetrahedra: P1 finite elements by scikit-fem, one factorisation for any number of fields."""
+"""Harmonic fields on tetrahedra: P1 elements by scikit-fem, one factorisation for any number of fields."""
 
 import numpy as np
 from scipy.sparse.linalg import splu
@@ -9,7 +9,7 @@ from heartfit.geometry.arrays import Floats, Integers
 
 
 def harmonic_extension(points: Floats, tets: Integers, fixed: Integers, values: Floats) -> Floats:
-    """The field (n, ...) with div grad u = 0 inside, u = values (f, ...) on the fixed nodes (f,), no flux elsewhere."""
+    """The field (n, ...) with div grad u = 0, u = values (f, ...) on the nodes `fixed` (f,), no flux."""
     stiffness = laplace.assemble(_basis(points, tets)).tocsr()
     free = np.setdiff1d(np.arange(len(points)), fixed)
     field = np.zeros((len(points), *values.shape[1:]))
@@ -20,7 +20,7 @@ def harmonic_extension(points: Floats, tets: Integers, fixed: Integers, values: 
 
 
 def between(points: Floats, tets: Integers, one: Integers, zero: Integers) -> Floats:
-    """The harmonic field (n,) that is 1 on the nodes `one` and 0 on the nodes `zero`; where they share a node, 1."""
+    """The harmonic field (n,) that is 1 on the nodes `one` and 0 on the nodes `zero`; on shared ones, 1."""
     fixed = np.union1d(one, zero)
     return harmonic_extension(points, tets, fixed, np.isin(fixed, one).astype(float))
 
@@ -31,4 +31,6 @@ def element_gradients(points: Floats, tets: Integers, field: Floats) -> Floats:
 
 
 def _basis(points: Floats, tets: Integers) -> Basis:
-    return Basis(MeshTet(np.ascontiguousarray(points.T), np.ascontiguousarray(tets.T)), ElementTetP1(), intorder=1)
+    return Basis(
+        MeshTet(np.ascontiguousarray(points.T), np.ascontiguousarray(tets.T)), ElementTetP1(), intorder=1
+    )

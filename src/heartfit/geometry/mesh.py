@@ -13,9 +13,10 @@ from heartfit.geometry.surface import SURFACES as SURFACES
 class VentricularMesh:
     """Tetrahedra of the wall of both ventricles.
 
-    points (n,3) m; tets (m,4) positively oriented; surfaces: name -> boundary triangles (k,3), normals out of the wall;
-    fibres (m,3) unit vectors; segments (m,) AHA 1..17, 0 = right ventricular free wall;
-    activation (m,) s, time T_d at which each tet depolarises, earliest = 0; longitudinal (n,) 0 apex .. 1 base.
+    points (n,3) m; tets (m,4) positively oriented; surfaces: name -> boundary triangles (k,3), normals out of
+    the wall; fibres (m,3) unit vectors; segments (m,) AHA 1..17, 0 = right ventricular free wall;
+    activation (m,) s, time T_d at which each tet depolarises, earliest = 0;
+    longitudinal (n,) 0 apex .. 1 base.
     Raises ValueError when a field's shape does not match the points or tets.
     """
 

@@ -1,7 +1,8 @@
 """Fills the wall with tetrahedra and recovers the names of its surfaces.
 
-The mesher is fTetWild (Hu et al. 2020, doi 10.1145/3386569.3392385). It draws random numbers that cannot be seeded, so
-two calls give two different meshes of the same quality: what is computed on a mesh repeats only on the stored mesh.
+The mesher is fTetWild (Hu et al. 2020, doi 10.1145/3386569.3392385). It draws random numbers that cannot be
+seeded, so two calls give two different meshes of the same quality: what is computed on a mesh repeats only on
+the stored mesh.
 """
 
 import os
@@ -33,8 +34,8 @@ def fill_wall(surface: LabelledSurface, edge_length: float, tolerance: float) ->
     """Tetrahedra of the wall inside the surface, with the surface's names on their boundary.
 
     edge_length: wished edge length in m; tolerance: how far in m the boundary may leave the surface.
-    Raises MeshingError when in ATTEMPTS meshes the wall volume is off by more than 2 %, a dihedral angle is below
-    8 degrees, or a valve ring is pinched.
+    Raises MeshingError when in ATTEMPTS meshes the wall volume is off by more than 2 %, a dihedral angle is
+    below 8 degrees, or a valve ring is pinched.
     """
     defects = []
     for _ in range(ATTEMPTS):
@@ -45,7 +46,7 @@ def fill_wall(surface: LabelledSurface, edge_length: float, tolerance: float) ->
             return mesh
         defects.append(defect)
     raise MeshingError(
-        f"edge length {edge_length * 1e3:g} mm, tolerance {tolerance * 1e3:g} mm: {ATTEMPTS} meshes, all with defects: "
+        f"edge length {edge_length * 1e3:g} mm, tolerance {tolerance * 1e3:g} mm: {ATTEMPTS} bad meshes: "
         f"{'; '.join(defects)}; use a shorter edge length or a smaller tolerance"
     )
 

@@ -33,11 +33,12 @@ class Motion:
         if not (np.diff(self.times) > 0.0).all():
             late = int(np.argmax(np.diff(self.times) <= 0.0)) + 1
             raise InputError(
-                f"motion: time of phase {late} is {self.times[late]:g} s; expected later than phase {late - 1}"
+                f"motion: phase {late} is at {self.times[late]:g} s; expected later than phase {late - 1}"
             )
         if self.times[0] < 0.0 or self.times[-1] >= self.period:
             raise InputError(
-                f"motion: times run from {self.times[0]:g} to {self.times[-1]:g} s; expected within [0, {self.period:g}) s"
+                f"motion: times run from {self.times[0]:g} to {self.times[-1]:g} s; "
+                f"expected within [0, {self.period:g}) s"
             )
 
 

@@ -14,8 +14,8 @@ def nearest_on_surface(
 ) -> tuple[Integers, Floats]:
     """Nearest triangle (q,) and barycentric coordinates (q,3) of the nearest point on it, for queries (q,3).
 
-    Among the CANDIDATES triangles with the nearest centroids. With normals (q,3) only triangles that face the same way
-    (n.m > 0.2) count, so that a point on one side of a thin wall never finds the other side.
+    Among the CANDIDATES triangles with the nearest centroids. With normals (q,3) only triangles that face the
+    same way (n.m > 0.2) count, so that a point on one side of a thin wall never finds the other side.
     """
     count = min(CANDIDATES, len(triangles))
     _, candidate = cKDTree(points[triangles].mean(axis=1)).query(queries, count)
@@ -32,7 +32,7 @@ def nearest_on_surface(
 
 
 def closest_weights(queries: Floats, corners: Floats) -> Floats:
-    """Barycentric coordinates (...,3) of the point of each triangle, corners (...,3,3), closest to its query (...,3)."""
+    """Barycentric coordinates (...,3) of the point of a triangle (...,3,3) closest to its query (...,3)."""
     inside = _plane_weights(queries, corners)
     options = [np.where((inside >= 0).all(axis=-1, keepdims=True), inside, np.nan)]
     options += [_edge_weights(queries, corners, i, (i + 1) % 3) for i in range(3)]

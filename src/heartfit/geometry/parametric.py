@@ -1,7 +1,7 @@
-"""Ventricles from a handful of clinical numbers: a truncated ellipsoid with a crescent-shaped pocket on its side.
+"""Ventricles from a handful of clinical numbers: a truncated ellipsoid with a crescent-shaped pocket.
 
-Everything is a radius along rays from the centre of the flat base, x = r d(eta, phi), with the eccentric angle eta of the
-left epicardium (0 base, pi/2 apex) and the azimuth phi (0 at the middle of the septum):
+Everything is a radius along rays from the centre of the flat base, x = r d(eta, phi), with the eccentric
+angle eta of the left epicardium (0 base, pi/2 apex) and the azimuth phi (0 at the middle of the septum):
 
     r1, r2 : left endocardium and epicardium, ellipsoids of semi-axes (a, c) and (a + w, c + w)
     r3 = r2 + B (1 - q^2) / n.d,   q^2 = (phi / phi0)^2 + (eta / eta0)^2        right free wall, inside q < 1
@@ -35,8 +35,8 @@ MILLILITRE = 1e-6
 class ParametricVentricles:
     """Both ventricles at end diastole.
 
-    edv, rv_edv: cavity volumes in m^3; wall_thickness, rv_wall_thickness in m; sphericity: length of the left cavity
-    over its diameter. Raises InputError for a size that no ventricle has.
+    edv, rv_edv: cavity volumes in m^3; wall_thickness, rv_wall_thickness in m; sphericity: length of the left
+    cavity over its diameter. Raises InputError for a size that no ventricle has.
     """
 
     edv: float
@@ -64,7 +64,9 @@ class ParametricVentricles:
             return Cavity.of(surface, "rv_endo").volume(surface.points) - self.rv_edv
 
         if excess(4.0 * a) < 0.0:
-            raise InputError(f"rv_edv {self.rv_edv:g} m^3 does not fit beside edv {self.edv:g} m^3; make it smaller")
+            raise InputError(
+                f"rv_edv {self.rv_edv:g} m^3 does not fit beside edv {self.edv:g} m^3; make it smaller"
+            )
         return self._build(a, float(brentq(excess, 1e-3 * a, 4.0 * a, xtol=1e-6 * a)))
 
     def _radius(self) -> float:
@@ -151,7 +153,9 @@ def _azimuths() -> Floats:
 def _patch_angles() -> tuple[Floats, Floats]:
     """Polar grid of the half disc q <= 1, eta >= 0, whose diameter lies in the base."""
     q, omega = np.meshgrid(
-        np.linspace(0.0, 1.0, HALF_PATCH + 1), np.linspace(-np.pi / 2, np.pi / 2, 2 * HALF_PATCH + 1), indexing="ij"
+        np.linspace(0.0, 1.0, HALF_PATCH + 1),
+        np.linspace(-np.pi / 2, np.pi / 2, 2 * HALF_PATCH + 1),
+        indexing="ij",
     )
     return PATCH_DEPTH * q * np.cos(omega), PATCH_AZIMUTH * q * np.sin(omega)
 
@@ -161,7 +165,9 @@ def _sew(sheets: list[tuple[str, Floats]]) -> LabelledSurface:
     points = np.concatenate([grid.reshape(-1, 3) for _, grid in sheets])
     _, first, merged = np.unique(np.round(points * 1e9), axis=0, return_index=True, return_inverse=True)
     start = np.cumsum([0] + [grid.shape[0] * grid.shape[1] for _, grid in sheets])
-    triangles = [_grid_triangles(grid.shape[0], grid.shape[1]) + s for (_, grid), s in zip(sheets, start, strict=False)]
+    triangles = [
+        _grid_triangles(grid.shape[0], grid.shape[1]) + s for (_, grid), s in zip(sheets, start, strict=False)
+    ]
     labels = np.repeat([name for name, _ in sheets], [len(part) for part in triangles])
     joined = merged.reshape(-1)[np.concatenate(triangles)]
     whole = (joined != np.roll(joined, 1, axis=1)).all(axis=1)
@@ -179,4 +185,6 @@ def _grid_triangles(rows: int, columns: int) -> Integers:
 
 def _require(name: str, value: float, low: float, high: float, unit: str) -> None:
     if not low <= value <= high:
-        raise InputError(f"{name} = {value:g} {unit}: expected between {low:g} and {high:g} {unit}; check its unit")
+        raise InputError(
+            f"{name} = {value:g} {unit}: expected between {low:g} and {high:g} {unit}; check its unit"
+        )

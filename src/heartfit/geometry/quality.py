@@ -9,7 +9,7 @@ PAIRS_OF_FACES = [(i, j) for i in range(4) for j in range(i)]
 
 
 def smallest_dihedral_angles(points: Floats, tets: Integers) -> Floats:
-    """The smallest of the six dihedral angles (m,) in rad of each tetrahedron; 70.5 degrees at best, 0 for a sliver."""
+    """Smallest dihedral angle (m,) in rad of each tetrahedron; 70.5 degrees at best, 0 for a sliver."""
     a, b, c = np.moveaxis(points[tets[:, FACES_OF_TET]], 2, 0)
     normals = np.cross(b - a, c - a)
     normals /= np.maximum(np.linalg.norm(normals, axis=2, keepdims=True), np.finfo(float).tiny)

@@ -6,6 +6,7 @@ Cerqueira MD et al. 2002, doi 10.1161/hc0402.102975.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from heartfit.geometry.arrays import Floats, Integers
 from heartfit.geometry.coordinates import LeftVentricularAxes, septal_faces
@@ -20,7 +21,7 @@ APICAL = np.array([14, 13, 16, 15])
 
 
 def aha_segments(mesh: VentricularMesh) -> Integers:
-    """Segment (m,) of each tet: 1-6 basal, 7-12 mid, 13-16 apical, 17 apex, 0 the free wall of the right ventricle.
+    """Segment (m,) of each tet: 1-6 basal, 7-12 mid, 13-16 apical, 17 apex, 0 right free wall.
 
     The three levels are thirds of the left cavity's length; the apex is what lies beyond the cavity's end.
     """
@@ -40,8 +41,11 @@ def _of_level(level: Floats, angle: Floats) -> Integers:
     return np.select([level == 2, level == 1, level == 0], [basal, basal + 6, apical], APEX).astype(np.int64)
 
 
-def belongs_to_left(mesh: VentricularMesh, axes: LeftVentricularAxes) -> np.ndarray:
-    """Whether each tet (m,) is left ventricle or septum: nearer, in the harmonic sense, to them than to the free wall."""
+def belongs_to_left(mesh: VentricularMesh, axes: LeftVentricularAxes) -> NDArray[np.bool_]:
+    """Whether each tet (m,) is left ventricle or septum: whether a harmonic field is above 1/2.
+
+    It is 1 on the left endocardium and on the septum's right side, 0 on the rest of the right endocardium.
+    """
     septum = np.unique(septal_faces(mesh, axes))
     free = np.setdiff1d(np.unique(mesh.surfaces["rv_endo"]), septum)
     left = np.union1d(np.unique(mesh.surfaces["lv_endo"]), septum)

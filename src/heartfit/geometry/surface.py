@@ -70,11 +70,13 @@ def require_closed(triangles: Integers) -> None:
     single = [edge for edge in present if edge[::-1] not in present]
     if single:
         raise InputError(
-            f"surface is not closed or not consistently oriented: {len(single)} edges have one side only, for "
-            f"example nodes {single[0]}; expected two triangles at every edge; close the hole or turn the triangles"
+            f"surface is not closed or not consistently oriented: {len(single)} edges "
+            f"have one side only, for example nodes {single[0]}; expected two triangles at every edge; "
+            "close the hole or turn the triangles"
         )
     if (count > 1).any():
         raise InputError(
-            f"surface is not a manifold: {int((count > 1).sum())} edges are run through more than once in the same "
-            f"sense, for example nodes {tuple(directed[count > 1][0].tolist())}; expected one triangle on each side"
+            f"surface is not a manifold: {int((count > 1).sum())} edges are run through more than once "
+            f"in the same sense, for example nodes {tuple(directed[count > 1][0].tolist())}; "
+            "expected one triangle on each side"
         )

@@ -11,7 +11,7 @@ FACES_OF_TET = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 
 
 def boundary_faces(tets: Integers) -> Integers:
-    """Triangles (k,3) that belong to one tetrahedron only, normals pointing out of positively oriented tets."""
+    """Triangles (k,3) of one tetrahedron only, normals pointing out of positively oriented tets."""
     faces = tets[:, FACES_OF_TET].reshape(-1, 3)
     _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
     return faces[np.sort(first[count == 1])]

@@ -1,8 +1,9 @@
 """Reads a measured heart: control points of a biventricular subdivision surface in every phase of the beat.
 
-Layout of the folder (as published with biv-me, Apache-2.0): `control_points/*.txt` one table of x, y, z in mm per phase,
-`template/subdivision_matrix_sparse.mat`, `template/ETIndicesSorted.txt` (triangles, 1-based),
-`template/ETIndicesMaterials.txt` (one label per triangle), `cine/timing.json` (beat lengths of the acquisitions).
+Layout of the folder (as published with biv-me, Apache-2.0): `control_points/*.txt` one table of x, y, z in mm
+per phase, `template/subdivision_matrix_sparse.mat`, `template/ETIndicesSorted.txt` (triangles, 1-based),
+`template/ETIndicesMaterials.txt` (one label per triangle), `cine/timing.json` (beat lengths of the
+acquisitions).
 """
 
 import json
@@ -55,7 +56,8 @@ class MeasuredHeart:
 def read_measured_heart(folder: Path) -> MeasuredHeart:
     """Reads the wall surface of every phase from the folder of one subject.
 
-    Raises InputError for a missing file, a surface that is not closed, unequal vertex counts, NaN, fewer than 8 phases.
+    Raises InputError for a missing file, a surface that is not closed, unequal vertex counts, NaN, fewer than
+    8 phases.
     """
     control_points = _read_control_points(folder / "control_points")
     triangles, labels = _read_template(folder / "template")
@@ -63,7 +65,7 @@ def read_measured_heart(folder: Path) -> MeasuredHeart:
     if matrix.shape[1] != control_points.shape[1]:
         raise InputError(
             f"{folder}: {control_points.shape[1]} control points in each phase, expected {matrix.shape[1]}, "
-            "the columns of the subdivision matrix; take the template that the control points were fitted with"
+            "the columns of the subdivision matrix; take the template the control points were fitted with"
         )
     positions = np.stack([matrix @ phase for phase in control_points]) * MILLIMETRE
     positions, triangles = _only_used(positions, triangles)

@@ -31,7 +31,7 @@ def write_mesh(path: Path, mesh: VentricularMesh) -> None:
 
 
 def read_mesh(path: Path) -> VentricularMesh:
-    """Reads what write_mesh wrote; raises InputError for a missing file, missing parts or inverted tetrahedra."""
+    """Reads what write_mesh wrote; raises InputError for a missing file or part or inverted tetrahedra."""
     if not path.exists():
         raise InputError(f"{path}: missing; expected a mesh in .vtu format; build it first")
     stored = meshio.read(path)
@@ -65,7 +65,7 @@ def write_motion(path: Path, motion: Motion) -> None:
 
 
 def read_motion(path: Path) -> Motion:
-    """Reads what write_motion wrote; raises InputError for a missing file or times and positions that cannot be."""
+    """Reads what write_motion wrote; raises InputError for a missing file or times that cannot be."""
     if not path.exists():
         raise InputError(f"{path}: missing; expected a motion in .npz format; register it first")
     with np.load(path) as stored:

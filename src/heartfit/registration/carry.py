@@ -16,8 +16,8 @@ def carry_mesh(
 ) -> Motion:
     """Carries the mesh by the surface that it fills, given the surface's points in every phase.
 
-    phases (p,n,3) m, phases[0] = surface.points; times (p,) s; period s. A boundary node keeps its distance from the
-    nearest point of the surface; inside, the displacement is harmonic. Phase 0 is the mesh itself.
+    phases (p,n,3) m, phases[0] = surface.points; times (p,) s; period s. A boundary node keeps its distance
+    from the nearest point of the surface; inside, the displacement is harmonic. Phase 0 is the mesh itself.
     """
     nodes, triangles, weights = _attach(mesh, surface)
     moved = np.einsum("fc,pfcd->fpd", weights, (phases - phases[0])[:, triangles])
@@ -26,9 +26,10 @@ def carry_mesh(
 
 
 def _attach(mesh: VentricularMesh, surface: LabelledSurface) -> tuple[Integers, Integers, Floats]:
-    """Boundary nodes (f,), the surface triangle (f,3) each is nearest to, and barycentric coordinates (f,3) there.
+    """Boundary nodes (f,), the surface triangle (f,3) nearest to each, barycentric coordinates (f,3) there.
 
-    A node seeks only among triangles of its own name, because across a thin wall the other side may be nearer.
+    A node seeks only among triangles of its own name, because across a thin wall the other side may be
+    nearer.
     """
     nearest: dict[int, tuple[float, Integers, Floats]] = {}
     for name, faces in mesh.surfaces.items():
@@ -48,9 +49,9 @@ def follow_mesh(
 ) -> Motion:
     """Carries a mesh by the motion of another, usually finer, one that fills the same wall.
 
-    points (n,3) m: the other mesh where the two coincide; tets (m,4); positions (p,n,3) m in every phase. A node moves
-    with the tetrahedron that holds it, or outside the wall with the nearest one. The displacement is taken from
-    positions[0], so phase 0 is the mesh itself.
+    points (n,3) m: the other mesh where the two coincide; tets (m,4); positions (p,n,3) m in every phase. A
+    node moves with the tetrahedron that holds it, or outside the wall with the nearest one. The displacement
+    is taken from positions[0], so phase 0 is the mesh itself.
     """
     holder, weights = _locate(mesh.points, points, tets)
     moved = np.einsum("qc,pqcd->pqd", weights, (positions - positions[0])[:, tets[holder]])
@@ -58,11 +59,15 @@ def follow_mesh(
 
 
 def _locate(queries: Floats, points: Floats, tets: Integers, candidates: int = 40) -> tuple[Integers, Floats]:
-    """The tetrahedron (q,) that holds each query, or is nearest to doing so, and barycentric coordinates (q,4)."""
+    """The tetrahedron (q,) that holds each query, or nearly does, and barycentric coordinates (q,4)."""
     count = min(candidates, len(tets))
-    near = np.asarray(cKDTree(points[tets].mean(axis=1)).query(queries, count)[1]).reshape(len(queries), count)
+    near = np.asarray(cKDTree(points[tets].mean(axis=1)).query(queries, count)[1]).reshape(
+        len(queries), count
+    )
     a, b, c, d = np.moveaxis(points[tets[near]], 2, 0)
-    local = np.linalg.solve(np.stack([b - a, c - a, d - a], axis=-1), (queries[:, None] - a)[..., None])[..., 0]
+    local = np.linalg.solve(np.stack([b - a, c - a, d - a], axis=-1), (queries[:, None] - a)[..., None])[
+        ..., 0
+    ]
     weights = np.concatenate([1.0 - local.sum(axis=-1, keepdims=True), local], axis=-1)
     best = weights.min(axis=-1).argmax(axis=1)
     rows = np.arange(len(queries))
@@ -71,13 +76,13 @@ def _locate(queries: Floats, points: Floats, tets: Integers, candidates: int = 4
 
 
 def inverted_elements(mesh: VentricularMesh, motion: Motion) -> Integers:
-    """How many tetrahedra are inverted in each phase (p,); cavity volumes rest on the boundary and do not see them."""
+    """How many tetrahedra are inverted in each phase (p,); cavity volumes do not see them."""
     volumes = [element_volumes(phase, mesh.tets) for phase in motion.positions]
     return (np.array(volumes) <= 0.0).sum(axis=1)
 
 
 def boundary_surface(mesh: VentricularMesh, points: Floats) -> LabelledSurface:
-    """The closed surface of a mesh with its nodes at the points (n,3), to be filled anew, finer or coarser."""
+    """The closed surface of a mesh whose nodes are at the points (n,3), to be filled anew."""
     faces = np.vstack(list(mesh.surfaces.values()))
     labels = np.repeat(list(mesh.surfaces), [len(part) for part in mesh.surfaces.values()])
     used, renumbered = np.unique(faces, return_inverse=True)
