@@ -107,11 +107,13 @@ class _Run:
 
     def _shift(self, first: HeartState, last: HeartState) -> HeartState:
         sides = zip(self.heart.circulation.trees(), first.trees, last.trees, strict=True)
-        trees = tuple(
-            replace(after, P_c=after.P_c + SHIFT * tree.periodic_shift(before, after, self.heart.period))
-            for tree, before, after in sides
+        period = self.heart.period
+        shifts = [SHIFT * tree.periodic_shift(before, after, period) for tree, before, after in sides]
+        systemic, pulmonary = (
+            replace(tree, P_c=tree.P_c + shift) for tree, shift in zip(last.trees, shifts, strict=True)
         )
-        return replace(last, trees=trees)  # type: ignore[arg-type]
+        pressures = last.pressures + np.array([0.0, 0.0, *shifts])
+        return replace(last, trees=(systemic, pulmonary), pressures=pressures)
 
     def _beat(self, history: list[HeartState]) -> Beat:
         time = np.linspace(0.0, self.heart.period, self.steps + 1)
