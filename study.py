@@ -131,7 +131,8 @@ def lint(_: list[str]) -> int:
     for check in LINTS:
         print("lint:", *check, flush=True)
         failed |= subprocess.run(tool(*check), check=False).returncode
-    return int(failed != 0 or bool(workflow_advice()))
+    advice = workflow_advice()
+    return int(failed != 0 or bool(advice))
 
 
 def workflow_advice() -> list[str]:
