@@ -1,0 +1,60 @@
+"""The circuit conserves blood whatever the pressures and whatever leaks it has."""
+
+import numpy as np
+import pytest
+from tests.shrinking import assert_derivative
+
+from heartfit.circulation.network import Circulation, NetworkStep
+from heartfit.circulation.valves import OrificeValve
+from heartfit.mechanism import COMPARTMENTS
+from heartfit.mechanisms.atrial_kick import AtrialKick
+from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+
+CIRCULATIONS = [Circulation(), Circulation(mitral=OrificeValve(), aortic=OrificeValve())]
+LEAK = MitralRegurgitation(area=0.4e-4)
+networks = pytest.mark.parametrize("circulation", CIRCULATIONS, ids=["linear", "orifice"])
+
+
+def random_pressures(count: int) -> np.ndarray:
+    rng = np.random.default_rng(5)
+    return rng.uniform([-200.0, -200.0, 5e3, 500.0], [18e3, 6e3, 15e3, 3e3], (count, 4))
+
+
+@networks
+def test_what_leaves_one_compartment_enters_another(circulation: Circulation) -> None:
+    network = NetworkStep(circulation, (AtrialKick(), LEAK), 0.05, 5e-3, 0.8)
+    for pressures in random_pressures(50):
+        net = np.zeros(len(COMPARTMENTS))
+        for _, upstream, downstream, flow, _ in network.flows(pressures):
+            net[upstream] += flow
+            net[downstream] -= flow
+        assert network.outflow(pressures)[0] == pytest.approx(net[:4])
+        assert net.sum() == pytest.approx(0.0, abs=1e-12 * abs(net).max())
+
+
+@networks
+def test_jacobian_is_the_derivative_of_the_outflow(circulation: Circulation) -> None:
+    network = NetworkStep(circulation, (LEAK,), 0.05, 5e-3, 0.8)
+    for pressures in random_pressures(20):
+        direction = np.array([0.3, -0.2, 0.5, 0.4])
+        slope = network.outflow(pressures)[1]
+        assert_derivative(lambda p: network.outflow(p)[0], slope @ direction, pressures, direction)
+        assert pytest.approx(slope.T) == slope
+        assert (np.linalg.eigvalsh(slope) > 0.0).all()
+
+
+def test_blood_runs_forward_through_open_valves_only() -> None:
+    """Ejection: ventricles above arteries above atria."""
+    network = NetworkStep(Circulation(), (), 0.3, 5e-3, 0.8)
+    flow = {name: q for name, _, _, q, _ in network.flows(np.array([13e3, 4e3, 11e3, 2e3]))}
+    assert flow["aortic"] == pytest.approx(5e-6 * 2e3)
+    assert flow["pulmonary"] == pytest.approx(5e-6 * 2e3)
+    assert -2e-7 < flow["mitral"] < 0.0
+    assert -2e-7 < flow["tricuspid"] < 0.0
+
+
+def test_atria_rest_at_their_pressure_and_kick_on_top_of_it() -> None:
+    circulation, kick = Circulation(left_atrium=700.0, right_atrium=300.0), AtrialKick(rise=1000.0, right=0.5)
+    assert circulation.atrial(0.5, 0.8, (kick,)) == pytest.approx([700.0, 300.0])
+    assert circulation.atrial(kick.peak, 0.8, (kick,)) == pytest.approx([1700.0, 800.0])
+    assert circulation.atrial(kick.peak, 0.8, ()) == pytest.approx([700.0, 300.0])

@@ -1,0 +1,59 @@
+"""The composition root: parameters by name, mechanisms by addition."""
+
+import pytest
+
+from heartfit.heart import FOURTEEN, Heart
+from heartfit.mechanisms.atrial_kick import AtrialKick
+from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+
+
+@pytest.mark.parametrize("name", FOURTEEN)
+def test_the_paper_s_parameters_go_by_their_short_names(name: str) -> None:
+    heart = Heart()
+    changed = heart.with_parameters({name: 1.25 * heart.parameters()[heart.path_of(name)]})
+    different = {p for p, v in changed.parameters().items() if v != heart.parameters()[p]}
+    assert different == {heart.path_of(name)}
+
+
+def test_short_names_of_both_circulations_mean_the_systemic_one() -> None:
+    heart = Heart().with_parameters({"R_p": 2e8, "circulation.pulmonary_tree.R_p": 3e7})
+    assert (heart.circulation.systemic.R_p, heart.circulation.pulmonary_tree.R_p) == (2e8, 3e7)
+
+
+def test_parameters_of_mechanisms_and_of_nested_parts_are_reached() -> None:
+    heart = (Heart() + MitralRegurgitation()).with_parameters({"area": 3e-5, "rise": 900.0, "slope": 0.4})
+    assert heart.mechanisms == (AtrialKick(rise=900.0), MitralRegurgitation(area=3e-5))
+    assert heart.tissue.active.starling.slope == 0.4
+
+
+def test_setting_all_parameters_to_their_own_values_changes_nothing() -> None:
+    heart = Heart() + MitralRegurgitation()
+    assert heart.with_parameters(heart.parameters()) == heart
+
+
+def test_an_unknown_name_is_answered_with_the_nearest() -> None:
+    with pytest.raises(KeyError, match=r"'sigma0' is unknown, nearest are \['sigma_0'"):
+        Heart().with_parameters({"sigma0": 1.0})
+
+
+def test_an_ambiguous_name_is_answered_with_its_paths() -> None:
+    with pytest.raises(
+        KeyError, match=r"circulation\.mitral\.open.*circulation\.aortic\.open.*give the path"
+    ):
+        Heart().with_parameters({"open": 1e-6})
+
+
+def test_an_inadmissible_value_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"Windkessel\.R_p = -1 "):
+        Heart().with_parameters({"R_p": -1.0})
+
+
+def test_a_mechanism_is_added_and_replaces_its_own_kind() -> None:
+    heart = Heart() + MitralRegurgitation(area=1e-5) + MitralRegurgitation(area=2e-5)
+    assert heart.mechanisms == (AtrialKick(), MitralRegurgitation(area=2e-5))
+    assert Heart().mechanisms == (AtrialKick(),)
+
+
+def test_the_trigger_is_counted_from_the_start_of_atrial_systole() -> None:
+    heart = Heart().with_parameters({"onset": 0.2, "trigger_delay": 0.03})
+    assert heart.trigger == pytest.approx(0.23)

@@ -1,0 +1,137 @@
+"""What every mechanism of the folder promises: one switch that turns it off, and its role kept."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from tests.shrinking import assert_derivative
+
+from heartfit.heart import Heart
+from heartfit.mechanics.body import FiniteElementBody
+from heartfit.mechanics.sphere import SphericalBody
+from heartfit.mechanism import COMPARTMENTS, Flow, Mechanism, Pressure, mechanism, registered
+from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+from heartfit.parameter import parameter, parameters_of
+from heartfit.simulation import Numerics, simulate
+
+PERIOD = 0.829
+ONE_BEAT = Numerics(time_step=0.01, max_beats=1)
+KINDS = registered()
+FLOWS = {name: kind for name, kind in KINDS.items() if issubclass(kind, Flow)}
+PRESSURES = {name: kind for name, kind in KINDS.items() if issubclass(kind, Pressure)}
+
+
+def each(kinds: dict[str, type[Mechanism]]) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("kind", kinds.values(), ids=kinds.keys())
+
+
+def test_the_folder_is_the_registry() -> None:
+    assert {"AtrialKick", "MitralRegurgitation"} <= KINDS.keys()
+    assert KINDS.keys() == FLOWS.keys() | PRESSURES.keys()
+
+
+@each(KINDS)
+def test_one_switch_turns_it_off(kind: type[Mechanism]) -> None:
+    assert sum(declared.off is not None for declared in parameters_of(kind)) == 1
+    off = {declared.name: declared.value for declared in parameters_of(kind().turned_off())}
+    assert off[kind.switch().name] == kind.switch().off
+    assert kind().turned_off() != kind()
+
+
+@each(KINDS)
+def test_switched_off_it_leaves_no_trace(
+    kind: type[Mechanism], spherical_heart: Heart, spheres: SphericalBody
+) -> None:
+    others = tuple(m for m in spherical_heart.mechanisms if type(m) is not kind)
+    without = simulate(replace(spherical_heart, mechanisms=others), spheres, ONE_BEAT)
+    off, on = (
+        simulate(replace(spherical_heart, mechanisms=(*others, m)), spheres, ONE_BEAT)
+        for m in (kind().turned_off(), kind())
+    )
+    assert (off.volume["lv"] == without.volume["lv"]).all()
+    assert (off.pressure["lv"] == without.pressure["lv"]).all()
+    assert not np.allclose(on.volume["lv"], without.volume["lv"], rtol=1e-3)
+
+
+@each(PRESSURES)
+def test_pressures_are_continuous_and_periodic(kind: type[Pressure]) -> None:
+    time = np.linspace(0.0, PERIOD, 4001)
+    for compartment in COMPARTMENTS:
+        curve = np.array([kind().pressure(compartment, t, PERIOD) for t in time])
+        again = np.array([kind().pressure(compartment, t + PERIOD, PERIOD) for t in time])
+        assert again == pytest.approx(curve, abs=1e-6)
+        assert abs(np.diff(curve)).max() <= 0.01 * np.ptp(curve)
+        assert curve[-1] == pytest.approx(curve[0], abs=1e-6)
+
+
+@each(PRESSURES)
+def test_pressures_act_on_prescribed_compartments_only(kind: type[Pressure]) -> None:
+    pressed = {c for c in COMPARTMENTS if kind().pressure(c, 0.1, PERIOD) != 0.0}
+    assert pressed
+    assert pressed <= {"left_atrium", "right_atrium"}
+
+
+@each(FLOWS)
+def test_flows_run_down_the_gradient_with_their_own_slope(kind: type[Flow]) -> None:
+    assert {kind.upstream, kind.downstream} <= set(COMPARTMENTS)
+    drops = np.linspace(-1e4, 1e4, 2001)
+    flows = np.array([kind().flow(0.3, drop)[0] for drop in drops])
+    assert (flows * drops >= 0.0).all()
+    assert (np.diff(flows) >= 0.0).all()
+    assert flows.any()
+    for drop in (5.0, 80.0, 7e3):
+        x, step = np.array([drop]), np.array([0.1 * drop])
+        slope = kind().flow(0.3, drop)[1] * step
+        assert_derivative(lambda p: np.array([kind().flow(0.3, p[0])[0]]), slope, x, step)
+
+
+@each(FLOWS)
+def test_blood_is_conserved_with_another_branch(
+    kind: type[Flow], spherical_heart: Heart, spheres: SphericalBody
+) -> None:
+    """The ventricles change by what their branches bring, step by step."""
+    beat = simulate(spherical_heart + kind(), spheres, replace(ONE_BEAT, max_beats=2))
+    net = {
+        "lv": beat.flow["mitral"] - beat.flow["aortic"],
+        "rv": beat.flow["tricuspid"] - beat.flow["pulmonary"],
+    }
+    for name in (kind.upstream, kind.downstream):
+        sign = -1.0 if name == kind.upstream else 1.0
+        if name in net:
+            net[name] = net[name] + sign * beat.flow[kind.__name__]
+    dt = beat.time[1] - beat.time[0]
+    for side, inflow in net.items():
+        assert np.diff(beat.volume[side]) == pytest.approx(dt * inflow[1:], abs=1e-9)
+
+
+def test_they_work_in_three_dimensions(coarse_body: FiniteElementBody) -> None:
+    """Mitral regurgitation takes from the forward stroke volume what it gives back to the atrium."""
+    healthy, leaking = (
+        simulate(heart, coarse_body, ONE_BEAT)
+        for heart in (Heart(), Heart() + MitralRegurgitation(area=0.4e-4))
+    )
+    assert (healthy.reason, leaking.reason) == ("", "")
+    forward = [np.trapezoid(beat.flow["aortic"], beat.time) for beat in (healthy, leaking)]
+    assert forward[1] < 0.9 * forward[0]
+    assert np.trapezoid(leaking.flow["MitralRegurgitation"], leaking.time) > 10e-6
+
+
+def test_a_mechanism_without_role_or_with_a_taken_name_is_refused() -> None:
+    with pytest.raises(TypeError, match=r"Stray plays no role: derive it from one of \['Flow', 'Pressure'\]"):
+
+        @mechanism
+        class Stray(Mechanism):
+            pass
+
+    with pytest.raises(TypeError, match="MitralRegurgitation is registered twice"):
+        mechanism(type("MitralRegurgitation", (Flow,), {}))
+
+
+def test_a_mechanism_without_switch_is_refused() -> None:
+    @dataclass(frozen=True)
+    class Constant(Pressure):
+        height: float = parameter(1.0, unit="Pa", symbol="h", meaning="height")
+
+    with pytest.raises(TypeError, match="Constant declares 0 parameters with an off value: expected one"):
+        mechanism(Constant)
+    assert "Constant" not in registered()

@@ -1,0 +1,61 @@
+"""Parameters are declared once, and refused with their name where they make no sense."""
+
+from dataclasses import FrozenInstanceError, dataclass
+
+import pytest
+
+from heartfit.circulation.windkessel import Windkessel
+from heartfit.heart import Heart
+from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
+from heartfit.parameter import parameter, parameters_of, require_admissible
+
+
+@dataclass(frozen=True)
+class Part:
+    size: float = parameter(2.0, unit="m", symbol="s", meaning="size of the part", sd=0.1, low=-1.0)
+    label: str = "not a parameter"
+
+    def __post_init__(self) -> None:
+        require_admissible(self)
+
+
+def test_a_declaration_is_read_from_the_class_and_its_value_from_the_instance() -> None:
+    (declared,) = parameters_of(Part)
+    assert (declared.name, declared.unit, declared.symbol, declared.sd, declared.low) == (
+        "size", "m", "s", 0.1, -1.0,
+    )  # fmt: skip
+    assert declared.value == 2.0
+    assert next(parameters_of(Part(size=3.0))).value == 3.0
+
+
+@pytest.mark.parametrize("value", [-1.1, float("nan"), float("inf"), float("-inf")])
+def test_an_inadmissible_value_is_refused_with_name_unit_and_bound(value: float) -> None:
+    with pytest.raises(
+        ValueError, match=r"Part\.size = \S+ m: expected a finite value of at least -1 \(size"
+    ):
+        Part(size=value)
+
+
+def test_the_bound_itself_is_admissible() -> None:
+    assert Part(size=-1.0).size == -1.0
+
+
+@pytest.mark.parametrize("part", [MooneyRivlin, Windkessel])
+def test_the_parts_of_the_heart_refuse_negative_parameters(part: type) -> None:
+    for declared in parameters_of(part):
+        with pytest.raises(ValueError, match=rf"{part.__name__}\.{declared.name} = -1 "):
+            part(**{declared.name: -1.0})
+
+
+def test_values_do_not_change_in_place() -> None:
+    with pytest.raises(FrozenInstanceError):
+        Part().size = 4.0  # type: ignore[misc]
+
+
+def test_every_calibrated_parameter_has_a_prior_around_an_admissible_value() -> None:
+    heart = Heart()
+    for part in (heart.tissue.passive, heart.tissue.active, heart.tissue.control, heart.circulation.systemic):
+        for declared in parameters_of(part):
+            if declared.sd is not None:
+                assert 0.0 < declared.sd < 1.0
+                assert declared.value > max(declared.low, 0.0)

@@ -1,0 +1,106 @@
+"""The beat of two spheres: periodic, conserving, physiological, convergent, and honest when it fails."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.beat import Beat
+from heartfit.circulation.coupling import Tolerances
+from heartfit.heart import Heart
+from heartfit.mechanics.sphere import Sphere, SphericalBody
+from heartfit.simulation import Numerics, simulate
+
+NUMERICS = Numerics(max_beats=12)
+KILO, MILLILITRE = 1e3, 1e-6
+
+
+@pytest.fixture(scope="module")
+def beat(spherical_heart: Heart, spheres: SphericalBody) -> Beat:
+    return simulate(spherical_heart, spheres, NUMERICS)
+
+
+def per_beat(beat: Beat, flow: str) -> float:
+    """Volume through a branch in the beat: flows are those at the end of the steps."""
+    return float(beat.flow[flow][1:].sum() * (beat.time[1] - beat.time[0]))
+
+
+def test_the_limit_cycle_is_reached_and_stated(beat: Beat) -> None:
+    assert (beat.status, beat.reason, beat.completed) == ("completed", "", True)
+    assert beat.diagnostics["drift"] < NUMERICS.drift
+    assert 1 < beat.diagnostics["beats"] < NUMERICS.max_beats
+    for side in ("lv", "rv"):
+        curve = beat.volume[side]
+        assert abs(curve[-1] - curve[0]) < NUMERICS.drift * np.ptp(curve)
+
+
+def test_what_flows_in_flows_out(beat: Beat) -> None:
+    """Of both ventricles, but for what they gained over the beat."""
+    strokes = {name: per_beat(beat, name) for name in beat.flow}
+    for inlet, outlet, side in (("mitral", "aortic", "lv"), ("tricuspid", "pulmonary", "rv")):
+        gained = beat.volume[side][-1] - beat.volume[side][0]
+        assert strokes[inlet] - strokes[outlet] == pytest.approx(gained, abs=0.02 * MILLILITRE)
+        assert strokes[outlet] > 30 * MILLILITRE
+
+
+def test_isovolumic_phases_keep_the_volume(beat: Beat) -> None:
+    valves = {"lv": ("mitral", "aortic"), "rv": ("tricuspid", "pulmonary")}
+    for side, (inlet, outlet) in valves.items():
+        closed = (beat.flow[inlet] <= 0.0) & (beat.flow[outlet] <= 0.0)
+        both = closed[1:] & closed[:-1]
+        assert both.sum() >= 8
+        assert abs(np.diff(beat.volume[side])[both]).sum() < 0.1 * MILLILITRE
+
+
+def test_pressures_are_those_of_a_human(beat: Beat) -> None:
+    systolic = {name: curve.max() / KILO for name, curve in beat.pressure.items()}
+    assert 10.0 < systolic["lv"] < 20.0
+    assert 2.0 < systolic["rv"] < 6.0
+    assert 7.0 < beat.pressure["aorta"].min() / KILO < systolic["aorta"] <= systolic["lv"] + 0.1
+    assert 0.0 < beat.pressure["lv"].min() / KILO < 1.0
+    assert 0.4 < np.ptp(beat.volume["lv"]) / beat.volume["lv"].max() < 0.8
+
+
+def test_the_beat_converges_with_the_time_step(spherical_heart: Heart, spheres: SphericalBody) -> None:
+    """First order in the smallest volume and in the last arterial pressure of the first beat."""
+    steps = [spherical_heart.period / n for n in (200, 400, 800, 1600)]
+    beats = [simulate(spherical_heart, spheres, Numerics(time_step=dt, max_beats=1)) for dt in steps]
+    for values in (
+        [beat.volume["lv"].min() for beat in beats],
+        [beat.pressure["aorta"][-1] for beat in beats],
+    ):
+        changes = abs(np.diff(values))
+        assert (np.log2(changes[:-1] / changes[1:]) > 0.9).all()
+
+
+def test_a_failing_heart_says_when_and_why(spherical_heart: Heart, spheres: SphericalBody) -> None:
+    hopeless = Numerics(cuts=1, tolerances=Tolerances(iterations=1))
+    beat = simulate(spherical_heart, spheres, hopeless)
+    assert (beat.status, beat.completed) == ("failed", False)
+    assert beat.reason.startswith("beat 1: at 0.")
+    assert "no equilibrium in 1 iterations, residual" in beat.reason
+    assert beat.time.size == 0
+    assert beat.diagnostics["beats"] == 0.0
+
+
+def test_a_heart_that_cannot_be_filled_fails_too(spherical_heart: Heart) -> None:
+    balloon = spherical_heart.with_parameters({"c_1": 5.0, "c_2": 0.0})
+    body = SphericalBody(Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6), balloon.tissue)
+    beat = simulate(balloon, body)
+    assert beat.status == "failed"
+    assert "stretched to" in beat.reason or "too soft" in beat.reason
+
+
+def test_cut_steps_recover_the_beat(beat: Beat, spherical_heart: Heart, spheres: SphericalBody) -> None:
+    strict = replace(NUMERICS, tolerances=Tolerances(iterations=3))
+    cut = simulate(spherical_heart, spheres, strict)
+    assert cut.diagnostics["step_cuts"] > 0
+    assert cut.volume["lv"] == pytest.approx(beat.volume["lv"], abs=2 * MILLILITRE)
+
+
+def test_progress_rises_to_one(spherical_heart: Heart, spheres: SphericalBody) -> None:
+    seen: list[float] = []
+    simulate(spherical_heart, spheres, Numerics(time_step=0.01, max_beats=2, drift=0.0), seen.append)
+    assert (np.diff(seen) > 0.0).all()
+    assert seen[0] > 0.0
+    assert seen[-1] == pytest.approx(1.0)
