@@ -64,9 +64,9 @@ def mechanism(cls: M) -> M:
     """Register a mechanism under its class name; ``TypeError`` without a role or with a name taken."""
     if not issubclass(cls, ROLES):
         raise TypeError(f"{cls.__name__} plays no role: derive it from one of {[r.__name__ for r in ROLES]}")
+    cls.switch()
     if _REGISTRY.setdefault(cls.__name__, cls) is not cls:
         raise TypeError(f"mechanism {cls.__name__} is registered twice: rename one of them")
-    cls.switch()
     return cls
 
 

@@ -14,7 +14,8 @@ def nested_dissection(tets: Integers, nodes: int) -> Integers:
     apart = first != second
     pairs = (first[apart], second[apart])
     graph = coo_array((np.ones(apart.sum(), dtype=np.int8), pairs), shape=(nodes, nodes)).tocsr()
-    order, _ = pymetis.nested_dissection(xadj=graph.indptr, adjncy=graph.indices)
+    adjacency = pymetis.CSRAdjacency(adj_starts=graph.indptr, adjacent=graph.indices)
+    order, _ = pymetis.nested_dissection(adjacency)
     return np.asarray(order, dtype=np.int64)
 
 

@@ -24,6 +24,7 @@ from numba import njit
 
 from heartfit.geometry.arrays import Floats
 from heartfit.mechanics.active.starling import Starling
+from heartfit.mechanics.kinematics import StepFailed
 from heartfit.parameter import parameter, require_admissible
 
 BRIDGE_FLOOR = 1.0
@@ -73,9 +74,14 @@ class BestelClementSorine:
         _respond(drive.rate, drive.attach, drive.n_0, drive.dt, self.constants(), e_old, e_new, state, out)
 
     def advance(self, drive: "Drive", state: Floats, increment: Floats) -> Floats:
-        """State (3, m) at the end of a step in which ``e_c`` changed by ``increment``."""
+        """State (3, m) at the end of a step in which ``e_c`` changed by ``increment``.
+
+        Raises StepFailed where the increment met its bound: the fibre equation has no solution in it then.
+        """
         if np.isinf(drive.dt):
             return np.vstack([state[0] + increment, self.rest(increment.size)[1:]])
+        if np.abs(increment).max() >= LARGEST_INCREMENT:
+            raise StepFailed(f"e_c of a fibre changed by {LARGEST_INCREMENT:g} in a step of {drive.dt:.2g} s")
         return _advance(drive.rate, drive.attach, drive.n_0, drive.dt, self.constants(), state, increment)
 
 
