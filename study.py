@@ -122,7 +122,7 @@ def remaining(line: str, elapsed: float) -> str:
 
 def test(arguments: list[str]) -> int:
     """Pass the tests."""
-    return subprocess.run(tool("pytest", *arguments), check=False).returncode
+    return subprocess.run(tool("pytest", "--numprocesses", "2", *arguments), check=False).returncode
 
 
 def lint(_: list[str]) -> int:

@@ -18,7 +18,7 @@ HEIGHTS = (
     ("circulation",),
     ("mechanisms",),
     ("heart",),
-    ("beat", "registration"),
+    ("beat", "registration", "ventricles"),
     ("simulation",),
     ("cohort",),
     ("observation",),
