@@ -103,7 +103,7 @@ def tool(name: str, *arguments: str) -> list[str]:
 def run(arguments: list[str]) -> int:
     """Run the workflow, adding the time that remains to Snakemake's count of steps."""
     print(f"The study takes {ABOUT}; what is up to date is left alone.", flush=True)
-    command = tool("snakemake", "--cores", "2", "--profile", "profiles/default", *arguments)
+    command = tool("snakemake", "--cores", "2", *arguments)
     begin = time.monotonic()
     with subprocess.Popen(command, stderr=subprocess.STDOUT, stdout=subprocess.PIPE, text=True) as process:
         for line in process.stdout or ():
