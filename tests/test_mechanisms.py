@@ -124,7 +124,7 @@ def test_a_mechanism_without_role_or_with_a_taken_name_is_refused() -> None:
             pass
 
     with pytest.raises(TypeError, match="MitralRegurgitation is registered twice"):
-        mechanism(type("MitralRegurgitation", (Flow,), {}))
+        mechanism(type("MitralRegurgitation", (MitralRegurgitation,), {}))
 
 
 def test_a_mechanism_without_switch_is_refused() -> None:

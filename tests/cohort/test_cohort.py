@@ -45,9 +45,9 @@ def test_the_truth_is_the_heart_s_value_of_the_paper_s_parameters() -> None:
 
 
 def test_the_hidden_hearts_scatter_about_the_standard() -> None:
-    drawn = np.log([draw_heart(STANDARD, PERIOD, seed)[1]["sigma_0"] / 200e3 for seed in range(300)])
-    assert drawn.mean() == pytest.approx(0.0, abs=0.03)
-    assert drawn.std() == pytest.approx(0.15, rel=0.15)
+    drawn = np.log([draw_heart(STANDARD, PERIOD, seed)[1]["sigma_0"] / 200e3 for seed in range(150)])
+    assert drawn.mean() == pytest.approx(0.0, abs=0.04)
+    assert drawn.std() == pytest.approx(0.15, rel=0.2)
 
 
 def test_a_clean_acquisition_is_the_beat_from_its_trigger(beat: Beat) -> None:

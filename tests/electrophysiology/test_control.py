@@ -1,0 +1,43 @@
+"""The control's mean over a step: exact, periodic and independent of how activation falls between steps."""
+
+import numpy as np
+import pytest
+
+from heartfit.electrophysiology.control import Control
+
+CONTROL, PERIOD = Control(), 0.829
+ACTIVATION = np.linspace(0.0, 0.09, 37)
+
+
+@pytest.mark.parametrize("steps", [7, 83, 166])
+def test_every_point_is_depolarised_for_its_action_potential_in_each_period(steps: int) -> None:
+    dt = PERIOD / steps
+    means = [CONTROL.mean(n * dt, dt, ACTIVATION, PERIOD) for n in range(steps)]
+    attached = dt * sum(attach for _, attach in means)
+    detached = dt * sum(rate - attach for rate, attach in means)
+    assert attached == pytest.approx(CONTROL.k_ATP * CONTROL.duration)
+    assert detached == pytest.approx(CONTROL.k_RS * (PERIOD - CONTROL.duration))
+
+
+def test_depolarisation_begins_and_ends_where_the_step_is_cut() -> None:
+    """A step of 10 ms of which the point spends 4 ms depolarised."""
+    begin, end = CONTROL.onset + 0.05, CONTROL.onset + 0.05 + CONTROL.duration
+    for start in (begin - 0.006, end - 0.004):
+        rate, attach = CONTROL.mean(start, 0.01, np.array([0.05]), PERIOD)
+        assert attach == pytest.approx(0.4 * CONTROL.k_ATP)
+        assert rate == pytest.approx(0.4 * CONTROL.k_ATP + 0.6 * CONTROL.k_RS)
+
+
+def test_the_control_is_periodic() -> None:
+    times = np.linspace(0.0, PERIOD, 50)
+    for beats in (1, 5):
+        for time in times:
+            now, later = (CONTROL.mean(t, 5e-3, ACTIVATION, PERIOD)[1] for t in (time, time + beats * PERIOD))
+            assert later == pytest.approx(now, abs=1e-9)
+
+
+def test_an_action_potential_longer_than_the_period_is_refused() -> None:
+    with pytest.raises(
+        ValueError, match=r"action potential of 0\.34 s: expected less than the period, 0\.3 s"
+    ):
+        CONTROL.mean(0.0, 5e-3, ACTIVATION, 0.3)

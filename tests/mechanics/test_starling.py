@@ -1,0 +1,29 @@
+"""Length dependence: none at slope 0, the published table at slope 1."""
+
+import numpy as np
+import pytest
+
+from heartfit.mechanics.active.starling import AVAILABLE, EXTENSION, Starling
+
+
+def green_lagrange(extension: np.ndarray) -> np.ndarray:
+    return 0.5 * ((1.0 + extension) ** 2 - 1.0)
+
+
+def test_without_slope_all_bridges_are_available_at_any_length() -> None:
+    assert (Starling(slope=0.0).available(np.linspace(-0.6, 2.0, 50)) == 1.0).all()
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.2])
+def test_full_slope_is_the_table_of_the_shifted_extension(shift: float) -> None:
+    law = Starling(slope=1.0, shift=shift)
+    assert law.available(green_lagrange(EXTENSION - shift)) == pytest.approx(AVAILABLE, abs=1e-12)
+    beyond = green_lagrange(np.array([EXTENSION[0] - 0.1, EXTENSION[-1] + 0.1]) - shift)
+    assert law.available(beyond) == pytest.approx(0.0)
+
+
+def test_half_a_slope_takes_half_of_what_the_table_lacks() -> None:
+    e_c = green_lagrange(np.linspace(-0.3, 0.9, 40))
+    half, full = (1.0 - Starling(slope=s).available(e_c) for s in (0.5, 1.0))
+    assert half == pytest.approx(0.5 * full)
+    assert full.max() > 0.3
