@@ -81,7 +81,7 @@ def test_forces_add_up_to_nothing(block: Callable, element: str) -> None:
 
 @elements
 def test_homogeneous_deformation_is_in_balance_inside(block: Callable, element: str) -> None:
-    """The patch test; the faces carry the first Piola stress, so the block is not simply without forces."""
+    """The patch test; the faces are loaded, so the block is not simply without forces."""
     tissue = Tissue(support=FREE, element=element, passive=MooneyRivlin(K=1e5))
     body = FiniteElementBody(block(), tissue)
     X, rest = body.reference.points, body.rest()
@@ -95,6 +95,23 @@ def test_homogeneous_deformation_is_in_balance_inside(block: Callable, element: 
     assert forces[:, 3:] == pytest.approx(0.0, abs=1e-15)
     assert abs(forces[:, :3]).max() > 1e-2
     assert body.wall_volume(x) == pytest.approx(np.linalg.det(F) * body.reference.wall_volume())
+
+
+@elements
+def test_the_faces_carry_the_first_piola_stress(block: Callable, element: str) -> None:
+    """The virial of the nodal forces is the volume times dW/dF, here term by term."""
+    passive = MooneyRivlin(K=1e5)
+    body = FiniteElementBody(block(), Tissue(support=FREE, element=element, passive=passive))
+    F = np.eye(3) + 0.2 * np.random.default_rng(8).standard_normal((3, 3))
+    C, J, cofactor = F.T @ F, np.linalg.det(F), np.linalg.det(F) * np.linalg.inv(F).T
+    I1, I2 = np.trace(C), 0.5 * (np.trace(C) ** 2 - np.trace(C @ C))
+    first = 2.0 * passive.c_1 * J ** (-2 / 3) * (F - I1 / 3.0 * cofactor / J)
+    second = 2.0 * passive.c_2 * J ** (-4 / 3) * (I1 * F - F @ C - 2.0 * I2 / 3.0 * cofactor / J)
+    piola = first + second + 1e5 * (J - 1.0) * cofactor
+    X, rest = body.reference.points, body.rest()
+    x = np.column_stack([X @ (F - np.eye(3)).T, np.full(len(X), 1e5 * (J - 1.0))])[:, : rest.x.shape[1]]
+    forces = body.endless_step(rest).forces(x).reshape(x.shape)[:, :3]
+    assert forces.T @ X / body.reference.wall_volume() == pytest.approx(piola)
 
 
 def test_volume_gradients_are_the_derivatives_of_the_volumes(block: Callable) -> None:
