@@ -1,5 +1,7 @@
 """What tests of more than one folder share."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,8 @@ from heartfit.mechanics.body import FiniteElementBody, Tissue
 from heartfit.mechanics.sphere import Sphere, SphericalBody
 from heartfit.mechanics.unloading import unload
 
+MEASURED_HEART = ("../shared/data/bivme_patient1", "resources/bivme_patient1")
+DESELECTED = pytest.StashKey[int]()
 END_DIASTOLIC_PRESSURE = np.array([1000.0, 500.0])
 
 
@@ -48,3 +52,33 @@ def spheres(spherical_heart: Heart) -> SphericalBody:
     """Ventricles of two spheres, which beat in a second."""
     left, right = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
     return SphericalBody(left, right, spherical_heart.tissue)
+
+
+def _measured_heart_folder() -> Path | None:
+    """The folder of the measured heart, if this machine has its data; a fetched licence alone is not enough."""
+    root = Path(__file__).parents[1]
+    return next((root / place for place in MEASURED_HEART if (root / place / "template").is_dir()), None)
+
+
+@pytest.fixture(scope="session")
+def measured_heart_folder() -> Path:
+    folder = _measured_heart_folder()
+    assert folder is not None, "a test that needs the measured heart must carry the marker `measured`"
+    return folder
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Without the data, what needs it is deselected, and the summary says why."""
+    if _measured_heart_folder() is not None:
+        return
+    needing = [item for item in items if item.get_closest_marker("measured")]
+    items[:] = [item for item in items if item not in needing]
+    config.hook.pytest_deselected(items=needing)
+    config.stash[DESELECTED] = len(needing)
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    if count := config.stash.get(DESELECTED, 0):
+        terminalreporter.write_line(
+            f"{count} tests of the measured heart deselected: its data is in none of {', '.join(MEASURED_HEART)}"
+        )

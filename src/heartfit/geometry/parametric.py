@@ -1,16 +1,16 @@
 """Ventricles from a handful of clinical numbers: a truncated ellipsoid with a crescent-shaped pocket.
 
-Everything is a radius along rays from the centre of the flat base, x = r d(eta, phi), with the eccentric
-angle eta of the left epicardium (0 base, pi/2 apex) and the azimuth phi (0 at the middle of the septum):
+Everything is a distance s from the left endocardium along its outward normal n, x = e + s n, with the
+eccentric angle eta of its ellipsoid (0 base, pi/2 apex) and the azimuth phi (0 at the middle of the septum):
 
-    r1, r2 : left endocardium and epicardium, ellipsoids of semi-axes (a, c) and (a + w, c + w)
-    r3 = r2 + B (1 - q^2) / n.d,   q^2 = (phi / phi0)^2 + (eta / eta0)^2        right free wall, inside q < 1
-    r4 = smooth maximum of r2 and r3 + t / n.d                                   epicardium of both ventricles
+    e  : ellipsoid of semi-axes (a, c)                                               left endocardium, s = 0
+    s2 = w                                                          left epicardium and septum's right side
+    s3 = w + B (1 - q^2),   q^2 = (phi / phi0)^2 + (eta / eta0)^2   right free wall, inside q < 1
+    s4 = w + smooth maximum of 0 and (s3 - w + t)                   epicardium of both ventricles
 
-with the outward normal n of the left epicardium. a follows from the left cavity volume, B from the right one.
+a follows from the left cavity volume, B from the right one.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,28 +70,28 @@ class ParametricVentricles:
         return self._build(a, float(brentq(excess, 1e-3 * a, 4.0 * a, xtol=1e-6 * a)))
 
     def _radius(self) -> float:
-        """Radius a in m of the left cavity at the base; the volume of one shape grows with a^3."""
+        """Radius a in m of the left cavity at the base; the volume of the faceted cavity grows with a^3."""
         unit = self._build(1.0, 1.0)
         return float(np.cbrt(self.edv / Cavity.of(unit, "lv_endo").volume(unit.points)))
 
     def _build(self, a: float, bulge: float) -> LabelledSurface:
-        radii = _Radii(a, 2.0 * self.sphericity * a, self.wall_thickness, self.rv_wall_thickness, bulge)
+        sheet = _Sheets(a, 2.0 * self.sphericity * a, self.wall_thickness, self.rv_wall_thickness, bulge)
         eta, phi = np.meshgrid(np.linspace(0.0, np.pi / 2, ROWS), _azimuths(), indexing="ij")
         patch = _patch_angles()
         rim = (np.zeros_like(_azimuths()), _azimuths())
         sheets = [
-            ("lv_endo", radii.left_endo(eta, phi)),
-            ("epi", radii.epi(eta, phi)),
-            ("rv_endo", radii.left_epi(*patch)),
-            ("rv_endo", radii.right_endo(*patch)),
-            ("base", np.stack([radii.left_endo(*rim), radii.left_epi(*rim)])),
-            ("base", np.stack([radii.right_endo(*rim), radii.epi(*rim)])),
+            ("lv_endo", sheet.left_endo(eta, phi)),
+            ("epi", sheet.epi(eta, phi)),
+            ("rv_endo", sheet.left_epi(*patch)),
+            ("rv_endo", sheet.right_endo(*patch)),
+            ("base", np.stack([sheet.left_endo(*rim), sheet.left_epi(*rim)])),
+            ("base", np.stack([sheet.right_endo(*rim), sheet.epi(*rim)])),
         ]
         return _sew(sheets)
 
 
 @dataclass(frozen=True)
-class _Radii:
+class _Sheets:
     """Points (..., 3) of the four sheets at the angles (eta, phi)."""
 
     a: float
@@ -101,40 +101,27 @@ class _Radii:
     bulge: float
 
     def left_endo(self, eta: Floats, phi: Floats) -> Floats:
-        d = self._direction(eta, phi)
-        r1 = 1.0 / np.sqrt((d[..., 0] ** 2 + d[..., 1] ** 2) / self.a**2 + d[..., 2] ** 2 / self.c**2)
-        return r1[..., None] * d
+        across = self.a * np.cos(eta)
+        return np.stack([across * np.cos(phi), across * np.sin(phi), -self.c * np.sin(eta)], axis=-1)
 
     def left_epi(self, eta: Floats, phi: Floats) -> Floats:
-        across = (self.a + self.wall) * np.cos(eta)
-        return np.stack(
-            [across * np.cos(phi), across * np.sin(phi), -(self.c + self.wall) * np.sin(eta)], axis=-1
-        )
+        return self._outwards(eta, phi, np.full_like(eta, self.wall))
 
     def right_endo(self, eta: Floats, phi: Floats) -> Floats:
-        return self._beyond_left_epi(eta, phi, lambda pocket, _: np.maximum(pocket, 0.0))
+        return self._outwards(eta, phi, self.wall + np.maximum(self._pocket(eta, phi), 0.0))
 
     def epi(self, eta: Floats, phi: Floats) -> Floats:
-        return self._beyond_left_epi(eta, phi, lambda pocket, wall: _smooth_positive(pocket + wall))
+        return self._outwards(
+            eta, phi, self.wall + _smooth_positive(self._pocket(eta, phi) + self.right_wall)
+        )
 
-    def _beyond_left_epi(
-        self, eta: Floats, phi: Floats, distance: Callable[[Floats, Floats], Floats]
-    ) -> Floats:
-        pocket = self.bulge * (1.0 - (phi / PATCH_AZIMUTH) ** 2 - (eta / PATCH_DEPTH) ** 2)
-        slant = 1.0 / self._normal_along_ray(eta, phi)
-        beyond = distance(pocket * slant, self.right_wall * slant)
-        return self.left_epi(eta, phi) + beyond[..., None] * self._direction(eta, phi)
+    def _pocket(self, eta: Floats, phi: Floats) -> Floats:
+        return self.bulge * (1.0 - (phi / PATCH_AZIMUTH) ** 2 - (eta / PATCH_DEPTH) ** 2)
 
-    def _direction(self, eta: Floats, phi: Floats) -> Floats:
-        point = self.left_epi(eta, phi)
-        return point / np.linalg.norm(point, axis=-1, keepdims=True)
-
-    def _normal_along_ray(self, eta: Floats, phi: Floats) -> Floats:
-        """n.d, the cosine between the left epicardium's normal and the ray."""
-        across, along = self.a + self.wall, self.c + self.wall
-        normal = self.left_epi(eta, phi) / np.array([across**2, across**2, along**2])
-        normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-        return (normal * self._direction(eta, phi)).sum(axis=-1)
+    def _outwards(self, eta: Floats, phi: Floats, distance: Floats) -> Floats:
+        endo = self.left_endo(eta, phi)
+        normal = endo / np.array([self.a**2, self.a**2, self.c**2])
+        return endo + distance[..., None] * normal / np.linalg.norm(normal, axis=-1, keepdims=True)
 
 
 def _smooth_positive(x: Floats) -> Floats:
