@@ -1,6 +1,7 @@
 """Everything that is declared, from the declarations: the parameters of hearts and mechanisms."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from difflib import get_close_matches
 from typing import Any
 
 from heartfit.heart import FOURTEEN, Heart
@@ -20,15 +21,27 @@ the paper's fourteen are marked with *; "off" is the value at which a mechanism 
 
 def declared(name: str) -> Parameter:
     """The declaration of a parameter by a name as Heart.with_parameters takes; raises KeyError as it does."""
-    *parts, last = Heart().path_of(name).split(".")
-    part: Any = Heart()
+    heart = composed(registered())
+    *parts, last = heart.path_of(name).split(".")
+    part: Any = heart
     for step in parts:
-        part = getattr(part, step, None) or _mechanism(step)
+        part = getattr(part, step, None) or _mechanism(heart, step)
     return next(entry for entry in parameters_of(part) if entry.name == last)
 
 
-def _mechanism(name: str) -> Any:
-    return next(each for each in Heart().mechanisms if type(each).__name__ == name)
+def _mechanism(heart: Heart, name: str) -> Any:
+    return next(each for each in heart.mechanisms if type(each).__name__ == name)
+
+
+def composed(mechanisms: Iterable[str], heart: Heart | None = None) -> Heart:
+    """A heart (the standard one) plus mechanisms by name; raises KeyError naming the nearest known one."""
+    known, result = registered(), heart or Heart()
+    for name in mechanisms:
+        if name not in known:
+            near = get_close_matches(name, known, n=1, cutoff=0.0)[0]
+            raise KeyError(f"mechanism {name!r} is unknown; did you mean {near}? Known are {', '.join(known)}")
+        result = result + known[name]()
+    return result
 
 
 def parameter_page() -> str:
@@ -37,13 +50,7 @@ def parameter_page() -> str:
 
 
 def _all_parameters() -> Iterator[tuple[str, Parameter]]:
-    standard = Heart()
-    for path in standard.parameters():
-        yield path, declared(path)
-    present = {type(each) for each in standard.mechanisms}
-    for name, kind in registered().items():
-        if kind not in present:
-            yield from ((f"{name}.{entry.name}", entry) for entry in parameters_of(kind))
+    yield from ((path, declared(path)) for path in composed(registered()).parameters())
 
 
 def _row(path: str, entry: Parameter) -> str:

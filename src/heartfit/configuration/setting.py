@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, PositiveFloat, model_validator
 
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.catalogue import declared
+from heartfit.catalogue import composed, declared
 from heartfit.configuration.strict import Strict
 from heartfit.heart import Heart
 from heartfit.mechanics.body import Tissue
@@ -30,14 +30,19 @@ class Setting(Strict):
 
     element: Literal["mixed", "p1", "sphere"]
     reference: Literal["unloaded", "end_diastolic"] = Field("unloaded", description="the stress-free state")
+    mechanisms: tuple[str, ...] = Field((), description="added to the heart, by name")
     estimate: tuple[str, ...] = Field(min_length=1)
     heart: dict[str, float] = Field({}, description="parameters that differ from their declared value")
     prior: dict[str, Prior] = Field({}, description="what differs from the study's prior")
 
     @model_validator(mode="after")
     def _names_are_sound(self) -> Self:
-        for name in (*self.estimate, *self.heart, *self.prior):
-            require_known(name)
+        try:
+            heart = composed(self.mechanisms)
+            for name in (*self.estimate, *self.heart, *self.prior):
+                heart.path_of(name)
+        except KeyError as unknown:
+            raise ValueError(str(unknown.args[0])) from None
         both = sorted(set(self.estimate) & set(self.heart))
         if both:
             raise ValueError(f"{both[0]} is estimated and fixed at once; give its mean under prior instead")
@@ -61,7 +66,7 @@ class Setting(Strict):
 
     def base_heart(self, period: float) -> Heart:
         """The heart at the mean of the prior."""
-        heart = Heart(tissue=Tissue(element=self.element), period=period)
+        heart = composed(self.mechanisms, Heart(tissue=Tissue(element=self.element), period=period))
         return heart.with_parameters({**self.heart, **self.gaussian().physical()})
 
     def units(self) -> dict[str, str]:
