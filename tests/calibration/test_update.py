@@ -7,7 +7,7 @@ from hypothesis import strategies as some
 
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError, sigma_points, transform
-from heartfit.calibration.update import calibrate, relative_noise, update
+from heartfit.calibration.update import calibrate, update
 
 NAMES = ("V_min", "q_max", "q_min")
 
@@ -83,7 +83,7 @@ def test_collinear_observations_are_refused_unless_they_carry_noise() -> None:
     moments = transform(sigma_points(prior), z)
     with pytest.raises(CalibrationError, match="collinear"):
         update(prior, moments, named(observed))
-    update(prior, moments, named(observed), relative_noise(observed, [0.02, 0.1, 0.1]))
+    update(prior, moments, named(observed), np.diag(np.square(0.1 * observed)))
 
 
 def test_an_observation_nothing_changes_is_refused() -> None:

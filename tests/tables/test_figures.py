@@ -32,6 +32,7 @@ def test_volumes_and_the_shift_are_drawn() -> None:
     assert [line.get_label() for line in lines] == ["measured", "reference", "calibrated"]
     time, volume = lines[2].get_data()
     assert (np.diff(time) > 0).all()
+    assert time.min() >= 0
     assert abs(time[np.argmin(volume)] - PERIOD / 2) < 0.01
     assert "volunteer, physical" in figure.get_suptitle()
 

@@ -67,6 +67,16 @@ def test_errors_stand_beside_their_floor_and_the_paper() -> None:
     assert table.iloc[-1]["mean (%)"] == pytest.approx((1.32 + 11.85 + 12.66) / 3)
 
 
+def test_each_setting_has_the_mean_of_its_completed_cases() -> None:
+    cases = [case(factor=1.1), case("b", factor=1.3), case("c", setting="paper", factor=1.5)]
+    failed = replace(case("d", setting="paper"), calibrated={}, root_mean_square={})
+    table = error_table([*cases, failed], PAPER_ERRORS)
+    means = table[table["case"].str.startswith("mean of")].set_index("setting")
+    assert means.loc["physical", "V_min (%)"] == pytest.approx(20)
+    assert means.loc["paper", "V_min (%)"] == pytest.approx(50)
+    assert means.loc["paper", "case"] == "mean of 1"
+
+
 def test_the_sign_of_an_error_follows_the_magnitude_of_the_observation() -> None:
     assert case().errors()["q_max"] == pytest.approx(10)
     assert case().errors()["q_min"] == pytest.approx(-10)

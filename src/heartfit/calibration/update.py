@@ -50,11 +50,6 @@ class Posterior:
     notes: tuple[str, ...]
 
 
-def relative_noise(observed: Sequence[float], relative_sd: Sequence[float]) -> np.ndarray:
-    """R = diag((s_k Z_k)^2)."""
-    return np.diag(np.square(np.multiply(observed, relative_sd)))
-
-
 def calibrate(
     prior: Gaussian,
     outcomes: Sequence[Mapping[str, float] | None],

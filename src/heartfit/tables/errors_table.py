@@ -1,6 +1,7 @@
 """Table 1: relative errors between simulated and measured observations, beside the paper's."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -24,11 +25,11 @@ def error_table(cases: Sequence[CaseResult], paper: pd.DataFrame) -> pd.DataFram
     return pd.DataFrame([*rows, *means, *_paper_rows(paper)])
 
 
-def _row(case: CaseResult) -> dict[str, object]:
+def _row(case: CaseResult) -> dict[str, Any]:
     errors = {name: abs(error) for name, error in case.errors().items()}
     prior = [abs(error) for error in case.reference_errors().values()]
     floor = case.floor()
-    row: dict[str, object] = {"setting": case.setting, "case": case.case}
+    row: dict[str, Any] = {"setting": case.setting, "case": case.case}
     for name, error in errors.items():
         row |= {f"{name} (%)": error, f"{name} floor (%)": floor[name]}
     return row | {
@@ -47,12 +48,14 @@ def _fits(root_mean_square: Mapping[str, float]) -> dict[str, float]:
     }
 
 
-def _mean(setting: str, rows: Sequence[Mapping[str, object]]) -> dict[str, object]:
-    numbers = pd.DataFrame(rows).select_dtypes("number").mean()
-    return {"setting": setting, "case": f"mean of {len(rows)}", **numbers.to_dict()}
+def _mean(setting: str, rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Column means over the cases whose verification completed, as the row's name says."""
+    completed = [row for row in rows if np.isfinite(row["mean (%)"])]
+    numbers = pd.DataFrame(completed).select_dtypes("number").mean()
+    return {"setting": setting, "case": f"mean of {len(completed)}", **numbers.to_dict()}
 
 
-def _paper_rows(paper: pd.DataFrame) -> list[dict[str, object]]:
+def _paper_rows(paper: pd.DataFrame) -> list[dict[str, Any]]:
     table = paper.set_index("observation")
     return [
         {
