@@ -59,5 +59,5 @@ def sigma_point_beats(wildcards):
 
 
 def measured_files(_):
-    """All files of the measured heart that are read."""
-    return sorted(str(file) for file in HEART.rglob("*") if file.suffix in {".txt", ".mat", ".json"})
+    """The control points of the measured heart in every phase and the template they refer to."""
+    return sorted(str(file) for part in ("control_points", "template") for file in HEART.glob(f"{part}/*"))
