@@ -93,6 +93,15 @@ def test_an_observation_nothing_changes_is_refused() -> None:
         update(prior, transform(sigma_points(prior), z), named(observed))
 
 
+def test_more_observations_than_parameters_without_noise_are_said() -> None:
+    prior = Gaussian.of_relative({"mu": 7e3, "R_p": 1e8}, {"mu": 0.2, "R_p": 0.2})
+    z = np.exp([point.z - prior.mean for point in sigma_points(prior)])
+    moments = transform(sigma_points(prior), np.column_stack([z, z[:, 0] ** 3 + z[:, 1]]))
+    posterior = update(prior, moments, named(moments.mean))
+    assert "3 observations for 2 parameters without noise" in posterior.notes[0]
+    assert not update(prior, moments, named(moments.mean), 0.01 * np.eye(3)).notes
+
+
 def test_a_long_step_is_said() -> None:
     prior, a, z, _ = linear(3, 3, 4)
     far = a @ (prior.mean + np.array([4.0, 0, 0]) * prior.sd) + 1.0

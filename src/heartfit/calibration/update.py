@@ -95,7 +95,11 @@ def update(
         sensitivity,
         np.linalg.svd(sensitivity, compute_uv=False),
         moments.failed,
-        (*_failures(moments.failed), *_long_steps(prior.names, step)),
+        (
+            *_failures(moments.failed),
+            *_excess(len(prior.names), names, noise),
+            *_long_steps(prior.names, step),
+        ),
     )
 
 
@@ -135,6 +139,16 @@ def _positive(covariance: np.ndarray, prior: np.ndarray) -> np.ndarray:
 
 def _failures(failed: tuple[str, ...]) -> list[str]:
     return [f"failed sigma points: {', '.join(failed)}; weights rescaled over the rest"] if failed else []
+
+
+def _excess(parameters: int, names: tuple[str, ...], noise: np.ndarray | None) -> list[str]:
+    """Without noise, each observation beyond the parameters is inverted through the map's curvature alone."""
+    if noise is not None or len(names) <= parameters:
+        return []
+    return [
+        f"{len(names)} observations for {parameters} parameters without noise: not to be met exactly, and the step "
+        "is ill-posed: estimate more parameters or give the observations noise"
+    ]
 
 
 def _long_steps(names: Sequence[str], step: np.ndarray) -> list[str]:

@@ -13,16 +13,17 @@ PAPER = "Marchesseau et al. 2012"
 
 
 def error_table(cases: Sequence[CaseResult], paper: pd.DataFrame) -> pd.DataFrame:
-    """One row per case and setting, the mean of each setting, then the paper's volunteers and their mean.
+    """One row per case under each setting and their mean, then the paper's volunteers and their mean.
 
     Errors are unsigned percentages as in the paper; "floor" is the measurement's own noise. paper: its Table
     1 as published (observation, 1..7, mean). Raises FingerprintMismatchError for rows of different code.
     """
     require_one_fingerprint(cases)
-    rows = [_row(case) for case in cases]
-    settings = dict.fromkeys(case.setting for case in cases)
-    means = [_mean(setting, [row for row in rows if row["setting"] == setting]) for setting in settings]
-    return pd.DataFrame([*rows, *means, *_paper_rows(paper)])
+    table: list[dict[str, Any]] = []
+    for setting in dict.fromkeys(case.setting for case in cases):
+        rows = [_row(case) for case in cases if case.setting == setting]
+        table += [*rows, _mean(setting, rows)]
+    return pd.DataFrame([*table, *_paper_rows(paper)])
 
 
 def _row(case: CaseResult) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """Table 2: the estimated parameters, beside the paper's and, where there is one, the truth."""
 
 from collections.abc import Mapping, Sequence
+from math import log
 
 import pandas as pd
 
@@ -9,6 +10,8 @@ from heartfit.tables.display import heading, printed
 from heartfit.tables.errors_table import PAPER
 from heartfit.tables.evaluation import truth_errors
 from heartfit.tables.fingerprints import require_one_fingerprint
+
+LONGEST = "longest step (prior sd)"  # beyond three, an estimate is an extrapolation
 
 
 def parameter_table(
@@ -28,7 +31,13 @@ def parameter_table(
     for setting in dict.fromkeys(case.setting for case in cases):
         rows.append(_prior_row(first[setting]))
         rows += [_row(case, (truths or {}).get(case.case, {})) for case in cases if case.setting == setting]
-    return pd.DataFrame([*rows, *_paper_rows(paper)])
+    return _in_order(pd.DataFrame([*rows, *_paper_rows(paper)]), paper["parameter"].tolist())
+
+
+def _in_order(table: pd.DataFrame, names: list[str]) -> pd.DataFrame:
+    """What belongs to one parameter side by side, the paper's parameters first."""
+    place = {name: index for index, name in enumerate(["setting", "case", LONGEST.split()[0], *names])}
+    return table[sorted(table.columns, key=lambda column: place.get(column.split()[0], len(place)))]
 
 
 def _prior_row(case: CaseResult) -> dict[str, object]:
@@ -43,7 +52,10 @@ def _prior_row(case: CaseResult) -> dict[str, object]:
 
 def _row(case: CaseResult, truth: Mapping[str, float]) -> dict[str, object]:
     errors = truth_errors(case, truth)
-    row: dict[str, object] = {"setting": case.setting, "case": case.case}
+    steps = [
+        abs(log(value / case.prior[name])) / case.prior_sd[name] for name, value in case.estimate.items()
+    ]
+    row: dict[str, object] = {"setting": case.setting, "case": case.case, LONGEST: max(steps)}
     for name, value in case.estimate.items():
         row |= {
             heading(name, case.units[name]): printed(value, case.units[name]),
