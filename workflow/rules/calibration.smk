@@ -35,6 +35,7 @@ rule simulate_point:
         setting=setting_of,
         pressures=STUDY.end_diastolic_pressure,
         scheme=STUDY.numerics,
+        mechanisms=mechanisms_of,
         code=code("simulate_point.py"),
     script:
         "../scripts/simulate_point.py"

@@ -1,3 +1,4 @@
+import inspect
 import os
 from pathlib import Path
 
@@ -6,6 +7,7 @@ from snakemake.exceptions import WorkflowError
 from heartfit.errors import InputError
 from heartfit.io.configuration import plan_study
 from heartfit.io.fingerprint import fingerprint
+from heartfit.mechanism import registered
 
 # one thread a job: the jobs are what runs in parallel
 for library in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
@@ -46,6 +48,14 @@ def case_of(wildcards):
 
 def setting_of(wildcards):
     return STUDY.setting(wildcards.setting)
+
+
+def mechanisms_of(wildcards):
+    """The fingerprint of each mechanism that the setting adds: scripts load them by name, which code() cannot see."""
+    known = registered()
+    return {
+        name: fingerprint(Path(inspect.getfile(known[name]))) for name in setting_of(wildcards).mechanisms
+    }
 
 
 def sigma_point_beats(wildcards):

@@ -17,6 +17,7 @@ rule simulate_calibrated:
         setting=setting_of,
         pressures=STUDY.end_diastolic_pressure,
         scheme=STUDY.numerics,
+        mechanisms=mechanisms_of,
         code=code("simulate_calibrated.py"),
     script:
         "../scripts/simulate_calibrated.py"

@@ -2,7 +2,8 @@
 
 Snakemake watches a script, not the modules it imports. The fingerprint, given as a rule's parameter, closes
 the gap: it changes when the script or any module of this package that it imports, directly or not, does.
-A module that is only loaded by name while running, as a mechanism's of the registry, is not seen.
+A module that is only loaded by name while running, as a mechanism of the registry, is not seen; the rules that
+load one add its own fingerprint.
 """
 
 import ast
