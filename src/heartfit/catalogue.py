@@ -39,7 +39,9 @@ def composed(mechanisms: Iterable[str], heart: Heart | None = None) -> Heart:
     for name in mechanisms:
         if name not in known:
             near = get_close_matches(name, known, n=1, cutoff=0.0)[0]
-            raise KeyError(f"mechanism {name!r} is unknown; did you mean {near}? Known are {', '.join(known)}")
+            raise KeyError(
+                f"mechanism {name!r} is unknown; did you mean {near}? Known are {', '.join(known)}"
+            )
         result = result + known[name]()
     return result
 
