@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from tests.shrinking import assert_derivative
 
+from heartfit.circulation.valves import BLOOD_DENSITY
 from heartfit.heart import Heart
 from heartfit.mechanics.body import FiniteElementBody
 from heartfit.mechanics.sphere import SphericalBody
@@ -114,6 +115,17 @@ def test_they_work_in_three_dimensions(coarse_body: FiniteElementBody) -> None:
     forward = [np.trapezoid(beat.flow["aortic"], beat.time) for beat in (healthy, leaking)]
     assert forward[1] < 0.9 * forward[0]
     assert np.trapezoid(leaking.flow["MitralRegurgitation"], leaking.time) > 10e-6
+
+
+def test_the_mitral_leak_is_an_orifice_between_left_ventricle_and_left_atrium(
+    spherical_heart: Heart, spheres: SphericalBody
+) -> None:
+    beat = simulate(spherical_heart + MitralRegurgitation(area=0.4e-4), spheres, ONE_BEAT)
+    drop = beat.pressure["lv"] - beat.pressure["left_atrium"]
+    systole = drop > 1e3
+    jet = 0.4e-4 * np.sqrt(2.0 * drop[systole] / BLOOD_DENSITY)
+    assert beat.flow["MitralRegurgitation"][systole] == pytest.approx(jet, rel=1e-3)
+    assert not beat.flow["MitralRegurgitation"][drop < 0.0].any()
 
 
 def test_a_mechanism_without_role_or_with_a_taken_name_is_refused() -> None:
