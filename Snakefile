@@ -17,7 +17,13 @@ rule all:
     default_target: True
     input:
         expand("<results>/tables/table{number}.{kind}", number=(1, 2), kind=("csv", "md", "tex")),
-        expand("<results>/figures/{case}_{setting}.{kind}", case=CASES, setting=SETTINGS, kind=("png", "pdf")),
+        expand(
+            "<results>/figures/{case}_{setting}{about}.{kind}",
+            case=CASES,
+            setting=SETTINGS,
+            about=("", "_sensitivity"),
+            kind=("png", "pdf"),
+        ),
 
 
 include: "workflow/rules/resources.smk"

@@ -12,6 +12,7 @@ from heartfit.configuration.study import Operator, Pressures, TimeScheme, Transf
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics.body import StepFailed
 from heartfit.observation.beat import observe_beats
+from heartfit.observation.curve import Curve
 from heartfit.observation.noise import Observation
 from heartfit.simulation import Progress, simulate
 from heartfit.ventricles import ventricles
@@ -44,6 +45,7 @@ def run_beat(
 def estimate(
     prior: Gaussian,
     beats: Iterable[Beat],
+    measured: Mapping[str, Curve],
     observations: Sequence[Observation],
     operator: Operator,
     transform: Transform,
@@ -51,5 +53,5 @@ def estimate(
     """The posterior from the beats of all sigma points, in their order."""
     noise = np.diag([each.noise**2 for each in observations]) if transform.noise else None
     observed = {each.name: each.value for each in observations}
-    outcomes = observe_beats(beats, operator.features())
+    outcomes = observe_beats(beats, operator.features(measured))
     return calibrate(prior, outcomes, observed, noise, transform.scaling())

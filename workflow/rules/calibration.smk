@@ -44,6 +44,7 @@ rule simulate_point:
 rule update_parameters:
     input:
         points="<results>/{case}/{setting}/calibration/points.json",
+        measured="<results>/{case}/curves/measured.csv",
         observations="<results>/{case}/curves/observations.json",
         beats=sigma_point_beats,
     output:

@@ -44,3 +44,21 @@ rule plot_case:
         code=code("plot_case.py"),
     script:
         "../scripts/plot_case.py"
+
+
+rule plot_sensitivity:
+    input:
+        "<results>/{case}/{setting}/calibration/posterior.json",
+    output:
+        expand("<results>/figures/{{case}}_{{setting}}_sensitivity.{suffix}", suffix=("png", "pdf")),
+    log:
+        "<logs>/{case}/{setting}/plot_sensitivity.log",
+    benchmark:
+        "<benchmarks>/{case}/{setting}/plot_sensitivity.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code("plot_sensitivity.py"),
+    script:
+        "../scripts/plot_sensitivity.py"

@@ -20,7 +20,7 @@ curves = {
 }
 posterior = read_posterior(Path(files.posterior))
 observations = read_observations(Path(files.observations))
-features = snakemake.params.operator.features()
+features = snakemake.params.operator.features(curves["measured"])
 result = summarise(
     identity, posterior, observations, curves, features, setting.units(), calibrated.diagnostics
 )

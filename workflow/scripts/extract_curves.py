@@ -13,6 +13,6 @@ record(snakemake.log[0])
 mesh = read_mesh(Path(snakemake.input.mesh))
 curves = cavity_volumes(mesh, read_motion(Path(snakemake.input.motion)))
 operator = snakemake.params.operator
-observations = observe_measured(curves, operator.features(), operator.period_uncertainty)
+observations = observe_measured(curves, operator.features(curves), operator.period_uncertainty)
 write_curves(Path(snakemake.output.curves), curves)
 write_observations(Path(snakemake.output.observations), observations, snakemake.params.code)

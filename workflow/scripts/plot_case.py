@@ -18,7 +18,7 @@ curves = {
     "reference": beat_curves(read_beat(Path(files.reference))),
     "calibrated": beat_curves(read_beat(Path(files.calibrated))),
 }
-operator = snakemake.params.operator.features()["lv_volume"]
+operator = snakemake.params.operator.features(curves["measured"])["lv_volume"]
 title = f"{result.case}, {result.setting} setting"
 figure = plot_case(curves, title, operator, result.shift)
 list(map(write_figure, map(Path, snakemake.output), repeat(figure)))

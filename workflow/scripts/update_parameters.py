@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from heartfit.io.beats import read_beat
+from heartfit.io.curves import read_curves
 from heartfit.io.log import record
 from heartfit.io.results import read_observations, read_sigma_points, write_posterior
 from heartfit.protocol import estimate
@@ -11,5 +12,7 @@ record(snakemake.log[0])
 prior, _ = read_sigma_points(Path(snakemake.input.points))
 observations = read_observations(Path(snakemake.input.observations))
 beats = map(read_beat, map(Path, snakemake.input.beats))
-posterior = estimate(prior, beats, observations, snakemake.params.operator, snakemake.params.transform)
-write_posterior(Path(snakemake.output[0]), posterior, snakemake.params.code)
+measured = read_curves(Path(snakemake.input.measured))
+given = snakemake.params
+posterior = estimate(prior, beats, measured, observations, given.operator, given.transform)
+write_posterior(Path(snakemake.output[0]), posterior, given.code)

@@ -1,6 +1,6 @@
 """A whole study: meshes, numerics, observation, transform, cohort and settings."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Self
 
 from pydantic import Field, PositiveFloat, PositiveInt, model_validator
@@ -9,7 +9,9 @@ from heartfit.calibration.unscented import Scaling
 from heartfit.cohort.generate import Protocol
 from heartfit.configuration.setting import Prior, Setting, require_known
 from heartfit.configuration.strict import Strict
-from heartfit.observation.operator import CurveFeatures, VolumeFeatures
+from heartfit.observation.curve import Curve
+from heartfit.observation.operator import CurveFeatures
+from heartfit.observation.vector import operators
 from heartfit.simulation import Numerics
 
 
@@ -40,9 +42,9 @@ class Operator(Strict):
     order: int = Field(ge=1)
     period_uncertainty: float = Field(ge=0, lt=0.5, description="relative standard deviation")
 
-    def features(self) -> dict[str, CurveFeatures]:
-        """The operator of each curve that is observed."""
-        return {"lv_volume": VolumeFeatures(frames=self.frames, window=self.window, order=self.order)}
+    def features(self, measured: Mapping[str, Curve]) -> dict[str, CurveFeatures]:
+        """The operator of each curve that is observed: the LV's volume, and its pressure where measured."""
+        return operators(measured, self.frames, self.window, self.order)
 
 
 class Transform(Strict):
