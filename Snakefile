@@ -24,6 +24,8 @@ rule all:
             about=("", "_sensitivity"),
             kind=("png", "pdf"),
         ),
+        # asked for by name, or Snakemake would not miss a beat that was deleted
+        [beats_of(CASES, setting) for setting in SETTINGS],
 
 
 include: "workflow/rules/resources.smk"

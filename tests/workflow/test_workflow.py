@@ -34,6 +34,10 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert counts["make_tables"] == 1
     readers = {rule for rule, job in jobs(run.stdout) if any("truth" in name for name in inputs(job))}
     assert readers == {"make_tables"}
+    targets = inputs(dict(jobs(run.stdout))["all"])
+    assert sum("/beats/" in name for name in targets) == counts["simulate_point"], (
+        "a deleted one is not missed"
+    )
 
 
 def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(workflow):

@@ -58,14 +58,18 @@ def mechanisms_of(wildcards):
     }
 
 
-def sigma_point_beats(wildcards):
+def beats_of(case, setting):
     """The beats of all sigma points, whose number follows from the setting."""
     return expand(
         "<results>/{case}/{setting}/calibration/beats/{point}.json",
-        case=wildcards.case,
-        setting=wildcards.setting,
-        point=STUDY.sigma_points()[wildcards.setting],
+        case=case,
+        setting=setting,
+        point=STUDY.sigma_points()[setting],
     )
+
+
+def sigma_point_beats(wildcards):
+    return beats_of(wildcards.case, wildcards.setting)
 
 
 def measured_files(_):
