@@ -52,7 +52,7 @@ class Tolerances:
     volume: float = 1e-10  # m^3
     pressure: float = 1.0  # Pa, of the arteries
     iterations: int = 25
-    contraction: float = 0.6
+    contraction: float = 0.8
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,8 @@ from heartfit.mechanics.body import StepFailed
 INCREMENTS = 6
 ITERATIONS = 40
 FORCE_TOLERANCE = 1e-3  # N
+CONTRACTION = 0.4
+"""A step that shrinks the residual less than this renews the tangent."""
 
 
 def inflate(body: Any, pressures: Floats, increments: int = INCREMENTS) -> Any:
@@ -22,12 +24,17 @@ def inflate(body: Any, pressures: Floats, increments: int = INCREMENTS) -> Any:
 
 def _equilibrium(body: Any, state: Any, pressures: Floats) -> Any:
     step, x = body.endless_step(state), state.x.copy()
+    factor, previous = None, np.inf
     for _ in range(ITERATIONS):
         residual = step.forces(x) - body.volume_gradients(x) @ pressures
-        if step.size(residual) < FORCE_TOLERANCE:
+        size = step.size(residual)
+        if size < FORCE_TOLERANCE:
             return step.commit(x)
-        x = x - step.tangent(x).solve(residual).reshape(x.shape)
+        if factor is None or size > CONTRACTION * previous:
+            factor = step.tangent(x)
+        previous = size
+        x = x - factor.solve(residual).reshape(x.shape)
     raise StepFailed(
-        f"no static equilibrium at {pressures[0]:.0f} / {pressures[1]:.0f} Pa, residual "
-        f"{step.size(residual):.3g} N: the wall is too soft for this pressure or the supports are too weak"
+        f"no static equilibrium at {pressures[0]:.0f} / {pressures[1]:.0f} Pa, residual {size:.3g} N: "
+        "the wall is too soft for this pressure or the supports are too weak"
     )
