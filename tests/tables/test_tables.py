@@ -15,6 +15,7 @@ from heartfit.tables.case import CaseResult, summarise
 from heartfit.tables.errors_table import PAPER, error_table
 from heartfit.tables.fingerprints import FingerprintMismatchError
 from heartfit.tables.parameters_table import parameter_table
+from heartfit.tables.plausibility_table import plausibility_table
 from heartfit.tables.text import to_latex, to_markdown
 
 OBSERVED = {"V_min": 72e-6, "q_max": 474e-6, "q_min": -520e-6}
@@ -157,10 +158,39 @@ def test_a_record_takes_everything_from_the_posterior_and_the_curves() -> None:
     assert found.reference_errors()["q_max"] == pytest.approx(-20, abs=0.1)
     assert abs(found.errors()["V_min"]) < 1
     assert found.guards["wall_volume_loss"] == 0.02
-    assert found.guards["lv_EDV_error_percent"] == pytest.approx(-0.3, abs=0.1)
+    assert found.guards["lv_EDV_error_percent"] == pytest.approx(0.0, abs=0.05), "a late beat is as large"
+    smaller = record(wave(size=40e-6)).guards
+    assert smaller["lv_EDV_error_percent"] == pytest.approx(-100 * 10 / 170, rel=0.01)
+    assert smaller["lv_ESV_error_percent"] == pytest.approx(100 * 10 / 70, rel=0.01)
 
 
 def test_a_failed_verification_is_a_row_without_errors() -> None:
     found = record({})
     assert np.isnan(list(found.errors().values())).all()
     assert "nan" not in to_markdown(error_table([found], PAPER_ERRORS))
+
+
+def test_plausibility_prints_what_the_record_holds():
+    guards = {
+        "lv_EDV_error_percent": -2.0,
+        "rv_ESV_error_percent": 7.5,
+        "lv_peak_pressure": 15.5e3,
+        "wall_volume_loss": 0.024,
+        "beats": 3.0,
+        "drift": 0.004,
+    }
+    whole = replace(case(), guards=guards, shift=0.013, notes=("one", "two"))
+    table = plausibility_table([whole, replace(case("failed"), guards={})])
+    assert table["LV EDV (%)"][0] == -2.0
+    assert table["RV ESV (%)"][0] == 7.5
+    assert table["LV peak (kPa)"][0] == pytest.approx(15.5)
+    assert table["wall volume loss (%)"][0] == pytest.approx(2.4)
+    assert table["drift (%)"][0] == pytest.approx(0.4)
+    assert table["trigger shift (ms)"][0] == pytest.approx(13.0)
+    assert table["notes"][0] == "one; two"
+    assert table.loc[1].drop(["setting", "case", "trigger shift (ms)", "notes"]).isna().all()
+
+
+def test_plausibility_refuses_rows_of_different_code():
+    with pytest.raises(FingerprintMismatchError):
+        plausibility_table([case(), replace(case("other"), fingerprint="other")])

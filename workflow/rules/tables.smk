@@ -10,6 +10,7 @@ rule make_tables:
     output:
         errors=expand("<results>/tables/table1.{suffix}", suffix=("csv", "md", "tex")),
         parameters=expand("<results>/tables/table2.{suffix}", suffix=("csv", "md", "tex")),
+        plausibility=expand("<results>/tables/plausibility.{suffix}", suffix=("csv", "md", "tex")),
     log:
         "<logs>/make_tables.log",
     benchmark:

@@ -8,6 +8,7 @@ from heartfit.io.results import read_case, read_truth
 from heartfit.io.tables import read_published, write_table
 from heartfit.tables.errors_table import error_table
 from heartfit.tables.parameters_table import parameter_table
+from heartfit.tables.plausibility_table import plausibility_table
 
 record(snakemake.log[0])
 cases = list(map(read_case, map(Path, snakemake.input.cases)))
@@ -16,3 +17,4 @@ errors, parameters = map(read_published, map(Path, snakemake.input.paper))
 list(map(write_table, map(Path, snakemake.output.errors), repeat(error_table(cases, errors))))
 table = parameter_table(cases, parameters, truths)
 list(map(write_table, map(Path, snakemake.output.parameters), repeat(table)))
+list(map(write_table, map(Path, snakemake.output.plausibility), repeat(plausibility_table(cases))))

@@ -42,10 +42,10 @@ def observe_measured(
 
 
 def cavity_indices(curves: Mapping[str, Curve], side: str = "lv") -> dict[str, float]:
-    """EDV (at the trigger), ESV (least volume), stroke volume in m^3, and ejection fraction of a cavity."""
+    """EDV (largest volume), ESV (least volume), stroke volume in m^3, and ejection fraction of a cavity."""
     _require(curves, [f"{side}_volume"])
     volume = curves[f"{side}_volume"]
-    end_diastolic, end_systolic = float(volume(0.0)), float(volume.values.min())
+    end_diastolic, end_systolic = float(volume.values.max()), float(volume.values.min())
     stroke = end_diastolic - end_systolic
     return {"EDV": end_diastolic, "ESV": end_systolic, "SV": stroke, "EF": stroke / end_diastolic}
 
