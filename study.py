@@ -23,7 +23,7 @@ ENVIRONMENT = ROOT / ".venv"
 BIN = ENVIRONMENT / ("Scripts" if os.name == "nt" else "bin")
 LOCK = ROOT / "requirements.lock"
 STAMP = ENVIRONMENT / "installed.sha256"
-ABOUT = "about 15 minutes on two cores when nothing is there yet"
+ABOUT = "5 to 15 minutes on two cores when nothing is there yet"
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 LINTS = (
     ("ruff", "check", "."),
