@@ -145,6 +145,17 @@ def test_without_the_measured_heart_virtual_cases_remain_and_one_line_says_so(co
     assert "\n" not in plan.left_out
 
 
+@pytest.mark.measured
+def test_a_period_that_is_not_the_measured_one_is_refused(content, tmp_path, measured_heart_folder):
+    table = tmp_path / "cases.tsv"
+    content |= {"cases": str(table), "measured_heart": [str(measured_heart_folder)]}
+    table.write_text("case\tkind\tperiod_s\na\tmeasured\t0.829\n")
+    assert set(plan_study(content).cases) == {"a"}
+    table.write_text("case\tkind\tperiod_s\na\tmeasured\t0.90\n")
+    with pytest.raises(InputError, match=r"a: period_s is 0\.9, the beat lengths in .* say 0\.829 s"):
+        plan_study(content)
+
+
 def test_the_schema_is_in_step():
     assert (ROOT / "config" / "schema.json").read_text() == schema(), (
         "write it anew: heartfit configuration-schema > config/schema.json"

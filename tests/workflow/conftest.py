@@ -39,8 +39,12 @@ class Workflow:
             stderr=subprocess.STDOUT,
         )
 
-    def add_measured_heart(self) -> None:
-        """Files in the places of a measured heart; a dry run reads none of them."""
+    def link_measured_heart(self, folder: Path) -> None:
+        """The real one."""
+        (self.folder / "resources" / "bivme_patient1").symlink_to(folder.resolve())
+
+    def add_spoilt_heart(self) -> None:
+        """Empty files in the places of a measured heart."""
         for name in ("control_points/frame_000.txt", "template/ETIndicesSorted.txt"):
             file = self.folder / "resources" / "bivme_patient1" / name
             file.parent.mkdir(parents=True, exist_ok=True)

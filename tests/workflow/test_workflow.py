@@ -23,10 +23,9 @@ def inputs(job):
 
 
 def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_only(workflow):
-    workflow.add_measured_heart()
     run = workflow.snakemake("-n")
     counts = job_counts(run.stdout)
-    cases, settings, points = 3, 2, 9
+    cases, settings, points = 2, 2, 9
     assert run.returncode == 0, run.stdout
     assert counts["simulate_point"] == cases * settings * points
     assert counts["simulate_calibrated"] == cases * settings
@@ -38,6 +37,25 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert sum("/beats/" in name for name in targets) == counts["simulate_point"], (
         "a deleted one is not missed"
     )
+
+
+@pytest.mark.measured
+def test_the_measured_heart_is_one_more_case(workflow, measured_heart_folder):
+    workflow.link_measured_heart(measured_heart_folder)
+    run = workflow.snakemake("-n")
+    counts = job_counts(run.stdout)
+    assert run.returncode == 0, run.stdout
+    assert counts["build_measured_mesh"] == counts["register_measured"] == 1
+    assert counts["simulate_point"] == 3 * 2 * 9
+
+
+def test_a_spoilt_measured_heart_is_refused_in_one_line_before_anything_runs(workflow):
+    workflow.add_spoilt_heart()
+    run = workflow.snakemake("--cores", "1")
+    assert run.returncode != 0
+    assert len([line for line in run.stdout.splitlines() if "bivme_patient1" in line]) == 1
+    assert "Traceback" not in run.stdout
+    assert not (workflow.folder / "results").exists()
 
 
 def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(workflow):

@@ -14,7 +14,9 @@ from heartfit.configuration.case import Case
 from heartfit.configuration.strict import validated
 from heartfit.configuration.study import Study
 from heartfit.errors import InputError
+from heartfit.io.measured_heart import read_measured_heart
 
+LARGEST_PERIOD_DIFFERENCE = 0.02
 UNITS = {"_s": 1.0, "_ml": 1e-6, "_mm": 1e-3}
 
 
@@ -35,7 +37,21 @@ def plan_study(content: Mapping[str, Any], where: str = "configuration") -> Plan
     cases = {case.case: case for case in read_cases(Path(study.cases))}
     absent = [name for name, case in cases.items() if case.kind == "measured" and folder is None]
     kept = {name: case for name, case in cases.items() if name not in absent}
+    measured = [case for case in kept.values() if case.kind == "measured"]
+    if folder is not None and measured:
+        _require_sound(folder, measured)
     return Plan(study, kept, folder, _left_out(absent, study) if absent else "")
+
+
+def _require_sound(folder: Path, cases: Sequence[Case]) -> None:
+    """Read the measured heart as its jobs will, so that what is wrong with it is said before anything runs."""
+    heart = read_measured_heart(folder)
+    for case in cases:
+        if abs(case.period / heart.period - 1.0) > LARGEST_PERIOD_DIFFERENCE:
+            raise InputError(
+                f"{case.case}: period_s is {case.period:g}, the beat lengths in {folder} say {heart.period:.3f} s; "
+                "expected the same to 2 %: correct the table of cases"
+            )
 
 
 def _left_out(absent: Sequence[str], study: Study) -> str:

@@ -78,7 +78,8 @@ def read_measured_heart(folder: Path) -> MeasuredHeart:
 
 def _read_control_points(folder: Path) -> Floats:
     files = sorted(_existing(folder).glob("*.txt"))
-    phases = [np.loadtxt(file, delimiter=",", skiprows=1, usecols=(0, 1, 2), ndmin=2) for file in files]
+    require_phases(len(files), str(folder))
+    phases = [_read_phase(file) for file in files]
     for file, phase in zip(files, phases, strict=True):
         if len(phase) != len(phases[0]):
             raise InputError(
@@ -87,8 +88,16 @@ def _read_control_points(folder: Path) -> Floats:
             )
         if not np.isfinite(phase).all():
             raise InputError(f"{file}: holds NaN or infinite coordinates; expected finite numbers in mm")
-    require_phases(len(phases), str(folder))
     return np.stack(phases)
+
+
+def _read_phase(file: Path) -> Floats:
+    """Control points (n,3) in mm: the first three columns below a line of headings."""
+    lines = file.read_text(encoding="utf-8").splitlines()[1:]
+    try:
+        return np.array([[float(cell) for cell in line.split(",")[:3]] for line in lines]).reshape(-1, 3)
+    except ValueError:
+        raise InputError(f"{file}: expected lines x,y,z,... of numbers in mm below one line of headings") from None
 
 
 def _read_template(folder: Path) -> tuple[Integers, Names]:
