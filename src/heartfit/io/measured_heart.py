@@ -97,7 +97,9 @@ def _read_phase(file: Path) -> Floats:
     try:
         return np.array([[float(cell) for cell in line.split(",")[:3]] for line in lines]).reshape(-1, 3)
     except ValueError:
-        raise InputError(f"{file}: expected lines x,y,z,... of numbers in mm below one line of headings") from None
+        raise InputError(
+            f"{file}: expected lines x,y,z,... of numbers in mm below one line of headings"
+        ) from None
 
 
 def _read_template(folder: Path) -> tuple[Integers, Names]:
