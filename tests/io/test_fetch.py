@@ -29,6 +29,7 @@ def test_a_file_that_is_right_is_not_fetched_again(published):
     address, manifest, folder = published
     fetch(manifest, address, folder)
     fetch(manifest, "file:///nowhere/", folder)
+    assert (folder / "part" / "file.txt").read_text() == "control points"
 
 
 def test_another_file_is_refused_and_leaves_nothing(published, tmp_path):

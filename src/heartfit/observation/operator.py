@@ -12,6 +12,7 @@ frames a raw central difference already clips the peaks of a simulated beat.
 Reference: Savitzky and Golay 1964, doi:10.1021/ac60214a047; Marchesseau et al. 2012, section 3.
 """
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -22,7 +23,7 @@ from heartfit.observation.curve import Curve
 
 
 @dataclass(frozen=True)
-class CurveFeatures:
+class CurveFeatures(ABC):
     """An extremum of the curve and the two peaks of its rate.
 
     frames: samples in a beat (those of the measured curve); window: odd number of frames; order of the
@@ -67,8 +68,9 @@ class CurveFeatures:
         )
         return Curve(frames.times, values, curve.period)
 
+    @abstractmethod
     def extremum(self, values: np.ndarray) -> float:
-        raise NotImplementedError
+        """The extremum of the curve itself that is observed."""
 
     def __call__(self, curve: Curve) -> dict[str, float]:
         """Observations by name, SI, from a curve whose time zero is the trigger."""
