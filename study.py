@@ -21,6 +21,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent
 ENVIRONMENT = ROOT / ".venv"
 BIN = ENVIRONMENT / ("Scripts" if os.name == "nt" else "bin")
+OLDEST, NEWEST = (3, 11), (3, 13)
 LOCK = ROOT / "requirements.lock"
 STAMP = ENVIRONMENT / "installed.sha256"
 ABOUT = "5 to 15 minutes on two cores when nothing is there yet"
@@ -56,9 +57,10 @@ def main(arguments: list[str]) -> int:
     if command not in COMMANDS:
         sys.stderr.write(f"study.py: no command {command!r}; known are {', '.join(COMMANDS)}.\n{__doc__}")
         return 2
-    if sys.version_info < (3, 11):
+    if not OLDEST <= sys.version_info[:2] <= NEWEST:
         sys.stderr.write(
-            f"study.py: this is Python {sys.version.split()[0]}; it needs Python 3.11 or newer.\n"
+            f"study.py: this is Python {sys.version.split()[0]}; it needs Python 3.11, 3.12 or 3.13 "
+            "(the mesher has no wheel for a newer one yet).\n"
         )
         return 2
     os.chdir(ROOT)
