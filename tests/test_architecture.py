@@ -10,7 +10,8 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 
 # a layer may import itself, what stands below it in this list, and nothing above; one line, one height
 HEIGHTS = (
-    ("errors", "parameter"),
+    ("errors",),
+    ("parameter",),
     ("geometry",),
     ("electrophysiology",),
     ("mechanism",),

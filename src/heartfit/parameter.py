@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from typing import Any
 
+from heartfit.errors import InputError
+
 
 @dataclass(frozen=True)
 class Parameter:
@@ -52,10 +54,10 @@ def parameters_of(part: Any) -> Iterator[Parameter]:
 
 
 def require_admissible(part: Any) -> None:
-    """Raise ``ValueError`` when a parameter of ``part`` is not a finite number above its lower bound."""
+    """Raise ``InputError`` when a parameter of ``part`` is not a finite number above its lower bound."""
     for declared in parameters_of(part):
         if not declared.low <= declared.value < float("inf"):
-            raise ValueError(
+            raise InputError(
                 f"{type(part).__name__}.{declared.name} = {declared.value:g} {declared.unit}: expected a finite "
                 f"value of at least {declared.low:g} ({declared.meaning})"
             )

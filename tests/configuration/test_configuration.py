@@ -75,6 +75,11 @@ def test_a_number_that_cannot_be_is_refused(content, table, key, value, expected
     assert expected in message
 
 
+def test_a_parameter_that_cannot_be_is_refused(content):
+    content["settings"]["physical"]["heart"] = {"alpha": -1.0}
+    assert "alpha = -1 1: expected a finite value of at least 0" in complaint(Study, content)
+
+
 def test_a_missing_table_is_named(content):
     del content["numerics"]
     assert "numerics is missing" in complaint(Study, content)

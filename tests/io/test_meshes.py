@@ -56,3 +56,24 @@ def test_a_motion_comes_back_bit_for_bit(tmp_path: Path) -> None:
     assert np.array_equal(found.times, motion.times)
     assert np.array_equal(found.positions, motion.positions)
     assert found.period == motion.period
+
+
+def test_a_file_that_is_no_mesh_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "mesh.vtu").write_text("nothing of the kind")
+    with pytest.raises(InputError, match="not a mesh"):
+        read_mesh(tmp_path / "mesh.vtu")
+
+
+def test_a_mesh_that_cannot_be_written_leaves_the_old_one(
+    ventricle: VentricularMesh, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stop(self: meshio.Mesh, path: Path) -> None:
+        path.write_text("half")
+        raise OSError("the disk is full")
+
+    write_mesh(tmp_path / "mesh.vtu", ventricle)
+    monkeypatch.setattr(meshio.Mesh, "write", stop)
+    with pytest.raises(OSError, match="full"):
+        write_mesh(tmp_path / "mesh.vtu", ventricle)
+    assert [path.name for path in tmp_path.iterdir()] == ["mesh.vtu"]
+    assert len(read_mesh(tmp_path / "mesh.vtu").tets) == len(ventricle.tets)

@@ -1,12 +1,14 @@
 """The wall's forces: consistent with their tangent, objective, exact under homogeneous deformation."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from tests.shrinking import assert_derivative
 
+from heartfit.errors import InputError
 from heartfit.mechanics.body import BodyState, FiniteElementBody, Step, StepFailed, Tissue
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 from heartfit.mechanics.support import Support
@@ -128,3 +130,9 @@ def test_a_collapsed_element_fails_the_step(block: Callable) -> None:
     x[:, 0] = -0.97 * body.reference.points[:, 0]
     with pytest.raises(StepFailed, match=r"an element collapsed to 0\.03 of its reference volume"):
         body.endless_step(body.rest()).forces(x)
+
+
+def test_a_mesh_without_fibres_is_refused(block: Callable) -> None:
+    bare = replace(block(), fibres=None, activation=None)
+    with pytest.raises(InputError, match="the mesh has no fibres, activation; prepare it"):
+        FiniteElementBody(bare, Tissue())

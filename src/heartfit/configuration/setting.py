@@ -41,6 +41,7 @@ class Setting(Strict):
             heart = composed(self.mechanisms)
             for name in (*self.estimate, *self.heart, *self.prior):
                 heart.path_of(name)
+            heart.with_parameters(self.heart)
         except KeyError as unknown:
             raise ValueError(str(unknown.args[0])) from None
         both = sorted(set(self.estimate) & set(self.heart))

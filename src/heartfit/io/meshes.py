@@ -10,6 +10,7 @@ from heartfit.geometry.arrays import Floats
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
 from heartfit.geometry.surface import SURFACES
+from heartfit.io.atomic import replacing
 
 CELL_FIELDS = {"fibres": (3,), "segments": (), "activation": ()}
 NO_SURFACE = -1
@@ -26,15 +27,15 @@ def write_mesh(path: Path, mesh: VentricularMesh) -> None:
         if field is not None:
             cell_data[name] = [field, np.zeros((len(surface_id), *shape), field.dtype)]
     point_data = {} if mesh.longitudinal is None else {"longitudinal": mesh.longitudinal}
-    path.parent.mkdir(parents=True, exist_ok=True)
-    meshio.Mesh(mesh.points, cells, point_data=point_data, cell_data=cell_data).write(path)
+    with replacing(path) as draft:
+        meshio.Mesh(mesh.points, cells, point_data=point_data, cell_data=cell_data).write(draft)
 
 
 def read_mesh(path: Path) -> VentricularMesh:
     """Reads what write_mesh wrote; raises InputError for a missing file or part or inverted tetrahedra."""
     if not path.exists():
         raise InputError(f"{path}: missing; expected a mesh in .vtu format; build it first")
-    stored = meshio.read(path)
+    stored = _stored(path)
     if "surface" not in stored.cell_data or not {"tetra", "triangle"} <= set(stored.cells_dict):
         raise InputError(
             f"{path}: expected tetrahedra and triangles with the cell field 'surface'; build it again"
@@ -49,6 +50,13 @@ def read_mesh(path: Path) -> VentricularMesh:
     return mesh
 
 
+def _stored(path: Path) -> meshio.Mesh:
+    try:
+        return meshio.read(path)
+    except (SystemExit, meshio.ReadError):  # meshio leaves the program over a file that it cannot read
+        raise InputError(f"{path}: not a mesh in .vtu format; build it again") from None
+
+
 def _require_positive(path: Path, volumes: Floats) -> None:
     inverted = np.flatnonzero(~(volumes > 0.0))
     if len(inverted):
@@ -60,8 +68,8 @@ def _require_positive(path: Path, volumes: Floats) -> None:
 
 def write_motion(path: Path, motion: Motion) -> None:
     """Writes times and period in s and positions in m."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    np.savez_compressed(path, times=motion.times, period=motion.period, positions=motion.positions)
+    with replacing(path) as draft:
+        np.savez_compressed(draft, times=motion.times, period=motion.period, positions=motion.positions)
 
 
 def read_motion(path: Path) -> Motion:

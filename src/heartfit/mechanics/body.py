@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from heartfit.electrophysiology.control import Control
+from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
@@ -57,6 +58,7 @@ class FiniteElementBody:
     def __init__(
         self, reference: VentricularMesh, tissue: Tissue, pattern: assembly.SparsityPattern | None = None
     ) -> None:
+        _require_fields(reference)
         self.reference, self.tissue = reference, tissue
         self._pattern = pattern
         self.element: Element = ELEMENTS[tissue.element]
@@ -115,6 +117,12 @@ class FiniteElementBody:
     def wall_volume(self, x: Floats) -> float:
         """Volume of the deformed wall, m^3."""
         return float(self.reference.with_points(self.positions(x)).wall_volume())
+
+
+def _require_fields(mesh: VentricularMesh) -> None:
+    missing = [name for name in ("fibres", "activation", "longitudinal") if getattr(mesh, name) is None]
+    if missing:
+        raise InputError(f"the mesh has no {', '.join(missing)}; prepare it and assign its activation first")
 
 
 class Step:
