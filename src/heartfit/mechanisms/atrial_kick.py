@@ -24,7 +24,7 @@ class AtrialKick(Pressure):
         1700.0, unit="Pa", symbol="P", meaning="left atrial pressure rise", sd=0.3, off=0.0
     )
     right: float = parameter(0.27, unit="1", symbol=r"\rho", meaning="right atrial rise over the left one")
-    peak: float = parameter(0.10, unit="s", symbol="t_m", meaning="time of the maximum")
+    peak: float = parameter(0.14, unit="s", symbol="t_m", meaning="time of the maximum")
     end: float = parameter(0.20, unit="s", symbol="t_c", meaning="end of atrial systole")
 
     def __post_init__(self) -> None:
