@@ -23,7 +23,7 @@ class Control:
     k_RS: float = parameter(14.0, unit="1/s", symbol="k_{RS}", meaning="rate of relaxation", sd=0.25)
     duration: float = parameter(0.34, unit="s", symbol="APD", meaning="action potential duration", sd=0.08)
     onset: float = parameter(
-        0.15,
+        0.13,
         unit="s",
         symbol="t_0",
         meaning="earliest ventricular activation after the start of atrial systole",
