@@ -16,6 +16,7 @@ HEIGHTS = (
     ("electrophysiology",),
     ("mechanism",),
     ("mechanics",),
+    ("verification",),
     ("circulation",),
     ("mechanisms",),
     ("heart",),
@@ -34,7 +35,7 @@ HEIGHTS = (
 )
 HEIGHT = {layer: height for height, layers in enumerate(HEIGHTS) for layer in layers}
 PHYSICS = {"geometry", "electrophysiology", "mechanics", "mechanism", "mechanisms", "circulation", "heart"}
-PHYSICS |= {"simulation", "beat", "cohort", "registration", "observation", "calibration"}
+PHYSICS |= {"simulation", "beat", "cohort", "registration", "observation", "calibration", "verification"}
 HEART = {
     "heart",
     "mechanism",

@@ -14,6 +14,7 @@ from heartfit.io.fingerprint import fingerprint
 from heartfit.io.measured_heart import read_measured_heart
 from heartfit.io.meshes import read_mesh
 from heartfit.protocol import run_beat
+from heartfit.verification.page import verification_page
 
 STANDARD = Path("config/config.yaml")
 
@@ -44,7 +45,7 @@ def _parser() -> argparse.ArgumentParser:
         )
         if carry_out is simulate:
             _simulate_arguments(command)
-    for page in (parameters, configuration_schema):
+    for page in (parameters, configuration_schema, verification):
         command = commands.add_parser(page.__name__.replace("_", "-"), help=page.__doc__)
         command.set_defaults(carry_out=page)
     return parser
@@ -120,4 +121,10 @@ def parameters(_: argparse.Namespace) -> int:
 def configuration_schema(_: argparse.Namespace) -> int:
     """print the JSON schema of a configuration"""
     print(schema(), end="")
+    return 0
+
+
+def verification(_: argparse.Namespace) -> int:
+    """print the page of verification, in half a minute"""
+    print(verification_page(), end="")
     return 0

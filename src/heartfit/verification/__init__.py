@@ -1,0 +1,1 @@
+"""Answers of the physics beside answers that nobody here produced."""

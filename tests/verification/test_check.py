@@ -1,0 +1,12 @@
+"""A check is met within its tolerance, and never by a number that is none."""
+
+import pytest
+
+from heartfit.verification.check import Check
+
+
+@pytest.mark.parametrize(
+    ("measured", "passed"), [(2.0, True), (2.1, True), (1.8, False), (2.2, False), (float("nan"), False)]
+)
+def test_within_the_tolerance(measured, passed):
+    assert Check("order", measured, 2.0, 0.15, "1", "theory").passed is passed
