@@ -11,9 +11,8 @@ from heartfit.geometry.surface import triangle_normals
 from heartfit.geometry.topology import rim_loops
 
 APICAL_REACH = 0.9
-SEPTAL_REACH = 1.15
-"""Thickness over its median up to which the wall between the cavities is septum: as on the measured heart, whose
-septum is labelled (46 cm^2)."""
+SEPTAL_REACH = 1.4
+"""Thickness over its median up to which the wall between the cavities is septum."""
 
 
 @dataclass(frozen=True, eq=False)
