@@ -31,6 +31,11 @@ class Beat:
     diagnostics: Mapping[str, float] = field(default_factory=dict)
     positions: Floats | None = None
 
+    def signals(self) -> dict[str, Floats]:
+        """Every curve (t,) by name: "lv_volume", "aorta_pressure", "mitral_flow", ...; none of a failed beat."""
+        groups = {"volume": self.volume, "pressure": self.pressure, "flow": self.flow}
+        return {f"{name}_{kind}": values for kind, group in groups.items() for name, values in group.items()}
+
     @property
     def completed(self) -> bool:
         """Whether the beat can be observed."""

@@ -71,17 +71,16 @@ class _Run:
     def to_limit_cycle(self) -> Beat:
         state = self._start()
         while True:
-            first = state
             history = [state]
             for n in range(self.steps):
                 state = self._advance(state, n * self.dt, self.dt, self.numerics.cuts)
                 history.append(state)
                 self.progress((self.beats + (n + 1) / self.steps) / self.numerics.max_beats)
             self.beats += 1
-            self.drift = _drift(first, state, history)
+            self.drift = _drift(history)
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
                 return self._beat(history)
-            state = self._shift(first, state)
+            state = self._shift(history[0], state)
 
     @property
     def dt(self) -> float:
@@ -166,7 +165,8 @@ class _Run:
         }
 
 
-def _drift(first: HeartState, last: HeartState, history: list[HeartState]) -> float:
+def _drift(history: list[HeartState]) -> float:
+    first, last = history[0], history[-1]
     volumes = np.array([state.volumes for state in history])
     in_volume = np.abs(last.volumes - first.volumes) / np.ptp(volumes, axis=0)
     in_pressure = [abs(b.P_c / a.P_c - 1.0) for a, b in zip(first.trees, last.trees, strict=True)]

@@ -16,9 +16,6 @@ from heartfit.geometry.arrays import Floats
 from heartfit.mechanism import COMPARTMENTS, Flow, Mechanism, Pressure
 from heartfit.parameter import parameter
 
-UNKNOWN = COMPARTMENTS[:4]
-"""Compartments whose pressure is solved for: both ventricles, then both arteries."""
-
 ATRIOVENTRICULAR, ARTERIAL = LinearValve(open=4e-6), LinearValve(open=5e-6)
 ATRIA = COMPARTMENTS[4:]
 VALVES = {

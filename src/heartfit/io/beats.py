@@ -1,6 +1,6 @@
 """A simulated beat as two files: its curves (CSV) and beside them what happened (JSON)."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -34,13 +34,7 @@ def read_beat(path: Path) -> Beat:
     return Beat(time, groups["volume"], groups["pressure"], groups["flow"], **state)
 
 
-def read_beats(paths: Iterable[Path]) -> list[Beat]:
-    """Beats in the order of their paths."""
-    return [read_beat(path) for path in paths]
-
-
 def _arrays(beat: Beat) -> Mapping[str, np.ndarray]:
     if not beat.completed:
         return {name: np.empty(0) for name in KINDS}
-    groups = {"volume": beat.volume, "pressure": beat.pressure, "flow": beat.flow}
-    return {f"{name}_{kind}": values for kind, group in groups.items() for name, values in group.items()}
+    return beat.signals()

@@ -15,11 +15,9 @@ def beat_curves(beat: Beat) -> dict[str, Curve]:
     if not beat.completed:
         return {}
     inside = beat.time < beat.time[0] + beat.period * (1 - 1e-9)  # the last sample may repeat the first
-    groups = {"volume": beat.volume, "pressure": beat.pressure, "flow": beat.flow}
     return {
-        f"{name}_{kind}": Curve(beat.time[inside], values[inside], beat.period).shifted(beat.trigger)
-        for kind, group in groups.items()
-        for name, values in group.items()
+        name: Curve(beat.time[inside], values[inside], beat.period).shifted(beat.trigger)
+        for name, values in beat.signals().items()
     }
 
 
