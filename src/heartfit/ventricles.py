@@ -7,6 +7,7 @@ from heartfit.geometry.arrays import Floats
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics.body import CHAMBERS, FiniteElementBody, Tissue
+from heartfit.mechanics.passive.law import isotropic
 from heartfit.mechanics.sphere import Sphere, SphericalBody
 from heartfit.mechanics.unloading import unload
 
@@ -30,7 +31,9 @@ def _spheres(mesh: VentricularMesh, tissue: Tissue, loads: Floats) -> SphericalB
     walls = volumes[~right].sum(), volumes[right].sum()
     sides = zip(cavities, walls, loads, strict=True)
     left_sphere, right_sphere = (
-        Sphere.unloaded(cavity, wall, load, tissue.passive) if load > 0.0 else Sphere.of(cavity, wall)
+        Sphere.unloaded(cavity, wall, load, isotropic(tissue.passive))
+        if load > 0.0
+        else Sphere.of(cavity, wall)
         for cavity, wall, load in sides
     )
     return SphericalBody(left_sphere, right_sphere, tissue)

@@ -19,8 +19,8 @@ def energy(C: np.ndarray) -> np.ndarray:
     return SCALE * np.array(LAW.c_1 * (J ** (-2 / 3) * I1 - 3.0) + LAW.c_2 * (J ** (-4 / 3) * I2 - 3.0))
 
 
-def arguments(C: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    return C[ROW, COLUMN][None], np.sqrt(np.linalg.det(C))[None], np.array([SCALE])
+def arguments(C: np.ndarray) -> tuple[np.ndarray, ...]:
+    return C[ROW, COLUMN][None], np.sqrt(np.linalg.det(C))[None], np.array([SCALE]), np.empty((1, 6))
 
 
 def stress(C: np.ndarray) -> np.ndarray:

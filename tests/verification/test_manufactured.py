@@ -60,7 +60,7 @@ def test_the_stress_is_that_of_the_wall_point_by_point(problem, X):
     F = np.moveaxis(problem.deformation_gradient(X), -1, 0)
     C, J = (np.swapaxes(F, -1, -2) @ F)[:, ROW, COLUMN], np.linalg.det(F)
     S = np.empty_like(C)
-    problem.material.stress(C, J, np.ones(len(F)), S)
+    problem.material.stress(C, J, np.ones(len(F)), np.empty_like(C), S)
     add_volumetric_stress(C, J, problem.pressure(X), S)
     S += problem.sigma * fibre_dyads(FIBRE[None])
     assert problem.stress(problem.deformation_gradient(X)) == pytest.approx(

@@ -22,6 +22,7 @@ from heartfit.mechanics import assembly, kinematics
 from heartfit.mechanics.active.bcs import BestelClementSorine, Drive
 from heartfit.mechanics.elements import ELEMENTS, Element
 from heartfit.mechanics.kinematics import StepFailed as StepFailed
+from heartfit.mechanics.passive.law import Passive
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 from heartfit.mechanics.solver import Factor, nested_dissection
 from heartfit.mechanics.support import Support
@@ -36,7 +37,7 @@ CHAMBERS = ("lv", "rv")
 class Tissue:
     """The slots of the wall: what it is made of, what drives it, what holds it and how it is discretised."""
 
-    passive: MooneyRivlin = field(default_factory=MooneyRivlin)
+    passive: Passive = field(default_factory=MooneyRivlin)
     active: BestelClementSorine = field(default_factory=BestelClementSorine)
     control: Control = field(default_factory=Control)
     support: Support = field(default_factory=Support)
@@ -139,7 +140,7 @@ class Step:
         """Internal and support forces (N,) at ``x`` (n, dofs); raises StepFailed if an element collapses."""
         body, tissue = self.body, self.body.tissue
         self._deform(x)
-        tissue.passive.stress(self._C, self._J, body.passive_scale, self._S)
+        tissue.passive.stress(self._C, self._J, body.passive_scale, body.dyads, self._S)
         p, _ = body.element.pressure(x, body.tets, self._J, tissue.passive.K)
         assembly.add_volumetric_stress(self._C, self._J, p, self._S)
         self._S += 0.5 * tissue.passive.eta / self.drive.dt * (self._C - self.state.C)
@@ -183,7 +184,7 @@ class Step:
     def _material_tangent(self, x: Floats) -> Floats:
         body, tissue = self.body, self.body.tissue
         D = np.empty((len(body.tets), 6, 6))
-        tissue.passive.tangent(self._C, self._J, body.passive_scale, D)
+        tissue.passive.tangent(self._C, self._J, body.passive_scale, body.dyads, D)
         p, slope = body.element.pressure(x, body.tets, self._J, tissue.passive.K)
         assembly.add_volumetric_tangent(self._C, self._J, p, slope, D)
         D[:, range(6), range(6)] += tissue.passive.eta / self.drive.dt * np.array([1, 1, 1, 0.5, 0.5, 0.5])

@@ -20,7 +20,7 @@ from scipy.optimize import brentq
 from heartfit.geometry.arrays import Floats
 from heartfit.mechanics.active.bcs import Drive
 from heartfit.mechanics.body import StepFailed, Tissue
-from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
+from heartfit.mechanics.passive.law import Isotropic, isotropic
 
 ACTIVATION = np.linspace(0.0, 0.07, 8)
 """Activation times of the fibres, s: a healthy QRS complex."""
@@ -42,7 +42,7 @@ class Sphere:
         return cls(radius, wall / (4.0 * np.pi * radius**2))
 
     @classmethod
-    def unloaded(cls, cavity: float, wall: float, pressure: float, passive: MooneyRivlin) -> "Sphere":
+    def unloaded(cls, cavity: float, wall: float, pressure: float, passive: Isotropic) -> "Sphere":
         """The stress-free sphere whose cavity has the volume ``cavity``, m^3, under ``pressure``, Pa."""
 
         def excess(smaller: float) -> float:
@@ -79,6 +79,7 @@ class SphericalBody:
 
     def __init__(self, left: Sphere, right: Sphere, tissue: Tissue, activation: Floats = ACTIVATION) -> None:
         self.tissue, self.activation = tissue, np.tile(activation, 2)
+        self.passive = isotropic(tissue.passive)
         self.radius = np.array([left.radius, right.radius])
         self.ratio = np.array([0.5 * s.thickness / s.radius for s in (left, right)])
         self.wall = np.array([left.wall, right.wall])
@@ -128,7 +129,7 @@ class SphereStep:
         if not ((stretch > SMALLEST_STRETCH) & (stretch < LARGEST_STRETCH)).all():
             raise StepFailed(f"the spheres are stretched to {stretch.round(3)} of their reference radii")
         self._respond(stretch)
-        passive, viscous = self.body.tissue.passive, self._viscous(stretch)[0]
+        passive, viscous = self.body.passive, self._viscous(stretch)[0]
         stress = passive.in_plane_stress(stretch) + viscous + stretch * self._mean(0)
         return self.body.wall / self.body.radius * stress
 
@@ -150,7 +151,7 @@ class SphereStep:
     def tangent(self, x: Floats) -> "Stiffness":
         """Derivative of the forces where they were last evaluated, which is ``x``."""
         stretch = self.body.stretch(x)
-        slope = self.body.tissue.passive.in_plane_stiffness(stretch) + self._viscous(stretch)[1]
+        slope = self.body.passive.in_plane_stiffness(stretch) + self._viscous(stretch)[1]
         slope = slope + stretch**2 * self._mean(1) + self._mean(0)
         return Stiffness(self.body.wall / self.body.radius**2 * slope)
 

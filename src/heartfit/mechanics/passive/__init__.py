@@ -1,1 +1,1 @@
-"""Passive laws, one per file: isochoric stress and tangent of many points at once."""
+"""Passive laws, one per file: stress and tangent of many points at once; see law.py for the slot."""

@@ -34,11 +34,11 @@ class MooneyRivlin:
         """Small-strain shear modulus, Pa."""
         return 2.0 * (self.c_1 + self.c_2)
 
-    def stress(self, C: Floats, J: Floats, scale: Floats, S: Floats) -> None:
+    def stress(self, C: Floats, J: Floats, scale: Floats, dyads: Floats, S: Floats) -> None:  # noqa: ARG002
         """Fill ``S`` (m, 6) with the isochoric stress, ``scale`` (m,) multiplying both moduli."""
         _stress(C, J, scale, self.c_1, self.c_2, S)
 
-    def tangent(self, C: Floats, J: Floats, scale: Floats, D: Floats) -> None:
+    def tangent(self, C: Floats, J: Floats, scale: Floats, dyads: Floats, D: Floats) -> None:  # noqa: ARG002
         r"""Fill ``D`` (m, 6, 6) with :math:`2\,\partial S/\partial C` of the isochoric stress."""
         _tangent(C, J, scale, self.c_1, self.c_2, D)
 
