@@ -1,15 +1,18 @@
 """The update equals the Kalman filter's closed forms on linear maps."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.calibration.unscented import CalibrationError, sigma_points, transform
+from heartfit.calibration.unscented import CalibrationError, Scaling, sigma_labels, sigma_points, transform
 from heartfit.calibration.update import calibrate, update
 
 NAMES = ("V_min", "q_max", "q_min")
+NOISE = np.diag([0.01, 0.02, 0.005])
 
 
 def linear(n: int, m: int, seed: int) -> tuple[Gaussian, np.ndarray, np.ndarray, np.ndarray]:
@@ -21,6 +24,19 @@ def linear(n: int, m: int, seed: int) -> tuple[Gaussian, np.ndarray, np.ndarray,
     a = random.standard_normal((m, n))
     z = np.array([point.z for point in sigma_points(prior)]) @ a.T + 1.0
     return prior, a, z, a @ prior.mean + 1.0 + 0.1 * random.standard_normal(m)
+
+
+def kalman(prior: Gaussian, a: np.ndarray, observed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Mean and covariance after observing z = A x + 1 with NOISE."""
+    covariance = np.linalg.inv(np.linalg.inv(prior.covariance) + a.T @ np.linalg.inv(NOISE) @ a)
+    return prior.mean + covariance @ a.T @ np.linalg.inv(NOISE) @ (
+        observed - 1.0 - a @ prior.mean
+    ), covariance
+
+
+def losses(n: int) -> list[tuple[int, ...]]:
+    """n with every one and every two of its sigma points."""
+    return [(n, *lost) for count in (1, 2) for lost in combinations(range(2 * n + 1), count)]
 
 
 def named(z: np.ndarray) -> dict[str, float]:
@@ -41,11 +57,8 @@ def test_without_noise_the_observations_are_met_by_the_smallest_step(n: int, see
 @given(n=some.integers(1, 7), seed=some.integers(0, 500))
 def test_with_noise_mean_and_covariance_are_the_kalman_ones(n: int, seed: int) -> None:
     prior, a, z, observed = linear(n, 3, seed)
-    noise = np.diag([0.01, 0.02, 0.005])
-    posterior = update(prior, transform(sigma_points(prior), z), named(observed), noise)
-    precision = np.linalg.inv(prior.covariance) + a.T @ np.linalg.inv(noise) @ a
-    covariance = np.linalg.inv(precision)
-    mean = prior.mean + covariance @ a.T @ np.linalg.inv(noise) @ (observed - 1.0 - a @ prior.mean)
+    posterior = update(prior, transform(sigma_points(prior), z), named(observed), NOISE)
+    mean, covariance = kalman(prior, a, observed)
     assert posterior.estimate.mean == pytest.approx(mean, abs=1e-8)
     assert posterior.estimate.covariance == pytest.approx(covariance, abs=1e-8)
 
@@ -110,10 +123,59 @@ def test_a_long_step_is_said() -> None:
     assert "p0 moved by +4.0 prior standard deviations" in posterior.notes[0]
 
 
+@pytest.mark.parametrize("lost", [lost for n in (4, 7) for lost in losses(n)], ids=str)
+def test_whichever_beats_fail_the_closed_form_is_met_or_the_update_refuses(lost: tuple[int, ...]) -> None:
+    """Every one and every two of the sigma points of 4 and 7 parameters; the first number is n."""
+    n, *failed = lost
+    prior, a, z, observed = linear(n, 3, sum(lost))
+    outcomes = ["inverted" if i in failed else named(row) for i, row in enumerate(z)]
+    if len(failed) == 2 and failed[0] > 0 and failed[1] == failed[0] + n:
+        with pytest.raises(CalibrationError, match=rf"p{failed[0] - 1}\+ \(inverted\) and .* both failed"):
+            calibrate(prior, outcomes, named(observed), NOISE)
+        return
+    posterior = calibrate(prior, outcomes, named(observed), NOISE)
+    mean, covariance = kalman(prior, a, observed)
+    assert posterior.estimate.mean == pytest.approx(mean, abs=1e-8)
+    assert posterior.estimate.covariance == pytest.approx(covariance, abs=1e-8)
+    labels = sigma_labels(prior.names)
+    assert posterior.failed == tuple(f"{labels[i]} (inverted)" for i in failed)
+
+
 def test_failed_beats_are_left_out_and_said() -> None:
     prior, a, z, observed = linear(4, 3, 9)
     outcomes = [named(row) for row in z]
-    outcomes[2] = None
+    outcomes[2] = "beat 1: at 0.3 s: an element collapsed"
     posterior = calibrate(prior, outcomes, named(observed))
     assert a @ posterior.estimate.mean + 1.0 == pytest.approx(observed, abs=1e-6)
-    assert posterior.notes == ("failed sigma points: p1+; weights rescaled over the rest",)
+    assert posterior.notes == (
+        "failed sigma points: p1+ (beat 1: at 0.3 s: an element collapsed); weights rescaled over the rest, "
+        "exact for a linear model",
+    )
+
+
+def test_no_beat_may_be_missing_nor_any_observation() -> None:
+    prior, _, z, observed = linear(4, 3, 9)
+    outcomes = [named(row) for row in z]
+    with pytest.raises(ValueError, match="8 outcomes; expected one for each of 9 points"):
+        calibrate(prior, outcomes[:-1], named(observed))
+    with pytest.raises(KeyError, match="V_min"):
+        calibrate(prior, [*outcomes[:-1], {}], named(observed))
+
+
+def test_an_observation_that_moves_by_rounding_only_is_refused() -> None:
+    prior, _, z, observed = linear(4, 3, 2)
+    z[:, 1] = 7e-5 * (1.0 + 1e-15 * np.arange(9))
+    with pytest.raises(CalibrationError, match="no parameter changes q_max"):
+        update(prior, transform(sigma_points(prior), z), named(observed))
+
+
+@given(seed=some.integers(0, 200))
+def test_a_negative_covariance_is_refused_never_clipped(seed: int) -> None:
+    """kappa = 3 - n weighs the centre negatively for n > 3: on a curved map it claims less than no variance."""
+    prior, a, _, observed = linear(5, 2, seed)
+    julier = Scaling(b=0.0, kappa=-2.0)
+    points = sigma_points(prior, julier)
+    deviation = np.array([point.z for point in points]) - prior.mean
+    z = deviation @ a.T + 40.0 * np.square(deviation / prior.sd).sum(axis=1, keepdims=True)
+    with pytest.raises(CalibrationError, match="is negative, as a negative weight of the centre"):
+        update(prior, transform(points, z, julier), named(observed))

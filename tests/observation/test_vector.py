@@ -50,8 +50,8 @@ def test_time_zero_is_the_trigger() -> None:
     assert indices["EF"] == pytest.approx(80 / 150)
 
 
-def test_a_failed_beat_is_none_and_has_no_curves() -> None:
+def test_a_failed_beat_is_its_reason_and_has_no_curves() -> None:
     failed = failed_beat("inverted", PERIOD, TRIGGER, {})
-    assert observe_beats([beat(), failed], operators(measured()))[1] is None
+    assert observe_beats([beat(), failed], operators(measured()))[1] == "inverted"
     with pytest.raises(ValueError, match="no curve lv_volume; there are none: did the beat fail"):
         observe(beat_curves(failed), operators(measured()))

@@ -135,7 +135,7 @@ def record(calibrated: dict[str, Curve]) -> CaseResult:
         }
         for point in sigma_points(prior)
     ]
-    posterior = calibrate(prior, [*outcomes[:-1], None], observed)
+    posterior = calibrate(prior, [*outcomes[:-1], "inverted"], observed)
     return summarise(
         {"case": "real", "setting": "physical", "fingerprint": "abc"},
         posterior,

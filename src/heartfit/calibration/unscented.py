@@ -17,9 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from heartfit.calibration.gaussian import Gaussian
+from heartfit.errors import InputError
 
 
-class CalibrationError(ValueError):
+class CalibrationError(InputError):
     """The sigma points that remain do not determine what is asked; the message says which are missing."""
 
 
@@ -100,18 +101,19 @@ def transform(
     scaling: Scaling = STANDARD,
     completed: np.ndarray | None = None,
 ) -> Moments:
-    """Moments of the observations z (2n+1, m); rows whose `completed` (2n+1,) is False are left out.
+    """Moments of the observations z (2n+1, m); rows whose `completed` (2n+1,) is False are not looked at.
 
-    Weights are rescaled over what remains such that a linear map keeps its exact moments. A lost X_(i+)
-    leaves its mean weight to the centre and its covariance weight to X_(i-); a lost centre leaves its mean
-    weight to the pairs. Raises CalibrationError if a parameter has lost both points, or one and the centre.
+    The weights of a lost X_(i+) go to what remains as the mirror image Z_(i+) = 2 Z_0 - Z_(i-) says, those of a
+    lost centre to the mean of the whole pairs: a linear map keeps its exact moments, and the joint covariance
+    stays positive. Raises CalibrationError if a parameter has lost both points, or every pair one and the centre
+    too.
     """
     labels = [point.label for point in points]
     x = np.array([point.z for point in points])
     done = np.ones(len(points), dtype=bool) if completed is None else np.asarray(completed, dtype=bool)
     _check_observations(z, done, labels)
-    mean_weight, weight = _rescale(*scaling.weights(x.shape[1]), done, labels)
-    z = np.where(done[:, None], z, 0.0)
+    z = _mirrored(z, done, labels)
+    mean_weight, weight = scaling.weights(x.shape[1])
     mean = mean_weight @ z
     deviation = z - mean
     return Moments(
@@ -133,34 +135,29 @@ def _check_observations(z: np.ndarray, done: np.ndarray, labels: list[str]) -> N
         )
 
 
-def _rescale(
-    mean: np.ndarray, covariance: np.ndarray, done: np.ndarray, labels: list[str]
-) -> tuple[np.ndarray, np.ndarray]:
-    """Move the weights of lost points to what remains; see `transform`."""
-    mean, covariance = mean.copy(), covariance.copy()
-    n = (len(mean) - 1) // 2
-    for plus in range(1, n + 1):
-        pair = [plus, plus + n]
-        alive = [index for index in pair if done[index]]
-        if not alive:
-            raise CalibrationError(
-                f"calibration: {labels[plus]} and {labels[plus + n]} both failed, so nothing is known of "
-                "this "
-                "parameter: narrow its prior or leave it out of the estimate"
-            )
-        if len(alive) == 1:
-            if not done[0]:
-                raise CalibrationError(
-                    f"calibration: the centre and one of {labels[plus]}, {labels[plus + n]} failed: move "
-                    "the prior "
-                    "mean to where the model runs"
-                )
-            mean[0] += mean[pair].sum()
-            mean[pair] = 0.0
-            covariance[alive] = covariance[pair].sum()
+def _mirrored(z: np.ndarray, done: np.ndarray, labels: list[str]) -> np.ndarray:
+    """The observations with lost rows filled in; see `transform`."""
+    filled, n = z.copy(), len(z) // 2
+    up, down = filled[1 : n + 1], filled[n + 1 :]
+    has_up, has_down = done[1 : n + 1], done[n + 1 :]
+    _require_enough(has_up, has_down, bool(done[0]), labels)
     if not done[0]:
-        mean[1:] += mean[0] / (2 * n)
-        mean[0] = 0.0
-    covariance[~done] = 0.0
-    mean[~done] = 0.0
-    return mean, covariance
+        whole = has_up & has_down
+        filled[0] = 0.5 * (up[whole] + down[whole]).mean(axis=0)
+    up[~has_up] = 2.0 * filled[0] - down[~has_up]
+    down[~has_down] = 2.0 * filled[0] - up[~has_down]
+    return filled
+
+
+def _require_enough(has_up: np.ndarray, has_down: np.ndarray, centre: bool, labels: list[str]) -> None:
+    n = len(has_up)
+    for i in np.flatnonzero(~(has_up | has_down)):
+        raise CalibrationError(
+            f"calibration: {labels[i + 1]} and {labels[i + 1 + n]} both failed, so nothing is known of this "
+            "parameter: narrow its prior or leave it out of the estimate"
+        )
+    if not centre and not (has_up & has_down).any():
+        raise CalibrationError(
+            f"calibration: {labels[0]} and one point of every pair failed: move the prior mean to where the "
+            "model runs"
+        )

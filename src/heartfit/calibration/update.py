@@ -7,8 +7,8 @@ with more parameters than observations, the change of least prior-weighted norm 
 observation informs keeps its prior.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
@@ -19,11 +19,19 @@ from heartfit.calibration.unscented import (
     CalibrationError,
     Moments,
     Scaling,
+    SigmaPoint,
     sigma_points,
     transform,
 )
 
 LONG_STEP = 3.0  # prior standard deviations: beyond them the moments say little about the model
+SILENT = 1e-8  # relative standard deviation of an observation below which it is rounding
+COLLINEAR = 1e-10  # eigenvalue of the normalised covariance of the observations that counts as zero
+ROUNDING = 1e-6  # negative variance, over the prior's, that the inverse of that covariance can leave
+NEGATIVE = (
+    "calibration: the {what} over the sigma points is negative, as a negative weight of the centre allows: "
+    "take a <= 1 and kappa such that a^2 (n + kappa) >= n"
+)
 
 
 @dataclass(frozen=True)
@@ -33,7 +41,7 @@ class Posterior:
     prior, estimate: mean and covariance before and after; predicted (m,) Zbar; gain (n, m); cov_xz (n, m);
     cov_zz (m, m) without R; step (n,) in prior standard deviations; sensitivity (n, m) is Cov(X, Z) with rows
     divided by sd_X and columns by sd_Z, singular_values those of it: the paper's tool to choose parameters;
-    failed names the sigma points without a beat.
+    failed names the sigma points without a beat, each with the reason.
     """
 
     prior: Gaussian
@@ -52,18 +60,29 @@ class Posterior:
 
 def calibrate(
     prior: Gaussian,
-    outcomes: Sequence[Mapping[str, float] | None],
+    outcomes: Sequence[Mapping[str, float] | str],
     observed: Mapping[str, float],
     noise: np.ndarray | None = None,
     scaling: Scaling = STANDARD,
 ) -> Posterior:
-    """The posterior from the observations of each sigma point's beat, None for a beat that failed."""
-    z = np.array(
-        [[outcome[name] if outcome else 0.0 for name in observed] for outcome in outcomes], dtype=float
-    )
-    completed = np.array([outcome is not None for outcome in outcomes])
-    moments = transform(sigma_points(prior, scaling), z, scaling, completed)
-    return update(prior, moments, observed, noise)
+    """The posterior from the observations of each sigma point's beat, or the reason why there are none."""
+    points = sigma_points(prior, scaling)
+    if len(outcomes) != len(points):
+        raise ValueError(
+            f"calibration: {len(outcomes)} outcomes; expected one for each of {len(points)} points"
+        )
+    named = [_with_reason(point, outcome) for point, outcome in zip(points, outcomes, strict=True)]
+    z = np.array([_row(outcome, observed) for outcome in outcomes])
+    completed = np.array([not isinstance(outcome, str) for outcome in outcomes])
+    return update(prior, transform(named, z, scaling, completed), observed, noise)
+
+
+def _with_reason(point: SigmaPoint, outcome: Mapping[str, float] | str) -> SigmaPoint:
+    return replace(point, label=f"{point.label} ({outcome})") if isinstance(outcome, str) else point
+
+
+def _row(outcome: Mapping[str, float] | str, names: Iterable[str]) -> list[float]:
+    return [np.nan if isinstance(outcome, str) else outcome[name] for name in names]
 
 
 def update(
@@ -72,7 +91,8 @@ def update(
     """The posterior after observing `observed` (by name, in the order of the moments' columns).
 
     noise: R (m, m) in the observations' units, zero if None (the paper). Raises CalibrationError if an
-    observation does not respond to any parameter, or if the observations are collinear over the prior.
+    observation does not respond to any parameter, if the observations are collinear over the prior, or if a
+    scaling with a negative weight makes a covariance negative.
     """
     names, z = tuple(observed), np.array(list(observed.values()))
     scale = _scale(moments, names)
@@ -107,7 +127,11 @@ def _scale(moments: Moments, names: tuple[str, ...]) -> np.ndarray:
     variance = np.diag(moments.cov_zz)
     if variance.shape != (len(names),):
         raise ValueError(f"calibration: {len(names)} observations {names}, {variance.size} columns predicted")
-    silent = [name for name, v in zip(names, variance, strict=True) if v <= 0]
+    silent = [
+        name for name, quiet in zip(names, variance <= (SILENT * moments.mean) ** 2, strict=True) if quiet
+    ]
+    if (variance < 0).any():
+        raise CalibrationError(NEGATIVE.format(what=f"variance of {', '.join(silent)}"))
     if silent:
         raise CalibrationError(f"calibration: no parameter changes {', '.join(silent)}: do not observe it")
     return np.sqrt(variance)
@@ -120,25 +144,31 @@ def _normalised(cov_zz: np.ndarray, noise: np.ndarray | None, scale: np.ndarray)
 
 def _factorise(correlation: np.ndarray, names: tuple[str, ...]) -> tuple[np.ndarray, bool]:
     smallest = float(np.linalg.eigvalsh(correlation).min())
-    if smallest < 1e-10:
+    if smallest < -COLLINEAR:
+        raise CalibrationError(NEGATIVE.format(what=f"covariance of {', '.join(names)}"))
+    if smallest < COLLINEAR:
         raise CalibrationError(
-            f"calibration: {', '.join(names)} are collinear over the prior (smallest eigenvalue "
-            f"{smallest:.1e} of "
-            "their normalised covariance): observe fewer, estimate more parameters, or give the "
-            "observations noise"
+            f"calibration: {', '.join(names)} are collinear over the prior (smallest eigenvalue {smallest:.1e} of "
+            "their normalised covariance): observe fewer, estimate more parameters, or give the observations noise"
         )
     return cho_factor(correlation)
 
 
 def _positive(covariance: np.ndarray, prior: np.ndarray) -> np.ndarray:
-    """Symmetrise; directions fixed to rounding get a variance of 1e-12 of the prior's trace."""
+    """Symmetrise; directions fixed to rounding get a variance of 1e-12 of the prior's mean one."""
     values, vectors = np.linalg.eigh((covariance + covariance.T) / 2)
-    floor = 1e-12 * np.trace(prior) / len(prior)
+    variance = np.trace(prior) / len(prior)
+    if values.min() < -ROUNDING * variance:
+        raise CalibrationError(NEGATIVE.format(what="covariance of the posterior"))
+    floor = 1e-12 * variance
     return (vectors * np.maximum(values, floor)) @ vectors.T
 
 
 def _failures(failed: tuple[str, ...]) -> list[str]:
-    return [f"failed sigma points: {', '.join(failed)}; weights rescaled over the rest"] if failed else []
+    text = (
+        f"failed sigma points: {', '.join(failed)}; weights rescaled over the rest, exact for a linear model"
+    )
+    return [text] if failed else []
 
 
 def _excess(parameters: int, names: tuple[str, ...], noise: np.ndarray | None) -> list[str]:

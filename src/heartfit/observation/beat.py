@@ -23,6 +23,6 @@ def beat_curves(beat: Beat) -> dict[str, Curve]:
 
 def observe_beats(
     beats: Iterable[Beat], features: Mapping[str, CurveFeatures]
-) -> list[dict[str, float] | None]:
-    """Observations of each beat, None for a failed one: as `heartfit.calibration.update.calibrate` takes."""
-    return [observe(beat_curves(beat), features) if beat.completed else None for beat in beats]
+) -> list[dict[str, float] | str]:
+    """Observations of each beat, the reason of a failed one: as `heartfit.calibration.update.calibrate` takes."""
+    return [observe(beat_curves(beat), features) if beat.completed else beat.reason for beat in beats]
