@@ -13,6 +13,7 @@ HEIGHTS = (
     ("errors",),
     ("parameter",),
     ("geometry",),
+    ("branch",),
     ("electrophysiology",),
     ("mechanism",),
     ("mechanics",),
@@ -35,8 +36,18 @@ HEIGHTS = (
 )
 HEIGHT = {layer: height for height, layers in enumerate(HEIGHTS) for layer in layers}
 PHYSICS = {"geometry", "electrophysiology", "mechanics", "mechanism", "mechanisms", "circulation", "heart"}
-PHYSICS |= {"simulation", "beat", "cohort", "registration", "observation", "calibration", "verification"}
+PHYSICS |= {
+    "branch",
+    "simulation",
+    "beat",
+    "cohort",
+    "registration",
+    "observation",
+    "calibration",
+    "verification",
+}
 HEART = {
+    "branch",
     "heart",
     "mechanism",
     "mechanisms",

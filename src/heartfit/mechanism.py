@@ -11,6 +11,10 @@ from abc import ABC, abstractmethod
 from dataclasses import replace
 from typing import ClassVar, Self, TypeVar
 
+import numpy as np
+
+from heartfit.branch import Branch
+from heartfit.geometry.arrays import Floats
 from heartfit.parameter import Parameter, parameters_of
 
 COMPARTMENTS = ("lv", "rv", "aorta", "pulmonary_artery", "left_atrium", "right_atrium")
@@ -41,16 +45,20 @@ class Flow(Mechanism):
     downstream: ClassVar[str]
 
     @abstractmethod
+    def law(self, time: Floats) -> Branch:
+        """The branch at ``time``, s (any shape): its coefficients are numbers or of that shape."""
+
     def flow(self, time: float, drop: float) -> tuple[float, float]:
         """Flow, m^3/s, at the pressure drop upstream - downstream, Pa, and its derivative by the drop."""
+        return self.law(np.asarray(time)).flow(drop)
 
 
 class Pressure(Mechanism):
     """A pressure added to that of prescribed compartments."""
 
     @abstractmethod
-    def pressure(self, compartment: str, time: float, period: float) -> float:
-        """Pressure added to ``compartment`` at ``time``, Pa; periodic in ``period``."""
+    def pressure(self, compartment: str, time: Floats, period: float) -> Floats:
+        """Pressure added to ``compartment`` at ``time`` (any shape), Pa; periodic in ``period``."""
 
 
 ROLES: tuple[type[Mechanism], ...] = (Flow, Pressure)

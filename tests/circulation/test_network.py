@@ -1,16 +1,21 @@
 """The circuit conserves blood whatever the pressures and whatever leaks it has."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from tests.shrinking import assert_derivative
 
-from heartfit.circulation.network import Circulation, NetworkStep
+from heartfit.branch import Branch
+from heartfit.circulation.network import VALVES, Circulation, Network, NetworkStep
 from heartfit.circulation.valves import OrificeValve
-from heartfit.mechanism import COMPARTMENTS
+from heartfit.geometry.arrays import Floats
+from heartfit.mechanism import COMPARTMENTS, Flow
 from heartfit.mechanisms.atrial_kick import AtrialKick
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 
 CIRCULATIONS = [Circulation(), Circulation(mitral=OrificeValve(), aortic=OrificeValve())]
+ENDS = {**VALVES, "MitralRegurgitation": ("lv", "left_atrium")}
 LEAK = MitralRegurgitation(area=0.4e-4)
 networks = pytest.mark.parametrize("circulation", CIRCULATIONS, ids=["linear", "orifice"])
 
@@ -25,9 +30,9 @@ def test_what_leaves_one_compartment_enters_another(circulation: Circulation) ->
     network = NetworkStep(circulation, (AtrialKick(), LEAK), 0.05, 5e-3, 0.8)
     for pressures in random_pressures(50):
         net = np.zeros(len(COMPARTMENTS))
-        for _, upstream, downstream, flow, _ in network.flows(pressures):
-            net[upstream] += flow
-            net[downstream] -= flow
+        for name, flow in network.flows(pressures).items():
+            for compartment, sign in zip(ENDS[name], (1.0, -1.0), strict=True):
+                net[COMPARTMENTS.index(compartment)] += sign * flow
         assert network.outflow(pressures)[0] == pytest.approx(net[:4])
         assert net.sum() == pytest.approx(0.0, abs=1e-12 * abs(net).max())
 
@@ -46,7 +51,7 @@ def test_jacobian_is_the_derivative_of_the_outflow(circulation: Circulation) -> 
 def test_blood_runs_forward_through_open_valves_only() -> None:
     """Ejection: ventricles above arteries above atria."""
     network = NetworkStep(Circulation(), (), 0.3, 5e-3, 0.8)
-    flow = {name: q for name, _, _, q, _ in network.flows(np.array([13e3, 4e3, 11e3, 2e3]))}
+    flow = network.flows(np.array([13e3, 4e3, 11e3, 2e3]))
     assert flow["aortic"] == pytest.approx(5e-6 * 2e3)
     assert flow["pulmonary"] == pytest.approx(5e-6 * 2e3)
     assert -2e-7 < flow["mitral"] < 0.0
@@ -58,3 +63,19 @@ def test_atria_rest_at_their_pressure_and_kick_on_top_of_it() -> None:
     assert circulation.atrial(0.5, 0.8, (kick,)) == pytest.approx([700.0, 300.0])
     assert circulation.atrial(kick.peak, 0.8, (kick,)) == pytest.approx([1700.0, 800.0])
     assert circulation.atrial(kick.peak, 0.8, ()) == pytest.approx([700.0, 300.0])
+
+
+def test_a_branch_may_change_with_time_and_its_laws_come_for_many_times_at_once() -> None:
+    @dataclass(frozen=True)
+    class Shutter(Flow):
+        upstream, downstream = "aorta", "lv"
+
+        def law(self, time: Floats) -> Branch:
+            return Branch(area=1e-5 * time)
+
+    network, times = Network(Circulation(), (Shutter(), LEAK)), np.array([0.1, 0.4])
+    laws = network.laws(times)
+    assert network.names == ["mitral", "aortic", "tricuspid", "pulmonary", "Shutter", "MitralRegurgitation"]
+    assert laws[4, 1] == pytest.approx(1e-5 * times)
+    for n, time in enumerate(times):
+        assert (network.laws(time) == laws[..., n]).all()

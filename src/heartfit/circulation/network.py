@@ -9,7 +9,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numba import njit
 
+from heartfit.branch import branch_flow
 from heartfit.circulation.valves import LinearValve, Valve
 from heartfit.circulation.windkessel import PULMONARY, Windkessel, WindkesselState
 from heartfit.geometry.arrays import Floats
@@ -55,13 +57,31 @@ class Circulation:
         """State of both Windkessels before the first beat."""
         return WindkesselState(self.aorta_start), WindkesselState(self.pulmonary_start)
 
-    def atrial(self, time: float, period: float, mechanisms: Sequence[Mechanism]) -> Floats:
-        """Pressures (2,) of the left and right atrium."""
+    def atrial(self, time: Floats | float, period: float, mechanisms: Sequence[Mechanism]) -> Floats:
+        """Pressures (2, ...) of the left and right atrium at ``time`` (...)."""
+        still = np.zeros(np.shape(time))
         added = [
-            sum(m.pressure(atrium, time, period) for m in mechanisms if isinstance(m, Pressure))
+            sum((m.pressure(atrium, time, period) for m in mechanisms if isinstance(m, Pressure)), still)  # type: ignore[arg-type]
             for atrium in ATRIA
         ]
-        return np.array([self.left_atrium, self.right_atrium]) + added
+        return np.array([self.left_atrium + added[0], self.right_atrium + added[1]])
+
+
+class Network:
+    """The branches of a circulation with its mechanisms: valves first, then whatever leaks."""
+
+    def __init__(self, circulation: Circulation, mechanisms: Sequence[Mechanism]) -> None:
+        self._valves = [getattr(circulation, name).law() for name in VALVES]
+        self._leaks = [m for m in mechanisms if isinstance(m, Flow)]
+        self.names = [*VALVES, *(type(leak).__name__ for leak in self._leaks)]
+        ends = [*VALVES.values(), *((leak.upstream, leak.downstream) for leak in self._leaks)]
+        self.ends = np.array([[COMPARTMENTS.index(end) for end in pair] for pair in ends])
+
+    def laws(self, time: Floats | float) -> Floats:
+        """Coefficients (branches, 4, ...) of the branches at ``time`` (...); see :class:`~heartfit.branch.Branch`."""
+        time = np.asarray(time)
+        laws = [*self._valves, *(leak.law(time) for leak in self._leaks)]
+        return np.array([[np.broadcast_to(each, time.shape) for each in law] for law in laws])
 
 
 class NetworkStep:
@@ -70,33 +90,21 @@ class NetworkStep:
     def __init__(
         self, circulation: Circulation, mechanisms: Sequence[Mechanism], time: float, dt: float, period: float
     ) -> None:
-        self._circulation, self._time = circulation, time
+        self._circulation, self._network = circulation, Network(circulation, mechanisms)
         self.dt = dt
         self.atrial = circulation.atrial(time, period, mechanisms)
-        self._leaks = [m for m in mechanisms if isinstance(m, Flow)]
+        self._laws = self._network.laws(time)
 
-    def flows(self, pressures: Floats) -> list[tuple[str, int, int, float, float]]:
-        """Name, upstream and downstream compartment, flow and slope of every branch."""
-        p = [*pressures, *self.atrial]
-        branches = []
-        for name, ends in VALVES.items():
-            i, j = COMPARTMENTS.index(ends[0]), COMPARTMENTS.index(ends[1])
-            branches.append((name, i, j, *getattr(self._circulation, name).flow(p[i] - p[j])))
-        for leak in self._leaks:
-            i, j = COMPARTMENTS.index(leak.upstream), COMPARTMENTS.index(leak.downstream)
-            branches.append((type(leak).__name__, i, j, *leak.flow(self._time, p[i] - p[j])))
-        return branches
+    def flows(self, pressures: Floats) -> dict[str, float]:
+        """Flow of every branch by name."""
+        p = np.concatenate([pressures, self.atrial])
+        drops = p[self._network.ends[:, 0]] - p[self._network.ends[:, 1]]
+        named = zip(self._network.names, self._laws, drops, strict=True)
+        return {name: branch_flow(law, drop)[0] for name, law, drop in named}
 
     def outflow(self, pressures: Floats) -> tuple[Floats, Floats]:
         """Net outflow (4,) of the unknown compartments and its Jacobian (4, 4)."""
-        out, slope = np.zeros(6), np.zeros((6, 6))
-        for _, i, j, q, dq in self.flows(pressures):
-            out[i] += q
-            out[j] -= q
-            slope[i, i] += dq
-            slope[i, j] -= dq
-            slope[j, j] += dq
-            slope[j, i] -= dq
+        out, slope = net_outflow(self._laws, self._network.ends, np.concatenate([pressures, self.atrial]))
         return out[:4], slope[:4, :4]
 
     def windkessels(self, trees: Sequence[WindkesselState]) -> Floats:
@@ -111,3 +119,19 @@ class NetworkStep:
         out, _ = self.outflow(pressures)
         systemic, pulmonary = self._circulation.trees()
         return systemic.advance(trees[0], -out[2], self.dt), pulmonary.advance(trees[1], -out[3], self.dt)
+
+
+@njit(cache=True, error_model="numpy")
+def net_outflow(laws, ends, p):  # type: ignore[no-untyped-def]
+    """Net outflow (6,) of all compartments at the pressures p (6,), and its Jacobian (6, 6)."""
+    out, slope = np.zeros(6), np.zeros((6, 6))
+    for branch in range(ends.shape[0]):
+        i, j = ends[branch]
+        q, dq = branch_flow(laws[branch], p[i] - p[j])
+        out[i] += q
+        out[j] -= q
+        slope[i, i] += dq
+        slope[i, j] -= dq
+        slope[j, j] += dq
+        slope[j, i] -= dq
+    return out, slope

@@ -1,27 +1,21 @@
 r"""Valve laws: flow through a valve as a function of the pressure drop across it.
 
 A law maps the drop :math:`\Delta p` to :math:`(q, dq/d\Delta p)`; it increases with the drop, so that each
-time step of the circuit has one solution.
+time step of the circuit has one solution. It is given as the coefficients of a branch.
 """
 
 from dataclasses import dataclass
-from math import sqrt
 from typing import Protocol
 
+from heartfit.branch import Branch
 from heartfit.parameter import parameter, require_admissible
-
-BLOOD_DENSITY = 1060.0
-"""kg/m^3"""
-
-SMOOTHING = 20.0
-"""Pressure drop, Pa, below which the orifice law is linear: the square root has no slope at zero."""
 
 
 class Valve(Protocol):
     """What the circuit asks of a valve."""
 
-    def flow(self, drop: float) -> tuple[float, float]:
-        """Flow, m^3/s, and its derivative by the drop, m^3/(s Pa)."""
+    def law(self) -> Branch:
+        """Flow as a function of the pressure drop."""
 
 
 @dataclass(frozen=True)
@@ -39,9 +33,8 @@ class LinearValve:
     def __post_init__(self) -> None:
         require_admissible(self)
 
-    def flow(self, drop: float) -> tuple[float, float]:
-        conductance = self.open if drop > 0.0 else self.closed
-        return conductance * drop, conductance
+    def law(self) -> Branch:
+        return Branch(conductance=self.open, back_conductance=self.closed)
 
 
 @dataclass(frozen=True)
@@ -56,15 +49,5 @@ class OrificeValve:
     def __post_init__(self) -> None:
         require_admissible(self)
 
-    def flow(self, drop: float) -> tuple[float, float]:
-        return orifice_flow(self.area, drop) if drop > 0.0 else (self.closed * drop, self.closed)
-
-
-def orifice_flow(area: float, drop: float) -> tuple[float, float]:
-    r"""Flow and slope of :math:`q = A \sqrt{2/\rho}\, \Delta p\, (\Delta p^2 + \epsilon^2)^{-1/4}`.
-
-    The root is smoothed over :math:`\epsilon` = 20 Pa; odd in the drop.
-    """
-    factor = area * sqrt(2.0 / BLOOD_DENSITY)
-    smooth = drop * drop + SMOOTHING * SMOOTHING
-    return factor * drop * smooth**-0.25, factor * smooth**-1.25 * (0.5 * drop * drop + SMOOTHING * SMOOTHING)
+    def law(self) -> Branch:
+        return Branch(area=self.area, back_conductance=self.closed)

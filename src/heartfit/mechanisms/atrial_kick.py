@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from heartfit.geometry.arrays import Floats
 from heartfit.mechanism import Pressure, mechanism
 from heartfit.parameter import parameter, require_admissible
 
@@ -34,13 +35,11 @@ class AtrialKick(Pressure):
                 f"AtrialKick peaks at {self.peak:g} s and ends at {self.end:g} s: expected 0 < peak < end"
             )
 
-    def pressure(self, compartment: str, time: float, period: float) -> float:
+    def pressure(self, compartment: str, time: Floats, period: float) -> Floats:
         share = {"left_atrium": 1.0, "right_atrium": self.right}.get(compartment, 0.0)
-        return share * self.rise * self._shape(time % period)
+        return share * self.rise * self._shape(np.mod(time, period))
 
-    def _shape(self, time: float) -> float:
-        if time < self.peak:
-            return float(np.sin(0.5 * np.pi * time / self.peak) ** 2)
-        if time < self.end:
-            return float(np.cos(0.5 * np.pi * (time - self.peak) / (self.end - self.peak)) ** 2)
-        return 0.0
+    def _shape(self, time: Floats) -> Floats:
+        rising = np.sin(0.5 * np.pi * time / self.peak) ** 2
+        falling = np.cos(0.5 * np.pi * (time - self.peak) / (self.end - self.peak)) ** 2
+        return np.where(time < self.peak, rising, np.where(time < self.end, falling, 0.0))

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass
 
-from heartfit.circulation.valves import orifice_flow
+from heartfit.branch import Branch
+from heartfit.geometry.arrays import Floats
 from heartfit.mechanism import Flow, mechanism
 from heartfit.parameter import parameter, require_admissible
 
@@ -27,5 +28,5 @@ class MitralRegurgitation(Flow):
     def __post_init__(self) -> None:
         require_admissible(self)
 
-    def flow(self, time: float, drop: float) -> tuple[float, float]:  # noqa: ARG002
-        return orifice_flow(self.area, drop) if drop > 0.0 else (0.0, 0.0)
+    def law(self, time: Floats) -> Branch:  # noqa: ARG002
+        return Branch(area=self.area)
