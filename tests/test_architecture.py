@@ -23,6 +23,7 @@ HEIGHTS = (
     ("heart",),
     ("beat", "registration", "ventricles"),
     ("simulation",),
+    ("kernels",),
     ("cohort",),
     ("observation",),
     ("calibration",),

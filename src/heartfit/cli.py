@@ -5,16 +5,15 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from heartfit import protocol
 from heartfit.catalogue import declared, parameter_page
 from heartfit.console import Progress, beat_summary
 from heartfit.errors import InputError
 from heartfit.io.beats import write_beat
-from heartfit.io.configuration import Plan, plan_study, read_configuration, schema
+from heartfit.io.configuration import plan_study, read_configuration, read_study, schema
 from heartfit.io.fingerprint import fingerprint
 from heartfit.io.measured_heart import read_measured_heart
 from heartfit.io.meshes import read_mesh
-from heartfit.protocol import run_beat
-from heartfit.verification.page import verification_page
 
 STANDARD = Path("config/config.yaml")
 
@@ -68,7 +67,7 @@ def _simulate_arguments(command: argparse.ArgumentParser) -> None:
 
 def simulate(given: argparse.Namespace) -> int:
     """Run beats of one heart until they are periodic and write the last one."""
-    study = _plan(given.config).study
+    study = read_study(given.config)
     if given.setting not in study.settings:
         raise InputError(f"no setting {given.setting!r}; known are {', '.join(study.settings)}")
     setting = study.setting(given.setting)
@@ -76,8 +75,8 @@ def simulate(given: argparse.Namespace) -> int:
     if given.unloaded:
         setting = setting.model_copy(update={"reference": "end_diastolic"})
     mesh, pressures = read_mesh(given.mesh), study.end_diastolic_pressure
-    beat = run_beat(mesh, setting, given.period, changed, pressures, study.numerics, Progress())
-    write_beat(given.output, beat, fingerprint(Path(__file__)))
+    beat = protocol.run_beat(mesh, setting, given.period, changed, pressures, study.numerics, Progress())
+    write_beat(given.output, beat, fingerprint(Path(protocol.__file__)))
     print("\n".join([f"{len(mesh.tets)} tetrahedra, {setting.element}", *beat_summary(beat)]))
     return 0 if beat.completed else 1
 
@@ -95,7 +94,7 @@ def _assignment(text: str) -> tuple[str, float]:
 
 def check(given: argparse.Namespace) -> int:
     """Read everything that a study would read before it runs and say in a line each that it is in order."""
-    plan = _plan(given.config)
+    plan = plan_study(read_configuration(given.config), " + ".join(map(str, given.config)))
     files, settings = ", ".join(map(str, given.config)), ", ".join(plan.study.settings)
     print(f"configuration: {files} in order, settings {settings}")
     print(f"cases: {', '.join(plan.cases)}")
@@ -106,10 +105,6 @@ def check(given: argparse.Namespace) -> int:
     if plan.left_out:
         print(plan.left_out)
     return 0
-
-
-def _plan(paths: Sequence[Path]) -> Plan:
-    return plan_study(read_configuration(paths), " + ".join(map(str, paths)))
 
 
 def parameters(_: argparse.Namespace) -> int:
@@ -126,5 +121,7 @@ def configuration_schema(_: argparse.Namespace) -> int:
 
 def verification(_: argparse.Namespace) -> int:
     """print the page of verification, in half a minute"""
+    from heartfit.verification.page import verification_page
+
     print(verification_page(), end="")
     return 0

@@ -8,7 +8,6 @@ from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics.body import CHAMBERS, FiniteElementBody, Tissue
 from heartfit.mechanics.passive.law import isotropic
-from heartfit.mechanics.sphere import Sphere, SphericalBody
 from heartfit.mechanics.unloading import unload
 
 
@@ -24,8 +23,10 @@ def ventricles(mesh: VentricularMesh, tissue: Tissue, loads: Floats, unloaded: b
     return FiniteElementBody(unload(mesh, tissue, loads) if unloaded else mesh, tissue)
 
 
-def _spheres(mesh: VentricularMesh, tissue: Tissue, loads: Floats) -> SphericalBody:
+def _spheres(mesh: VentricularMesh, tissue: Tissue, loads: Floats) -> Body:
     """Spheres of the same cavities; the septum belongs to the left one."""
+    from heartfit.mechanics.sphere import Sphere, SphericalBody  # finite elements need no root finder
+
     cavities = [Cavity.of(mesh, f"{chamber}_endo").volume(mesh.points) for chamber in CHAMBERS]
     volumes, right = mesh.element_volumes(), np.asarray(mesh.segments) == 0
     walls = volumes[~right].sum(), volumes[right].sum()

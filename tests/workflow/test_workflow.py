@@ -22,6 +22,11 @@ def inputs(job):
     return found[1].split(", ") if found else []
 
 
+def readers(output, part):
+    """The rules that read a file with ``part`` in its name."""
+    return {rule for rule, job in jobs(output) if any(part in name for name in inputs(job))}
+
+
 def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_only(workflow):
     run = workflow.snakemake("-n")
     counts = job_counts(run.stdout)
@@ -31,8 +36,10 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert counts["simulate_calibrated"] == cases * settings
     assert counts["generate_volunteer"] == 2
     assert counts["make_tables"] == 1
-    readers = {rule for rule, job in jobs(run.stdout) if any("truth" in name for name in inputs(job))}
-    assert readers == {"make_tables"}
+    assert counts["compile_kernels"] == 1
+    assert readers(run.stdout, "truth") == {"make_tables"}
+    beating = {"generate_volunteer", "simulate_point", "simulate_calibrated"}
+    assert readers(run.stdout, "kernels") == {*beating, "build_volunteer_mesh"}
     targets = inputs(dict(jobs(run.stdout))["all"])
     assert sum("/beats/" in name for name in targets) == counts["simulate_point"], (
         "a deleted one is not missed"

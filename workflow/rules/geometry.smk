@@ -1,6 +1,7 @@
 rule build_measured_mesh:
     input:
         files=measured_files,
+        kernels=ancient("<results>/kernels.json"),
     output:
         "<results>/{case}/geometry/mesh.vtu",
     log:
@@ -22,7 +23,8 @@ rule build_measured_mesh:
 
 rule build_volunteer_mesh:
     input:
-        "<results>/{case}/cohort/acquisition.vtu",
+        acquisition="<results>/{case}/cohort/acquisition.vtu",
+        kernels=ancient("<results>/kernels.json"),
     output:
         "<results>/{case}/geometry/mesh.vtu",
     log:

@@ -7,6 +7,7 @@ import numpy as np
 
 from heartfit.beat import Beat
 from heartfit.cohort.hidden_heart import draw_heart
+from heartfit.cohort.protocol import Protocol as Protocol
 from heartfit.electrophysiology.onset import assign_activation
 from heartfit.geometry.arrays import Floats
 from heartfit.geometry.mesh import VentricularMesh
@@ -16,19 +17,7 @@ from heartfit.geometry.parametric import ParametricVentricles
 from heartfit.geometry.prepare import prepare
 from heartfit.mechanics.body import FiniteElementBody
 from heartfit.mechanics.unloading import unload
-from heartfit.simulation import Numerics, simulate
-
-
-@dataclass(frozen=True)
-class Protocol:
-    """How volunteers are made: mesh size, tolerance and noise, m; numerics; pressures (lv, rv), Pa; frames."""
-
-    edge_length: float
-    tolerance: float
-    numerics: Numerics
-    noise: float
-    end_diastolic_pressure: tuple[float, float]
-    frames: int = 25
+from heartfit.simulation import simulate
 
 
 @dataclass(frozen=True, eq=False)

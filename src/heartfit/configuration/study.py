@@ -6,7 +6,7 @@ from typing import Self
 from pydantic import Field, PositiveFloat, PositiveInt, model_validator
 
 from heartfit.calibration.unscented import Scaling
-from heartfit.cohort.generate import Protocol
+from heartfit.cohort.protocol import Protocol
 from heartfit.configuration.setting import Prior, Setting, require_known
 from heartfit.configuration.strict import Strict
 from heartfit.observation.curve import Curve

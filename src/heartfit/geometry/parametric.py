@@ -14,7 +14,6 @@ a follows from the left cavity volume, B from the right one.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats, Integers
@@ -57,6 +56,8 @@ class ParametricVentricles:
 
         Raises InputError when the right cavity does not fit beside the left one.
         """
+        from scipy.optimize import brentq
+
         a = self._radius()
 
         def excess(bulge: float) -> float:

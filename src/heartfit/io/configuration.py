@@ -61,6 +61,11 @@ def _left_out(absent: Sequence[str], study: Study) -> str:
     )
 
 
+def read_study(paths: Sequence[Path]) -> Study:
+    """The study that the files describe, whatever its cases; raises InputError."""
+    return validated(Study, read_configuration(paths), " + ".join(map(str, paths)))
+
+
 def read_configuration(paths: Sequence[Path]) -> dict[str, Any]:
     """What the files say together, later ones over earlier ones, as Snakemake's --configfile does."""
     return reduce(_layered, map(_read_yaml, paths), {})

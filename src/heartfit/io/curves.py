@@ -8,14 +8,18 @@ time_s,lv_volume_ml,rv_volume_ml,lv_pressure_kpa,mitral_flow_ml_per_s
 import difflib
 import re
 from collections.abc import Mapping
+from io import StringIO
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
 from heartfit.observation.curve import Curve
+
+if TYPE_CHECKING:
+    import pandas as pd  # 0.2 s to import, and what only writes does without
 
 UNITS = {"volume": ("ml", 1e-6), "pressure": ("kpa", 1e3), "flow": ("ml_per_s", 1e-6)}
 PLACES = {
@@ -46,8 +50,9 @@ def write_table_of_curves(
     for name, array in values.items():
         unit, factor = UNITS[kind_of(name)]
         table[f"{name}_{unit}"] = array / factor
-    body = pd.DataFrame(table).to_csv(index=False, float_format="%.12g", lineterminator="\n")
-    write_text(path, f"# period_s = {float(period)!r}\n{body}")
+    body = StringIO()
+    np.savetxt(body, np.column_stack(list(table.values())), "%.12g", ",", header=",".join(table), comments="")
+    write_text(path, f"# period_s = {float(period)!r}\n{body.getvalue()}")
 
 
 def read_table_of_curves(
@@ -90,7 +95,9 @@ def read_curves(path: Path, period: float | None = None) -> dict[str, Curve]:
         raise InputError(f"{path}: {error}") from error
 
 
-def _read_csv(path: Path) -> pd.DataFrame:
+def _read_csv(path: Path) -> "pd.DataFrame":
+    import pandas as pd
+
     if not Path(path).is_file():
         raise InputError(f"{path}: no such file; expected curves as CSV: correct the path")
     try:
@@ -109,7 +116,9 @@ def _read_csv(path: Path) -> pd.DataFrame:
     return table
 
 
-def _check_column(path: Path, column: pd.Series) -> None:
+def _check_column(path: Path, column: "pd.Series") -> None:
+    import pandas as pd
+
     if column.name != "time_s" and _name_of(str(column.name)) is None:
         near = difflib.get_close_matches(str(column.name).lower(), COLUMNS, n=1, cutoff=0.0)
         raise InputError(

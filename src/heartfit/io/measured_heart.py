@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scipy.io import loadmat
 
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats, Integers, Names
@@ -59,6 +58,8 @@ def read_measured_heart(folder: Path) -> MeasuredHeart:
     Raises InputError for a missing file, a surface that is not closed, unequal vertex counts, NaN, fewer than
     8 phases.
     """
+    from scipy.io import loadmat
+
     control_points = _read_control_points(folder / "control_points")
     triangles, labels = _read_template(folder / "template")
     matrix = loadmat(_existing(folder / "template" / "subdivision_matrix_sparse.mat"))["S"]

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from heartfit.observation.curve import Curve
 
@@ -19,6 +18,8 @@ def fit_shift(measured: Curve, simulated: Curve, limit: float | None = None) -> 
     A scan finds the basin, a bounded Brent search the minimum in it. Raises ValueError if the periods differ
     by more than a tenth: such beats have no common phase.
     """
+    from scipy.optimize import minimize_scalar
+
     if abs(measured.period / simulated.period - 1) > 0.1:
         raise ValueError(
             f"alignment: periods of {measured.period:g} s and {simulated.period:g} s; "

@@ -17,7 +17,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from scipy.signal import savgol_filter
 
 from heartfit.observation.curve import Curve
 
@@ -57,6 +56,8 @@ class CurveFeatures(ABC):
         return self._filter(curve, derivative=1)
 
     def _filter(self, curve: Curve, derivative: int) -> Curve:
+        from scipy.signal import savgol_filter  # 0.4 s to import, and only an observation needs it
+
         frames = curve.resampled(self.frames)
         values = savgol_filter(
             frames.values,

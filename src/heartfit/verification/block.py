@@ -50,7 +50,7 @@ class Clamped(Support):
 def cube(n: int, L: float) -> VentricularMesh:
     """A cube of edge ``L`` with ``n`` elements along an edge; floor and lid are called cavities."""
     grid = MeshTet.init_tensor(*[np.linspace(0.0, L, n + 1)] * 3)
-    points, tets = np.ascontiguousarray(grid.p.T), grid.t.T.astype(np.int64)
+    points, tets = np.ascontiguousarray(grid.p.T), grid.t.T.astype(np.int64, order="C")
     mirrored = element_volumes(points, tets) < 0.0
     tets[mirrored] = tets[mirrored][:, [0, 2, 1, 3]]
     shell = boundary_faces(tets)

@@ -1,0 +1,10 @@
+"""Compile the numerical kernels once, which numba keeps beside their sources."""
+
+from pathlib import Path
+
+from heartfit.io.log import record
+from heartfit.io.results import write_result
+from heartfit.kernels import compile_kernels
+
+record(snakemake.log[0])
+write_result(Path(snakemake.output[0]), compile_kernels().diagnostics, snakemake.params.code)
