@@ -1,13 +1,18 @@
 """Loading and unloading are inverse to each other, and say why when there is no equilibrium."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from tests.conftest import END_DIASTOLIC_PRESSURE
+from tests.shrinking import assert_derivative
 
 from heartfit.geometry.mesh import VentricularMesh
+from heartfit.mechanics import unloading
 from heartfit.mechanics.body import FiniteElementBody, StepFailed, Tissue
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 from heartfit.mechanics.statics import inflate
+from heartfit.mechanics.support import Support
 from heartfit.mechanics.unloading import unload
 
 SOFT = Tissue(passive=MooneyRivlin(c_1=300.0, c_2=30.0))
@@ -41,6 +46,38 @@ def test_inflated_fibres_are_those_that_were_measured(
     fibres = np.einsum("eij,ej->ei", deformed, np.asarray(coarse_body.reference.fibres))
     fibres /= np.linalg.norm(fibres, axis=1, keepdims=True)
     assert abs((fibres * np.asarray(ventricle.fibres)).sum(axis=1)).min() > 0.999
+
+
+@pytest.mark.parametrize("c_1", [2.8e3, 12.7e3], ids="c_1={:g}".format)
+@pytest.mark.parametrize("K", [2.5e5, 1.29e7], ids="K={:g}".format)
+@pytest.mark.parametrize("element", ["p1", "mixed"])
+def test_every_prior_and_the_paper_s_bulk_modulus_unload(
+    ventricle: VentricularMesh, element: str, K: float, c_1: float
+) -> None:
+    """c_1 at -3 and +3 prior standard deviations; linear tetrahedra of K = 12.9 MPa lock, and unload all the same."""
+    tissue = Tissue(element=element, passive=MooneyRivlin(c_1=c_1, c_2=0.1 * c_1, K=K))
+    body = FiniteElementBody(unload(ventricle, tissue, END_DIASTOLIC_PRESSURE), tissue)
+    state = inflate(body, END_DIASTOLIC_PRESSURE)
+    assert np.linalg.norm(body.positions(state.x) - ventricle.points, axis=1).max() < 2e-4
+
+
+def test_the_tangent_at_fixed_loaded_positions_is_exact_but_for_the_supports(
+    block: Callable[[], VentricularMesh], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of linear tetrahedra in strong shear, without supports, whose stiffness would follow X."""
+    monkeypatch.setattr(unloading, "Factor", lambda matrix, order: matrix[np.ix_(*2 * [np.argsort(order)])])
+    loaded = block()
+    tissue = Tissue(element="p1", support=Support(k_b=0.0, k_p=0.0, annulus=1.0))
+    search = unloading._Search(loaded, tissue)
+    x = np.random.default_rng(5).normal(0.0, 4e-4, loaded.points.shape)
+    x[:, 0] += 0.3 * loaded.points[:, 1]
+    tangent = unloading._tangent(search._residual(x, np.zeros(2))[0], x)
+
+    def residual(u: np.ndarray) -> np.ndarray:
+        return search._residual(u.reshape(x.shape), np.zeros(2))[1]
+
+    direction = 1e-3 * np.random.default_rng(6).standard_normal(x.size)
+    assert_derivative(residual, tangent @ direction, x.ravel(), direction)
 
 
 def test_no_pressure_unloads_nothing(ventricle: VentricularMesh) -> None:

@@ -149,6 +149,11 @@ class Step:
         self._S += self._fibre[0][:, None] * body.dyads
         return self._assemble_forces(x)
 
+    @property
+    def deformation(self) -> tuple[Floats, Floats]:
+        """F (m, 3, 3) and second Piola-Kirchhoff stress S (m, 6) where the forces were last evaluated."""
+        return self._F, self._S
+
     def _deform(self, x: Floats) -> None:
         kinematics.deformation_gradient(x, self.body.tets, self.body.gradients, self._F)
         kinematics.right_cauchy_green(self._F, self._C, self._J)
@@ -168,6 +173,11 @@ class Step:
 
     def tangent(self, x: Floats) -> Factor:
         """Factorised derivative of the forces at the state where they were last evaluated, which is ``x``."""
+        pattern = self.body.pattern
+        return Factor(pattern.assemble(*self.stiffness(x)), pattern.permutation)
+
+    def stiffness(self, x: Floats) -> tuple[Floats, Floats]:
+        """That derivative as element matrices (m, 4 dofs, 4 dofs) and nodal blocks (n, dofs, dofs)."""
         body = self.body
         dofs, m = body.element.dofs, len(body.tets)
         elements = np.zeros((m, 4 * dofs, 4 * dofs))
@@ -179,7 +189,7 @@ class Step:
         body.element.add_stiffness(slopes, body.element_volumes, K, G, elements)
         nodes = np.zeros((len(x), dofs, dofs))
         nodes[:, :3, :3] = body.stiffness + body.damping / self.drive.dt
-        return Factor(body.pattern.assemble(elements, nodes), body.pattern.permutation)
+        return elements, nodes
 
     def _material_tangent(self, x: Floats) -> Floats:
         body, tissue = self.body, self.body.tissue
