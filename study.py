@@ -5,6 +5,7 @@ python3 study.py              set up, then run the whole study on two cores
 python3 study.py run ARGS     the same with further arguments of Snakemake, as --configfile config/smoke.yaml
 python3 study.py test ARGS    set up, then pass the tests; ARGS go to pytest
 python3 study.py lint         set up, then style, types and the workflow's own lint
+python3 study.py benchmark    set up, then measure what a beat costs and write docs/performance.md; half an hour
 python3 study.py lock         write requirements.lock anew from pyproject.toml
 """
 
@@ -149,12 +150,17 @@ def workflow_advice() -> list[str]:
     return advice
 
 
+def benchmark(arguments: list[str]) -> int:
+    """Measure what a beat costs and write docs/performance.md; `--small` leaves out the fine meshes."""
+    return subprocess.run(tool("python", "-m", "benchmarks", *arguments), check=False).returncode
+
+
 def lock(_: list[str]) -> int:
     """Write requirements.lock anew."""
     return subprocess.run(tool(*COMPILE_LOCK), check=False).returncode
 
 
-COMMANDS = {"run": run, "test": test, "lint": lint, "lock": lock}
+COMMANDS = {"run": run, "test": test, "lint": lint, "benchmark": benchmark, "lock": lock}
 
 if __name__ == "__main__":
     try:

@@ -1,0 +1,54 @@
+"""Measure everything and write docs/performance.md; `--small` leaves out the meshes above 10k tetrahedra."""
+
+import sys
+from collections.abc import Callable
+from typing import TypeVar
+
+from benchmarks.beat import cost
+from benchmarks.job import job
+from benchmarks.newton import newton_steps
+from benchmarks.page import ELEMENTS, Measured, page
+from benchmarks.process import install_peers
+from benchmarks.targets import figures
+from benchmarks.ventricles import ROOT, SIZES, mesh_file
+from heartfit.io.atomic import write_text
+from heartfit.io.configuration import read_study
+from heartfit.kernels import compile_kernels
+
+SMALL = ("3k", "10k")
+T = TypeVar("T")
+
+
+def main(arguments: list[str]) -> None:
+    meshes = SMALL if "--small" in arguments else tuple(SIZES)
+    said("installing the other programs", install_peers)
+    said("compiling the kernels", compile_kernels)
+    for mesh in meshes:
+        said(f"mesh of {mesh} tetrahedra", lambda mesh=mesh: mesh_file(mesh))
+    beats = {
+        (mesh, setting): said(f"beat of {mesh}, {setting}", lambda m=mesh, s=setting: cost(m, s))
+        for mesh in meshes
+        for setting in ELEMENTS
+    }
+    steps = [
+        said(f"Newton steps on {mesh}, {element}", lambda m=mesh, e=element: newton_steps(m, e))
+        for mesh in SMALL
+        for element in ELEMENTS.values()
+    ]
+    one = said("one job", lambda: job("3k", "physical"))
+    time_step = read_study([ROOT / "config" / "config.yaml"]).numerics.time_step
+    measured = Measured(beats, steps, one, [], time_step)
+    write_text(ROOT / "docs" / "performance.md", page(measured, figures(measured)))
+
+
+def said(what: str, work: Callable[[], T]) -> T:
+    """Say what is measured, measure it and say what came out."""
+    sys.stdout.write(f"{what} ... ")
+    sys.stdout.flush()
+    result = work()
+    sys.stdout.write(f"{result if isinstance(result, dict) else 'done'}\n")
+    return result
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,71 @@
+"""One beat: `python -m benchmarks.beat MESH SETTING` says in JSON what it costs, its memory with it.
+
+The beat is the first one of a setting of the study, from the ventricles at rest, filled to the resting atrial
+pressures; it includes that filling, the order of elimination and the pattern of the matrix. Finding the
+stress-free reference is timed apart, and so is, by taking medians, the loading of compiled kernels.
+"""
+
+import json
+import resource
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.process import ask
+from benchmarks.ventricles import ROOT, mesh_file
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart import Heart
+from heartfit.io.configuration import read_study
+from heartfit.io.meshes import read_mesh
+from heartfit.mechanics.unloading import unload
+from heartfit.simulation import Numerics, simulate
+from heartfit.ventricles import ventricles
+
+PERIOD = 0.86  # s
+REPEATS, ENOUGH = 3, 30.0  # beats; s of CPU time after which there is no further one
+
+
+def cost(name: str, setting: str, *reference: str) -> dict[str, float]:
+    """What :func:`main` says of a mesh, by name, in a process of its own."""
+    return ask("-m", "benchmarks.beat", mesh_file(name), setting, *reference)
+
+
+def main(mesh: str, setting: str, reference: str = "unloaded") -> None:
+    """Print the cost of a beat; with reference "as it is", the mesh is taken as stress-free."""
+    study = read_study([ROOT / "config" / "config.yaml"])
+    heart, loaded = study.setting(setting).base_heart(PERIOD), read_mesh(Path(mesh))
+    loads = np.array([study.end_diastolic_pressure.lv, study.end_diastolic_pressure.rv])
+    begin = time.process_time()
+    free = unload(loaded, heart.tissue, loads) if reference == "unloaded" else loaded
+    unloading, numerics = time.process_time() - begin, replace(study.numerics.numerics(), max_beats=1)
+    beats = _repeated(lambda: _beat(heart, free, numerics))
+    median = beats[int(np.argsort([each["cpu_s"] for each in beats])[len(beats) // 2])]
+    size = {"tetrahedra": len(free.tets), "nodes": len(free.points), "unloading_s": unloading}
+    print(json.dumps(size | median | {"peak_mb": _peak_memory()}))
+
+
+def _beat(heart: Heart, reference: VentricularMesh, numerics: Numerics) -> dict[str, float]:
+    begin = time.process_time()
+    beat = simulate(heart, ventricles(reference, heart.tissue, np.zeros(2), unloaded=False), numerics)
+    ends = {"completed": float(beat.completed), "cpu_s": time.process_time() - begin}
+    return dict(beat.diagnostics) | ends | {"steps": float(max(len(beat.time) - 1, 1))}
+
+
+def _repeated(work: Callable[[], dict[str, float]]) -> list[dict[str, float]]:
+    results = [work()]
+    while len(results) < REPEATS and sum(each["cpu_s"] for each in results) < ENOUGH:
+        results.append(work())
+    return results
+
+
+def _peak_memory() -> float:
+    """Of this process so far, MB; macOS counts in bytes."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

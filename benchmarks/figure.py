@@ -1,0 +1,25 @@
+"""A figure of the page of performance beside its target."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Figure:
+    """``measured`` should be at most ``target``, or with ``at_least`` not less; ``tried`` is for where it is missed."""
+
+    name: str
+    measured: float
+    target: float
+    unit: str
+    at_least: bool = False
+    tried: str = ""
+
+    @property
+    def met(self) -> bool:
+        """Whether it is; a number that is none is not."""
+        return self.measured >= self.target if self.at_least else self.measured <= self.target
+
+    def row(self) -> str:
+        """The line of the table."""
+        sign, verdict = "≥" if self.at_least else "≤", "met" if self.met else "**missed**"
+        return f"| {self.name} | {self.measured:.3g} | {sign} {self.target:g} | {self.unit} | {verdict} |\n"

@@ -1,0 +1,9 @@
+"""How a cost grows with the size of the mesh."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+
+def growth(sizes: ArrayLike, costs: ArrayLike) -> float:
+    """Exponent a of the cost c n^a that fits best in logarithms; 2 values or more."""
+    return float(np.polyfit(np.log(sizes), np.log(costs), 1)[0])

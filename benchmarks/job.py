@@ -1,0 +1,58 @@
+"""What one job of `heartfit simulate` takes beside the beat: start of the process, imports, kernels, files."""
+
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from benchmarks.beat import PERIOD, cost
+from benchmarks.process import run
+from benchmarks.ventricles import ROOT, mesh_file
+
+REPEATS = 5
+ONE_BEAT = "numerics: {max_beats: 1}\n"
+COMMAND = "import sys; from heartfit.cli import main; sys.exit(main())"
+
+
+@dataclass(frozen=True)
+class Job:
+    """Medians over a few runs of the whole process, and the same beat in a process that is warm; s."""
+
+    cpu: float
+    wall: float
+    beat: float
+    snakemake: float
+
+    @property
+    def overhead(self) -> float:
+        """CPU time beside the beat, s."""
+        return self.cpu - self.beat
+
+
+def job(name: str, setting: str) -> Job:
+    """Of one beat on a mesh that is taken as stress-free; the kernels have been compiled."""
+    with TemporaryDirectory() as folder:
+        one_beat = Path(folder, "one_beat.yaml")
+        one_beat.write_text(ONE_BEAT)
+        files = ("--config", ROOT / "config/config.yaml", one_beat, "--output", Path(folder, "beat.json"))
+        how = ("--setting", setting, "--period", str(PERIOD), "--unloaded")
+        command = (sys.executable, "-c", COMMAND, "simulate", mesh_file(name), *how, *files)
+        runs = [run(*command) for _ in range(REPEATS + 1)][1:]
+    cpu, wall = (float(np.median([getattr(each, what) for each in runs])) for what in ("cpu", "wall"))
+    return Job(cpu, wall, cost(name, setting, "as it is")["cpu_s"], _snakemake_preamble())
+
+
+def _snakemake_preamble() -> float:
+    """What Snakemake adds to a script, CPU s: the module its first line imports."""
+    costs = [
+        np.median([run(sys.executable, "-c", line).cpu for _ in range(REPEATS)])
+        for line in ("pass", "from snakemake import script")
+    ]
+    return float(costs[1] - costs[0])
+
+
+if __name__ == "__main__":
+    print(json.dumps(job(*sys.argv[1:]).__dict__))

@@ -1,0 +1,70 @@
+"""Our Newton step beside those of others on the same problem, in CPU seconds."""
+
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from benchmarks.newton_problem import step_of, write_problem
+from benchmarks.peers.clock import median_cpu
+from benchmarks.process import PYTHON, ask
+from benchmarks.ventricles import FOLDER, ROOT, mesh_file
+from heartfit.io.meshes import read_mesh
+
+PEERS = ("scikit_fem", "ngsolve")
+SAME_RESIDUAL, SAME_DIRECTION = 1e-9, 0.05
+"""Largest relative differences; our factors are in single precision, as the engine uses them."""
+
+
+@dataclass(frozen=True)
+class Newton:
+    """CPU s of the parts of a Newton step and how far the answers of the program are from ours."""
+
+    mesh: str
+    element: str
+    solver: str
+    unknowns: int
+    times: dict[str, float]
+    defects: dict[str, float]
+
+    @property
+    def total(self) -> float:
+        """Residual, tangent, factors and solution, s."""
+        return sum(self.times.values())
+
+
+def newton_steps(mesh: str, element: str) -> list[Newton]:
+    """Ours first, then those of the others; raises RuntimeError for a program that solves another problem."""
+    problem = FOLDER / "problems" / f"{mesh}_{element}.npz"
+    problem.parent.mkdir(parents=True, exist_ok=True)
+    wall = read_mesh(mesh_file(mesh))
+    write_problem(problem, wall, element)
+    unknowns = len(wall.points) * (4 if element == "mixed" else 3)
+    said = [ask("-m", "benchmarks.newton", mesh_file(mesh), element)]
+    said += [ask(ROOT / "benchmarks/peers" / f"{peer}_newton.py", problem, python=PYTHON) for peer in PEERS]
+    steps = [Newton(mesh, element, unknowns=unknowns, **each) for each in said]
+    for step in steps[1:]:
+        _require_same(step)
+    return steps
+
+
+def _require_same(step: Newton) -> None:
+    if not (step.defects["residual"] < SAME_RESIDUAL and step.defects["direction"] < SAME_DIRECTION):
+        raise RuntimeError(
+            f"{step.solver}, {step.mesh}, {step.element}: differs by {step.defects} relative to ours; "
+            f"expected below {SAME_RESIDUAL:g} and {SAME_DIRECTION:g}: not the same problem"
+        )
+
+
+def main(mesh: str, element: str) -> None:
+    """Print the times of our own step."""
+    step, x = step_of(read_mesh(Path(mesh)), element)
+    residual_s, residual = median_cpu(lambda: step.forces(x))
+    tangent_s, factor = median_cpu(lambda: step.tangent(x))
+    solve_s, _ = median_cpu(lambda: factor.solve(residual))
+    times = {"residual": residual_s, "tangent and factors": tangent_s, "solution": solve_s}
+    print(json.dumps({"solver": "heartfit", "times": times, "defects": {"residual": 0.0, "direction": 0.0}}))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,80 @@
+r"""One Newton step that other programs can do as well.
+
+Mooney-Rivlin wall of bulk modulus K, fibres of constant tension, the nodes of the base held, no load: residual of the
+energy
+
+.. math:: W = c_1 (\bar I_1 - 3) + c_2 (\bar I_2 - 3) + \tfrac\sigma2 (f \cdot C f - 1) + U(J)
+
+with U of the element (see heartfit.mechanics.elements), tangent, factors and solution, at a deformed state with
+strains of some 10 % that is not an equilibrium.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.mechanics.body import FiniteElementBody, Step, Tissue
+from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
+from heartfit.mechanics.support import Support
+from heartfit.verification.block import CLAMP, ConstantTension
+
+TENSION = 30e3  # Pa
+STRAIN, PRESSURE = 0.1, 2e3  # 1, Pa: of the state
+
+
+@dataclass(frozen=True)
+class HeldBase(Support):
+    """The nodes of the base are held, nothing else is."""
+
+    def stiffness(self, mesh: VentricularMesh) -> np.ndarray:
+        blocks = np.zeros((len(mesh.points), 3, 3))
+        blocks[base_nodes(mesh)] = CLAMP * np.eye(3)
+        return blocks
+
+    def damping(self, mesh: VentricularMesh) -> np.ndarray:
+        return np.zeros((len(mesh.points), 3, 3))
+
+    def passive_scale(self, mesh: VentricularMesh) -> np.ndarray:
+        return np.ones(len(mesh.tets))
+
+
+def base_nodes(mesh: VentricularMesh) -> np.ndarray:
+    return np.unique(mesh.surfaces["base"])
+
+
+def state(mesh: VentricularMesh, dofs: int) -> np.ndarray:
+    """Smooth displacements, which vanish on the base z = 0, and wall pressures (n, dofs)."""
+    X = (mesh.points - mesh.points.mean(axis=0)) / np.ptp(mesh.points, axis=0).max()
+    x = np.zeros((len(X), dofs))
+    x[:, :3] = STRAIN * mesh.points[:, 2:] * np.sin(np.pi * X[:, [1, 2, 0]] + 1.0)
+    x[base_nodes(mesh), :3] = 0.0
+    x[:, 3:] = PRESSURE * np.cos(np.pi * X[:, :1])
+    return x
+
+
+def step_of(mesh: VentricularMesh, element: str) -> tuple[Step, np.ndarray]:
+    """The step of the wall and the state at which it is asked."""
+    active = ConstantTension(tension_of_fibres=TENSION)
+    body = FiniteElementBody(mesh, Tissue(MooneyRivlin(), active, support=HeldBase(), element=element))
+    return body.endless_step(body.rest()), state(mesh, body.element.dofs)
+
+
+def write_problem(path: Path, mesh: VentricularMesh, element: str) -> None:
+    """All that another program needs, with our residual and Newton direction to compare."""
+    step, x = step_of(mesh, element)
+    residual = step.forces(x)
+    direction = step.tangent(x).solve(residual)
+    law = step.body.tissue.passive
+    np.savez(
+        path,
+        points=mesh.points,
+        tets=mesh.tets,
+        fibres=mesh.fibres,
+        held=base_nodes(mesh),
+        moduli=[law.c_1, law.c_2, law.K, TENSION],
+        x=x,
+        residual=residual.reshape(x.shape),
+        direction=direction.reshape(x.shape),
+    )

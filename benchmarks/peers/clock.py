@@ -1,0 +1,69 @@
+"""What every peer measures and says."""
+
+import json
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+REPEATS = 5
+
+
+@dataclass(frozen=True)
+class Problem:
+    """The arrays of `benchmarks.newton_problem.write_problem`; x (n, dofs)."""
+
+    points: np.ndarray
+    tets: np.ndarray
+    fibres: np.ndarray
+    held: np.ndarray
+    moduli: np.ndarray
+    x: np.ndarray
+    residual: np.ndarray
+    direction: np.ndarray
+
+    @property
+    def free(self) -> np.ndarray:
+        """Mask (n, dofs) of the unknowns that are solved for."""
+        mask = np.ones(self.x.shape, dtype=bool)
+        mask[self.held, :3] = False
+        return mask
+
+
+def read_problem() -> Problem:
+    """The problem in the file that the command line names."""
+    return Problem(**np.load(sys.argv[1]))
+
+
+def median_cpu(work: Callable[[], Any]) -> tuple[float, Any]:
+    """Median CPU time of a few runs after a first one, s, and what the last one returned."""
+    times, result = [], work()
+    for _ in range(REPEATS):
+        begin = time.process_time()
+        result = work()
+        times.append(time.process_time() - begin)
+    return float(np.median(times)), result
+
+
+def say(
+    problem: Problem, times: dict[str, float], residual: np.ndarray, image: np.ndarray, solver: str
+) -> None:
+    """Print times and how far the answers are from ours: ``image`` (n, dofs) is the tangent on our direction."""
+    defects = {
+        "residual": _relative(residual - problem.residual, problem),
+        "direction": _relative(image - problem.residual, problem),
+    }
+    print(json.dumps({"solver": solver, "times": times, "defects": defects}))
+
+
+def _relative(difference: np.ndarray, problem: Problem) -> float:
+    """The worse of forces and wall-pressure equations, each over its own norm."""
+    parts = []
+    for part in (slice(None, 3), slice(3, None)):
+        free, ours = problem.free[:, part], problem.residual[:, part]
+        if free.size:
+            parts.append(np.linalg.norm(difference[:, part][free]) / np.linalg.norm(ours[free]))
+    return float(max(parts))

@@ -1,0 +1,53 @@
+"""Programs that are measured, each in a process of its own on one thread."""
+
+import json
+import os
+import resource
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from benchmarks.ventricles import FOLDER, ROOT
+
+THREADS = ("OMP", "OPENBLAS", "MKL", "NUMBA")
+PYTHON = FOLDER / "peers" / ("Scripts" if os.name == "nt" else "bin") / "python"
+"""The interpreter of the environment that holds the other programs and nothing of ours."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """Time of a process from start to end, s, and what it printed."""
+
+    cpu: float
+    wall: float
+    printed: str
+
+
+def run(*command: str | Path) -> Run:
+    """Run a program in the project's folder; raises CalledProcessError if it fails."""
+    environment = os.environ | {f"{library}_NUM_THREADS": "1" for library in THREADS}
+    before, begin = _children(), time.monotonic()
+    done = subprocess.run(
+        list(map(str, command)), cwd=ROOT, env=environment, check=True, capture_output=True, text=True
+    )
+    return Run(_children() - before, time.monotonic() - begin, done.stdout)
+
+
+def ask(*arguments: str | Path, python: Path | str = sys.executable) -> dict[str, Any]:
+    """What a Python program says as JSON in its last line."""
+    return json.loads(run(python, *arguments).printed.splitlines()[-1])
+
+
+def install_peers() -> None:
+    """Install the other programs of requirements.txt into their own environment, once."""
+    if not PYTHON.exists():
+        run(sys.executable, "-m", "venv", PYTHON.parents[1])
+    run(PYTHON, "-m", "pip", "install", "--quiet", "--requirement", ROOT / "benchmarks" / "requirements.txt")
+
+
+def _children() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime

@@ -1,0 +1,59 @@
+"""What is asked of the figures, and what was tried where they miss it."""
+
+from collections.abc import Sequence
+
+from benchmarks.figure import Figure
+from benchmarks.newton import Newton
+from benchmarks.page import ELEMENTS, Measured, exponent
+
+LARGEST = {"3k": 0.6, "10k": 2.5}
+"""CPU s of a beat, `mixed`."""
+GROWTH, OVERHEAD = 1.3, 0.6
+FASTER = {"scikit-fem": 20.0, "NGSolve": 10.0}
+
+BEAT = (
+    "A beat: the time goes into residuals with the fibres' own equation and into triangular solutions; see the "
+    "decision on the engine for what brought it down."
+)
+SHARE = (
+    "A Newton step: ours is mostly its factors, which the engine renews a few times in a beat; in use it is faster "
+    "by the ratios of that column."
+)
+START = (
+    "A job: numba, numpy and the sparse solvers of scipy take 0.4 s to import and the kept kernels 0.3 s to load; "
+    "pandas, scipy.signal, scipy.optimize, scikit-fem and the mesher are imported no longer."
+)
+
+
+def figures(measured: Measured) -> list[Figure]:
+    """Every figure with a target."""
+    beats = [
+        Figure(
+            f"beat of {mesh}, `mixed`", measured.beats[mesh, "physical"]["cpu_s"], most, "CPU s", tried=BEAT
+        )
+        for mesh, most in LARGEST.items()
+        if (mesh, "physical") in measured.beats
+    ]
+    growths = [
+        Figure(f"growth, `{ELEMENTS[setting]}`", exponent(measured, setting), GROWTH, "exponent", tried=BEAT)
+        for setting in ELEMENTS
+    ]
+    ratios = [figure for group in measured.newton for figure in _ratios(group)]
+    start = Figure("one job beside its beat", measured.job.overhead, OVERHEAD, "CPU s", tried=START)
+    return [*beats, *growths, *ratios, start, *measured.others]
+
+
+def _ratios(group: Sequence[Newton]) -> list[Figure]:
+    ours, *others = group
+    return [
+        Figure(
+            f"Newton step, {ours.mesh}, `{ours.element}`, beside {program}",
+            other.total / ours.total,
+            FASTER[program],
+            "times faster",
+            at_least=True,
+            tried=SHARE,
+        )
+        for other in others
+        for program in [other.solver.split()[0]]
+    ]

@@ -1,0 +1,35 @@
+"""The same ventricles in four fillings, kept on disk: the mesher cannot be seeded."""
+
+from pathlib import Path
+
+from heartfit.electrophysiology.onset import assign_activation
+from heartfit.geometry.mesher import fill_wall
+from heartfit.geometry.parametric import ParametricVentricles
+from heartfit.geometry.prepare import prepare
+from heartfit.io.meshes import read_mesh, write_mesh
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDER = ROOT / ".benchmarks"
+SHAPE = ParametricVentricles(
+    edv=160e-6, wall_thickness=8.5e-3, sphericity=1.85, rv_edv=165e-6, rv_wall_thickness=3.5e-3
+)
+SIZES = {
+    "3k": (16e-3, 0.6e-3),
+    "10k": (5.6e-3, 0.25e-3),
+    "30k": (3.5e-3, 0.25e-3),
+    "100k": (2.28e-3, 0.25e-3),
+}
+"""Edge length and tolerance, m, that fill the wall with about so many tetrahedra."""
+
+
+def mesh_file(name: str) -> Path:
+    """The file of the mesh with this name, filled now if there is none yet."""
+    path = FOLDER / "meshes" / f"{name}.vtu"
+    if not path.exists():
+        write_mesh(path, assign_activation(prepare(fill_wall(SHAPE.surface(), *SIZES[name]))))
+    return path
+
+
+def tetrahedra(name: str) -> int:
+    """How many there are in a mesh."""
+    return len(read_mesh(mesh_file(name)).tets)
