@@ -102,7 +102,8 @@ def test_blood_is_conserved_with_another_branch(
             net[name] = net[name] + sign * beat.flow[kind.__name__]
     dt = beat.time[1] - beat.time[0]
     for side, inflow in net.items():
-        assert np.diff(beat.volume[side]) == pytest.approx(dt * inflow[1:], abs=1e-9)
+        V = beat.volume[side]
+        assert 1.5 * V[2:] - 2.0 * V[1:-1] + 0.5 * V[:-2] == pytest.approx(dt * inflow[2:], abs=1e-9)
 
 
 def test_they_work_in_three_dimensions(coarse_body: FiniteElementBody) -> None:

@@ -48,7 +48,7 @@ def test_isovolumic_phases_keep_the_volume(beat: Beat) -> None:
     for side, (inlet, outlet) in valves.items():
         closed = (beat.flow[inlet] <= 0.0) & (beat.flow[outlet] <= 0.0)
         both = closed[1:] & closed[:-1]
-        assert both.sum() >= 8
+        assert both.sum() >= 6
         assert abs(np.diff(beat.volume[side])[both]).sum() < 0.1 * MILLILITRE
 
 
@@ -61,21 +61,24 @@ def test_pressures_are_those_of_a_human(beat: Beat) -> None:
     assert 0.4 < np.ptp(beat.volume["lv"]) / beat.volume["lv"].max() < 0.8
 
 
-def test_the_beat_converges_with_the_time_step(spherical_heart: Heart, spheres: SphericalBody) -> None:
-    """First order in the smallest volume and in the last arterial pressure of the first beat.
+@pytest.mark.parametrize(("second_order", "order"), [(False, 0.9), (True, 1.8)])
+def test_the_beat_converges_with_the_time_step(
+    spherical_heart: Heart, spheres: SphericalBody, second_order: bool, order: float
+) -> None:
+    """In the smallest volume and in the last arterial pressure of the first beat.
 
     The valves open between time levels, here sooner, there later, so single ratios scatter about the order: the
-    slope over all of them is asserted, and that the changes shrink.
+    slope over all of them is asserted.
     """
-    steps = [spherical_heart.period / n for n in (200, 400, 800, 1600)]
-    beats = [simulate(spherical_heart, spheres, Numerics(time_step=dt, max_beats=1)) for dt in steps]
+    steps = [spherical_heart.period / n for n in (100, 200, 400, 800)]
+    tight = Tolerances(force=1e-6, volume=1e-13, pressure=1e-5, iterations=50)
+    schemes = [Numerics(dt, second_order, max_beats=1, tolerances=tight) for dt in steps]
+    beats = [simulate(spherical_heart, spheres, scheme) for scheme in schemes]
     for values in (
         [beat.volume["lv"].min() for beat in beats],
         [beat.pressure["aorta"][-1] for beat in beats],
     ):
-        changes = abs(np.diff(values))
-        assert (np.diff(changes) < 0.0).all()
-        assert np.polyfit(np.log(steps[1:]), np.log(changes), 1)[0] > 0.9
+        assert np.polyfit(np.log(steps[1:]), np.log(abs(np.diff(values))), 1)[0] > order
 
 
 def test_a_failing_heart_says_when_and_why(spherical_heart: Heart, spheres: SphericalBody) -> None:

@@ -13,6 +13,7 @@ from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
 from heartfit.mechanics.body import StepFailed
 from heartfit.mechanics.statics import inflate
+from heartfit.mechanics.time_step import TimeStep
 from heartfit.mechanism import COMPARTMENTS
 
 SHIFT = 0.62
@@ -31,6 +32,7 @@ class Numerics:
     """
 
     time_step: float = 5e-3
+    second_order: bool = True
     max_beats: int = 6
     drift: float = 0.01
     cuts: int = 5
@@ -73,7 +75,7 @@ class _Run:
         while True:
             history = [state]
             for n in range(self.steps):
-                state = self._advance(state, n * self.dt, self.dt, self.numerics.cuts)
+                state = self._advance(state, self._step(n, state), self.numerics.cuts)
                 history.append(state)
                 self.progress((self.beats + (n + 1) / self.steps) / self.numerics.max_beats)
             self.beats += 1
@@ -94,25 +96,24 @@ class _Run:
         filled = inflate(self.body, atria)
         return HeartState(filled, pressures, self.body.volumes(filled.x), trees)
 
-    def _advance(self, state: HeartState, start: float, dt: float, cuts: int) -> HeartState:
+    def _step(self, n: int, state: HeartState) -> TimeStep:
+        return TimeStep(n * self.dt, self.dt, self.heart.period, self.numerics.second_order, state.last)
+
+    def _advance(self, state: HeartState, step: TimeStep, cuts: int) -> HeartState:
         try:
-            return self.coupling.advance(state, start, dt, self.heart.period)
+            return self.coupling.advance(state, step)
         except StepFailed as failure:
             if cuts == 0:
-                raise StepFailed(f"at {start:.4f} s, step {dt:.2g} s: {failure}") from failure
+                raise StepFailed(f"at {step.start:.4f} s, step {step.length:.2g} s: {failure}") from failure
         self.cuts += 1
-        half = self._advance(replace(state, trend=()), start, 0.5 * dt, cuts - 1)
-        return self._advance(half, start + 0.5 * dt, 0.5 * dt, cuts - 1)
+        half = self._advance(replace(state, trend=()), step.half(second=False), cuts - 1)
+        return self._advance(half, replace(step.half(second=True), last=half.last), cuts - 1)
 
     def _shift(self, first: HeartState, last: HeartState) -> HeartState:
         sides = zip(self.heart.circulation.trees(), first.trees, last.trees, strict=True)
         period = self.heart.period
         shifts = [SHIFT * tree.periodic_shift(before, after, period) for tree, before, after in sides]
-        systemic, pulmonary = (
-            replace(tree, P_c=tree.P_c + shift) for tree, shift in zip(last.trees, shifts, strict=True)
-        )
-        pressures = last.pressures + np.array([0.0, 0.0, *shifts])
-        return replace(last, trees=(systemic, pulmonary), pressures=pressures)
+        return last.raised(shifts)
 
     def _beat(self, history: list[HeartState]) -> Beat:
         time = np.linspace(0.0, self.heart.period, self.steps + 1)

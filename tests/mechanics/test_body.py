@@ -9,9 +9,10 @@ from scipy.spatial.transform import Rotation
 from tests.shrinking import assert_derivative
 
 from heartfit.errors import InputError
-from heartfit.mechanics.body import BodyState, FiniteElementBody, Step, StepFailed, Tissue
+from heartfit.mechanics.body import FiniteElementBody, Step, StepFailed, Tissue
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 from heartfit.mechanics.support import Support
+from heartfit.mechanics.time_step import TimeStep
 
 FREE = Support(k_b=0.0, c_b=0.0, k_p=0.0, annulus=1.0)
 DEPOLARISED, PERIOD = 0.19, 0.8
@@ -34,8 +35,10 @@ def contracting(body: FiniteElementBody, seed: int) -> tuple[Step, np.ndarray]:
     relaxed.forces(first)
     state = relaxed.commit(first)
     k_c = rng.uniform(1e4, 1e5, len(body.tets))
-    fibres = np.array([state.fibres[0], k_c, rng.uniform(0.0, 200.0, len(body.tets))])
-    step = body.step(BodyState(first, fibres, state.C), DEPOLARISED, 5e-3, PERIOD)
+    fibres = np.array([state.fibres[0], k_c, rng.uniform(0.0, 200.0, len(body.tets)), 0.0 * k_c])
+    stress = rng.uniform(0.0, 5e3, len(body.tets))
+    state = replace(state, fibres=fibres, stress=stress, x_before=moved(first, 1e-5))
+    step = body.step(state, TimeStep(DEPOLARISED, 5e-3, PERIOD, last=4e-3))
     return step, moved(first, 5e-5)
 
 

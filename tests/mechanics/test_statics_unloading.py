@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from tests.conftest import END_DIASTOLIC_PRESSURE
+from tests.mechanics.conftest import assembled
 from tests.shrinking import assert_derivative
 
 from heartfit.geometry.mesh import VentricularMesh
@@ -65,7 +66,9 @@ def test_the_tangent_at_fixed_loaded_positions_is_exact_but_for_the_supports(
     block: Callable[[], VentricularMesh], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Of linear tetrahedra in strong shear, without supports, whose stiffness would follow X."""
-    monkeypatch.setattr(unloading, "Factor", lambda matrix, order: matrix[np.ix_(*2 * [np.argsort(order)])])
+    monkeypatch.setattr(
+        unloading, "GeneralFactor", lambda tets, elements, nodes, _: assembled(tets, elements, nodes)
+    )
     loaded = block()
     tissue = Tissue(element="p1", support=Support(k_b=0.0, k_p=0.0, annulus=1.0))
     search = unloading._Search(loaded, tissue)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.shrinking import assert_derivative
 
-from heartfit.mechanics.assembly import add_volumetric_stress
+from heartfit.mechanics.assembly import add_stresses
 from heartfit.mechanics.kinematics import COLUMN, ROW, VOIGT, fibre_dyads
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 from heartfit.verification.manufactured import FIBRE, Manufactured
@@ -61,8 +61,8 @@ def test_the_stress_is_that_of_the_wall_point_by_point(problem, X):
     C, J = (np.swapaxes(F, -1, -2) @ F)[:, ROW, COLUMN], np.linalg.det(F)
     S = np.empty_like(C)
     problem.material.stress(C, J, np.ones(len(F)), np.empty_like(C), S)
-    add_volumetric_stress(C, J, problem.pressure(X), S)
-    S += problem.sigma * fibre_dyads(FIBRE[None])
+    tension, dyads = np.full(len(F), problem.sigma), np.repeat(fibre_dyads(FIBRE[None]), len(F), axis=0)
+    add_stresses(C, J, problem.pressure(X), C, 0.0, tension, dyads, S)
     assert problem.stress(problem.deformation_gradient(X)) == pytest.approx(
         np.moveaxis(F @ S[:, VOIGT], 0, -1), rel=1e-10, abs=1e-7
     )

@@ -2,16 +2,17 @@ r"""One time step of wall and circuit together.
 
 Unknowns are the body's x and the pressures of ventricles and arteries. Newton's method on
 
-.. math:: f(x) - \sum_c P_c \nabla V_c(x) = 0, \quad V_c(x) - V_c^n + \Delta t \sum q = 0, \quad
+.. math:: f(x) - \sum_c P_c \nabla V_c(x) = 0, \quad V_c(x) - V_c^* + w \sum q = 0, \quad
           P_a = a + b \sum q
 
+(w and the shifted value are those of :mod:`heartfit.mechanics.time_step`)
 with a factorisation of :math:`\partial f/\partial x` that is kept over many steps. In every iteration the
 body is condensed to its compliance :math:`\nabla V^T K^{-1} \nabla V`, and the small circuit is solved to the
 end, so that the kinks of the valves never reach the large system.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -22,6 +23,7 @@ from heartfit.circulation.windkessel import WindkesselState
 from heartfit.geometry.arrays import Floats
 from heartfit.mechanics.acceleration import Anderson
 from heartfit.mechanics.body import StepFailed
+from heartfit.mechanics.time_step import TimeStep
 from heartfit.mechanism import Mechanism
 
 EXTRAPOLATION: tuple[tuple[float, ...], ...] = ((), (1.0,), (2.0, -1.0))
@@ -40,7 +42,7 @@ class Body(Protocol):
     def rest(self) -> Any: ...
     def volumes(self, x: Floats) -> Floats: ...
     def volume_gradients(self, x: Floats) -> Floats: ...
-    def step(self, state: Any, start: float, dt: float, period: float) -> Any: ...
+    def step(self, state: Any, step: TimeStep) -> Any: ...
     def wall_volume(self, x: Floats) -> float: ...
 
 
@@ -57,13 +59,36 @@ class Tolerances:
 
 @dataclass(frozen=True, eq=False)
 class HeartState:
-    """State of wall and circuit at one time; ``trend`` holds the last velocity of x and the one before."""
+    """State of wall and circuit at one time; ``before`` is that one step of length ``last`` earlier.
+
+    ``trend`` holds the last velocity of x and the one before.
+    """
 
     body: Any
     pressures: Floats
     volumes: Floats
     trees: tuple[WindkesselState, WindkesselState]
     trend: tuple[Floats, ...] = ()
+    last: float | None = None
+    before: "HeartState | None" = None
+
+    def shifted(self, step: TimeStep) -> tuple[Floats, tuple[WindkesselState, WindkesselState]]:
+        """Volumes and Windkessels from which the effective step starts."""
+        before = self.before or self
+        systemic, pulmonary = (
+            WindkesselState(step.shifted(now.P_c, then.P_c), step.shifted(now.q_L, then.q_L))
+            for now, then in zip(self.trees, before.trees, strict=True)
+        )
+        return step.shifted(self.volumes, before.volumes), (systemic, pulmonary)
+
+    def raised(self, shifts: Sequence[float]) -> "HeartState":
+        """The state with the pressures of both Windkessels raised by ``shifts``, Pa, now and before."""
+        systemic, pulmonary = (
+            replace(tree, P_c=tree.P_c + shift) for tree, shift in zip(self.trees, shifts, strict=True)
+        )
+        pressures = self.pressures + np.array([0.0, 0.0, *shifts])
+        before = self.before and self.before.raised(shifts)
+        return replace(self, trees=(systemic, pulmonary), pressures=pressures, before=before)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,13 +111,17 @@ class Iterate:
 class CoupledStep:
     """The equations of one step of wall and circuit."""
 
-    def __init__(self, body: Body, step: Any, network: NetworkStep, state: HeartState) -> None:
+    def __init__(
+        self, body: Body, step: Any, network: NetworkStep, time_step: TimeStep, state: HeartState
+    ) -> None:
         self._body, self.step, self._network, self._state = body, step, network, state
-        self._windkessels = network.windkessels(state.trees)
+        self._time_step = time_step
+        self._volumes, self._trees = state.shifted(time_step)
+        self._windkessels = network.windkessels(self._trees)
 
     def predict(self) -> Iterate:
         """First guess by extrapolation; the old state where that is not admissible."""
-        state, dt = self._state, self._network.dt
+        state, dt = self._state, self._time_step.length
         known = zip(EXTRAPOLATION[len(state.trend)], state.trend, strict=True)
         velocity = sum((weight * past for weight, past in known), np.zeros_like(state.body.x))
         try:
@@ -115,7 +144,7 @@ class CoupledStep:
         return self._circuit(now, change, response).solve()
 
     def _circuit(self, now: Iterate, change: Floats, response: Floats) -> Circuit:
-        volumes = now.volumes + now.gradients.T @ change - self._state.volumes
+        volumes = now.volumes + now.gradients.T @ change - self._volumes
         compliance = now.gradients.T @ response
         return Circuit(self._network, self._windkessels, volumes, compliance, now.pressures)
 
@@ -130,9 +159,11 @@ class CoupledStep:
 
     def commit(self, now: Iterate) -> HeartState:
         """State at the end of the step; the Windkessels take the very blood that left the ventricles."""
-        trees = self._network.advance(self._state.trees, now.pressures)
-        trend = ((now.x - self._state.body.x) / self._network.dt, *self._state.trend[:1])
-        return HeartState(self.step.commit(now.x), now.pressures, now.volumes, trees, trend)
+        state, length = self._state, self._time_step.length
+        trees = self._network.advance(self._trees, now.pressures)
+        trend = ((now.x - state.body.x) / length, *state.trend[:1])
+        before = replace(state, before=None)
+        return HeartState(self.step.commit(now.x), now.pressures, now.volumes, trees, trend, length, before)
 
 
 class Coupling:
@@ -146,15 +177,15 @@ class Coupling:
         self.iterations = self.factorisations = 0
         self._factor: Any = None
         self._response = np.empty((0, 2))
-        self._dt = 0.0
+        self._length = 0.0
 
-    def advance(self, state: HeartState, start: float, dt: float, period: float) -> HeartState:
-        """State after the step of length ``dt``; raises StepFailed if Newton's method does not get there."""
-        step = self.body.step(state.body, start, dt, period)
-        network = NetworkStep(self.circulation, self.mechanisms, start + dt, dt, period)
-        if dt != self._dt:
-            self._factor, self._dt = None, dt
-        coupled = CoupledStep(self.body, step, network, state)
+    def advance(self, state: HeartState, step: TimeStep) -> HeartState:
+        """State after ``step``; raises StepFailed if Newton's method does not get there."""
+        equations = self.body.step(state.body, step)
+        network = NetworkStep(self.circulation, self.mechanisms, step.end, step.effective, step.period)
+        if step.effective != self._length:
+            self._factor, self._length = None, step.effective
+        coupled = CoupledStep(self.body, equations, network, step, state)
         return coupled.commit(self._newton(coupled))
 
     def _newton(self, coupled: CoupledStep) -> Iterate:

@@ -26,6 +26,7 @@ class TimeScheme(Strict):
     """Step of the beat and when the beats count as periodic."""
 
     time_step: float = Field(gt=1e-5, le=0.02, description="s")
+    second_order: bool = Field(True, description="BDF2 and midpoints of the fibres, or backward Euler")
     max_beats: PositiveInt
     drift: float = Field(gt=0, lt=1, description="largest relative change from beat to beat")
 

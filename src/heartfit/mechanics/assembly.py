@@ -2,20 +2,29 @@
 
 import numpy as np
 from numba import njit
-from scipy.sparse import csc_array
 
 from heartfit.geometry.arrays import Floats, Integers
 from heartfit.mechanics.kinematics import COLUMN, ROW, inverse, symmetric_product
 
 
-@njit(cache=True)
-def add_volumetric_stress(C: Floats, J: Floats, p: Floats, S: Floats) -> None:
-    r"""Add :math:`p J C^{-1}` to ``S``."""
+@njit(cache=True, error_model="numpy")
+def add_stresses(
+    C: Floats,
+    J: Floats,
+    p: Floats,
+    C_start: Floats,
+    viscosity: float,
+    tension: Floats,
+    dyads: Floats,
+    S: Floats,
+) -> None:
+    r"""Add :math:`p J C^{-1}`, ``viscosity`` times :math:`C - C_{start}` and ``tension`` along the fibres to ``S``."""
     Ci = np.empty(6)
     for e in range(C.shape[0]):
         inverse(C[e], J[e] * J[e], Ci)
         for i in range(6):
-            S[e, i] += p[e] * J[e] * Ci[i]
+            viscous = viscosity * (C[e, i] - C_start[e, i])
+            S[e, i] += p[e] * J[e] * Ci[i] + viscous + tension[e] * dyads[e, i]
 
 
 @njit(cache=True)
@@ -98,31 +107,3 @@ def volume_slopes(F: Floats, gradients: Floats, out: Floats) -> None:
                     d, b = (c + 1) % 3, (c + 2) % 3
                     value += (f[j, d] * f[k, b] - f[j, b] * f[k, d]) * gradients[e, a, c]
                 out[e, a, i] = value
-
-
-class SparsityPattern:
-    """Where the entries of element matrices of ``dofs`` unknowns per node go in a symmetric sparse matrix.
-
-    Rows are numbered node by node in the given elimination ``order``; the matrix holds both triangles.
-    """
-
-    def __init__(self, tets: Integers, nodes: int, dofs: int, order: Integers) -> None:
-        position = np.empty(nodes, dtype=np.int64)
-        position[order] = np.arange(nodes)
-        self.permutation = (dofs * order[:, None] + np.arange(dofs)).ravel()
-        local = (dofs * position[tets][:, :, None] + np.arange(dofs)).reshape(len(tets), -1)
-        diagonal = (dofs * position[:, None] + np.arange(dofs))[:, :, None]
-        size = nodes * dofs
-        element_keys = (local[:, None, :] * size + local[:, :, None]).ravel()
-        node_keys = (np.swapaxes(diagonal, 1, 2) * size + diagonal).ravel()
-        keys, slots = np.unique(np.concatenate([element_keys, node_keys]), return_inverse=True)
-        self._slots = slots.astype(np.int64)
-        self._rows = (keys % size).astype(np.int32)
-        self._starts = np.searchsorted(keys, np.arange(size + 1) * size).astype(np.int32)
-        self.shape = (size, size)
-
-    def assemble(self, elements: Floats, nodes: Floats) -> csc_array:
-        """Sum element matrices (m, 4 dofs, 4 dofs) and nodal blocks (n, dofs, dofs) into a sparse matrix."""
-        values = np.concatenate([elements.ravel(), nodes.ravel()])
-        data = np.bincount(self._slots, weights=values, minlength=len(self._rows))
-        return csc_array((data, self._rows, self._starts), shape=self.shape)

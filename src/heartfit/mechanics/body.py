@@ -1,4 +1,4 @@
-r"""The ventricular wall as a body: internal forces and tangent of one backward-Euler step.
+r"""The ventricular wall as a body: internal forces and tangent at the end of one time step.
 
 Find u (and the wall pressure p) with, for all :math:`\delta u`,
 
@@ -24,8 +24,9 @@ from heartfit.mechanics.elements import ELEMENTS, Element
 from heartfit.mechanics.kinematics import StepFailed as StepFailed
 from heartfit.mechanics.passive.law import Passive
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
-from heartfit.mechanics.solver import Factor, nested_dissection
+from heartfit.mechanics.solver import Elimination, Factor
 from heartfit.mechanics.support import Support
+from heartfit.mechanics.time_step import ENDLESS, TimeStep
 
 SMALLEST_JACOBIAN = 0.05
 """Relative element volume below which a trial state is refused."""
@@ -46,22 +47,29 @@ class Tissue:
 
 @dataclass(frozen=True, eq=False)
 class BodyState:
-    """Unknowns ``x`` (n, dofs), state of the fibres (3, m) and right Cauchy-Green tensor (m, 6)."""
+    """Unknowns ``x`` (n, dofs), state of the fibres (4, m) and right Cauchy-Green tensor ``C`` (m, 6) at one time.
+
+    ``stress`` (m,) is the mean fibre stress of the step that led here; ``x_before`` and ``C_before`` are
+    what x and C were at its start.
+    """
 
     x: Floats
     fibres: Floats
     C: Floats
+    stress: Floats
+    x_before: Floats
+    C_before: Floats
 
 
 class FiniteElementBody:
     """Ventricles of linear tetrahedra on a stress-free reference mesh."""
 
     def __init__(
-        self, reference: VentricularMesh, tissue: Tissue, pattern: assembly.SparsityPattern | None = None
+        self, reference: VentricularMesh, tissue: Tissue, elimination: Elimination | None = None
     ) -> None:
         _require_fields(reference)
         self.reference, self.tissue = reference, tissue
-        self._pattern = pattern
+        self._elimination = elimination
         self.element: Element = ELEMENTS[tissue.element]
         self.tets = reference.tets
         self.gradients, self.element_volumes = kinematics.shape_gradients(reference.points, self.tets)
@@ -69,23 +77,20 @@ class FiniteElementBody:
         self.stiffness = tissue.support.stiffness(reference)
         self.damping = tissue.support.damping(reference)
         self.passive_scale = tissue.support.passive_scale(reference)
+        self.activation = np.asarray(reference.activation)
         self.cavities = [Cavity.of(reference, f"{chamber}_endo") for chamber in CHAMBERS]
 
     @cached_property
-    def pattern(self) -> assembly.SparsityPattern:
-        """Sparsity of the tangent, in METIS order; may be handed on to bodies of the same tetrahedra."""
-        if self._pattern is not None:
-            return self._pattern
-        nodes = len(self.reference.points)
-        return assembly.SparsityPattern(
-            self.tets, nodes, self.element.dofs, nested_dissection(self.tets, nodes)
-        )
+    def elimination(self) -> Elimination:
+        """How the tangent is factorised; may be handed on to bodies of the same tetrahedra."""
+        return self._elimination or Elimination(self.tets, len(self.reference.points), self.element.dofs)
 
     def rest(self) -> BodyState:
         """The stress-free state."""
-        C = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], (len(self.tets), 1))
+        m = len(self.tets)
+        C = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], (m, 1))
         x = np.zeros((len(self.reference.points), self.element.dofs))
-        return BodyState(x, self.tissue.active.rest(len(self.tets)), C)
+        return BodyState(x, self.tissue.active.rest(m), C, np.zeros(m), x, C)
 
     def positions(self, x: Floats) -> Floats:
         """Nodal positions (n, 3)."""
@@ -103,17 +108,15 @@ class FiniteElementBody:
             result[:, :3, c] = cavity.gradient(position)
         return result.reshape(x.size, 2)
 
-    def step(self, state: BodyState, start: float, dt: float, period: float) -> "Step":
-        """The step of length ``dt`` that begins at ``start`` from ``state``."""
-        activation = np.asarray(self.reference.activation)
-        rate, attach = self.tissue.control.mean(start, dt, activation, period)
-        n_0 = self.tissue.active.starling.available(state.fibres[0])
-        return Step(self, state, Drive(rate, attach, n_0, dt))
+    def step(self, state: BodyState, step: TimeStep) -> "Step":
+        """The equations of ``step`` from ``state``."""
+        control = self.tissue.control.mean(step.start, step.length, self.activation, step.period)
+        return Step(self, state, step, self.tissue.active.drive(step, control, state.fibres))
 
     def endless_step(self, state: BodyState) -> "Step":
         """A step without end from ``state``: relaxed fibres, no viscosity, static equilibrium."""
         none = np.zeros(len(self.tets))
-        return Step(self, state, Drive(none, none, none, np.inf))
+        return Step(self, state, ENDLESS, Drive(none, none, none, np.inf))
 
     def wall_volume(self, x: Floats) -> float:
         """Volume of the deformed wall, m^3."""
@@ -129,24 +132,30 @@ def _require_fields(mesh: VentricularMesh) -> None:
 class Step:
     """Internal forces and tangent as functions of the unknowns at the end of one step."""
 
-    def __init__(self, body: FiniteElementBody, state: BodyState, drive: Drive) -> None:
-        self.body, self.state, self.drive = body, state, drive
+    def __init__(self, body: FiniteElementBody, state: BodyState, time_step: TimeStep, drive: Drive) -> None:
+        self.body, self.state, self.time_step, self.drive = body, state, time_step, drive
         m = len(body.tets)
         self._F, self._C, self._J = np.empty((m, 3, 3)), np.empty((m, 6)), np.empty(m)
-        self._S, self._fibre = np.empty((m, 6)), np.empty((3, m))
+        self._S, self._e = np.empty((m, 6)), np.empty(m)
         self._e_old = kinematics.fibre_strain(state.C, body.dyads)
+        self._fibre = body.tissue.active.begin(self._e_old, state.fibres)
+        self._C_start = time_step.shifted(state.C, state.C_before)
+        self._viscosity = 0.5 * body.tissue.passive.eta / time_step.effective
+        self._support = body.stiffness + body.damping / time_step.effective
+        start = time_step.shifted(state.x[:, :3], state.x_before[:, :3])
+        self._drag = np.einsum("nij,nj->ni", body.damping / time_step.effective, start)
 
     def forces(self, x: Floats) -> Floats:
         """Internal and support forces (N,) at ``x`` (n, dofs); raises StepFailed if an element collapses."""
         body, tissue = self.body, self.body.tissue
         self._deform(x)
         tissue.passive.stress(self._C, self._J, body.passive_scale, body.dyads, self._S)
+        tissue.active.respond(self.drive, self._e_old, self._e, self.state.fibres, self._fibre)
+        tension = self.time_step.at_end(self._fibre[0], self.state.stress)
         p, _ = body.element.pressure(x, body.tets, self._J, tissue.passive.K)
-        assembly.add_volumetric_stress(self._C, self._J, p, self._S)
-        self._S += 0.5 * tissue.passive.eta / self.drive.dt * (self._C - self.state.C)
-        e_new = kinematics.fibre_strain(self._C, body.dyads)
-        tissue.active.respond(self.drive, self._e_old, e_new, self.state.fibres, self._fibre)
-        self._S += self._fibre[0][:, None] * body.dyads
+        assembly.add_stresses(
+            self._C, self._J, p, self._C_start, self._viscosity, tension, body.dyads, self._S
+        )
         return self._assemble_forces(x)
 
     @property
@@ -155,9 +164,10 @@ class Step:
         return self._F, self._S
 
     def _deform(self, x: Floats) -> None:
-        kinematics.deformation_gradient(x, self.body.tets, self.body.gradients, self._F)
-        kinematics.right_cauchy_green(self._F, self._C, self._J)
-        smallest = self._J.min()
+        body = self.body
+        smallest = kinematics.deform(
+            x, body.tets, body.gradients, body.dyads, self._F, self._C, self._J, self._e
+        )
         if not smallest > SMALLEST_JACOBIAN:
             raise StepFailed(f"an element collapsed to {smallest:.3g} of its reference volume")
 
@@ -166,15 +176,12 @@ class Step:
         assembly.add_nodal_forces(self._F, self._S, body.gradients, body.element_volumes, body.tets, out)
         K, G = body.tissue.passive.K, body.tissue.passive.shear_modulus
         body.element.add_forces(x, body.tets, self._J, body.element_volumes, K, G, out)
-        u, velocity = x[:, :3], (x[:, :3] - self.state.x[:, :3]) / self.drive.dt
-        out[:, :3] += np.einsum("nij,nj->ni", body.stiffness, u)
-        out[:, :3] += np.einsum("nij,nj->ni", body.damping, velocity)
+        out[:, :3] += np.einsum("nij,nj->ni", self._support, x[:, :3]) - self._drag
         return out.ravel()
 
     def tangent(self, x: Floats) -> Factor:
         """Factorised derivative of the forces at the state where they were last evaluated, which is ``x``."""
-        pattern = self.body.pattern
-        return Factor(pattern.assemble(*self.stiffness(x)), pattern.permutation)
+        return self.body.elimination.factorise(*self.stiffness(x))
 
     def stiffness(self, x: Floats) -> tuple[Floats, Floats]:
         """That derivative as element matrices (m, 4 dofs, 4 dofs) and nodal blocks (n, dofs, dofs)."""
@@ -188,7 +195,7 @@ class Step:
         K, G = body.tissue.passive.K, body.tissue.passive.shear_modulus
         body.element.add_stiffness(slopes, body.element_volumes, K, G, elements)
         nodes = np.zeros((len(x), dofs, dofs))
-        nodes[:, :3, :3] = body.stiffness + body.damping / self.drive.dt
+        nodes[:, :3, :3] = self._support
         return elements, nodes
 
     def _material_tangent(self, x: Floats) -> Floats:
@@ -197,14 +204,16 @@ class Step:
         tissue.passive.tangent(self._C, self._J, body.passive_scale, body.dyads, D)
         p, slope = body.element.pressure(x, body.tets, self._J, tissue.passive.K)
         assembly.add_volumetric_tangent(self._C, self._J, p, slope, D)
-        D[:, range(6), range(6)] += tissue.passive.eta / self.drive.dt * np.array([1, 1, 1, 0.5, 0.5, 0.5])
-        D += self._fibre[1][:, None, None] * body.dyads[:, :, None] * body.dyads[:, None, :]
+        D[:, range(6), range(6)] += 2.0 * self._viscosity * np.array([1, 1, 1, 0.5, 0.5, 0.5])
+        slope = (1.0 + self.time_step.memory) * self._fibre[1]
+        D += slope[:, None, None] * body.dyads[:, :, None] * body.dyads[:, None, :]
         return D
 
     def commit(self, x: Floats) -> BodyState:
         """The state at the end of the step, where the forces were last evaluated."""
         fibres = self.body.tissue.active.advance(self.drive, self.state.fibres, self._fibre[2])
-        return BodyState(x.copy(), fibres, self._C.copy())
+        stress = self._fibre[0].copy()
+        return BodyState(x.copy(), fibres, self._C.copy(), stress, self.state.x, self.state.C)
 
     def size(self, residual: Floats) -> float:
         """Norm of a residual, N; wall-volume equations are weighted by shear modulus over length."""

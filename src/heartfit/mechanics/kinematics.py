@@ -58,6 +58,20 @@ def right_cauchy_green(F: Floats, C: Floats, J: Floats) -> None:
 
 
 @njit(cache=True)
+def deform(
+    x: Floats, tets: Integers, gradients: Floats, dyads: Floats, F: Floats, C: Floats, J: Floats, e: Floats
+) -> float:
+    """Fill F, C, J and the fibre strains ``e`` (m,) at the unknowns ``x`` (n, >= 3); the smallest J."""
+    deformation_gradient(x, tets, gradients, F)
+    right_cauchy_green(F, C, J)
+    for i in range(e.size):
+        normal = dyads[i, 0] * C[i, 0] + dyads[i, 1] * C[i, 1] + dyads[i, 2] * C[i, 2]
+        shear = dyads[i, 3] * C[i, 3] + dyads[i, 4] * C[i, 4] + dyads[i, 5] * C[i, 5]
+        e[i] = 0.5 * (normal - 1.0) + shear
+    return J.min()
+
+
+@njit(cache=True)
 def inverse(C: Floats, determinant: float, out: Floats) -> None:
     """Inverse (6,) of the symmetric tensor ``C`` (6,) of the given determinant."""
     out[0] = (C[1] * C[2] - C[5] * C[5]) / determinant

@@ -21,6 +21,7 @@ from heartfit.geometry.arrays import Floats
 from heartfit.mechanics.active.bcs import Drive
 from heartfit.mechanics.body import StepFailed, Tissue
 from heartfit.mechanics.passive.law import Isotropic, isotropic
+from heartfit.mechanics.time_step import ENDLESS, TimeStep
 
 ACTIVATION = np.linspace(0.0, 0.07, 8)
 """Activation times of the fibres, s: a healthy QRS complex."""
@@ -68,10 +69,15 @@ def _cavity(radius: float, thickness: float, stretch: float) -> float:
 
 @dataclass(frozen=True, eq=False)
 class SphereState:
-    """Displacements ``x`` (2, 1) of the mid-walls and fibre states (3, 2 k)."""
+    """Displacements ``x`` (2, 1) of the mid-walls and fibre states (4, 2 k) at one time.
+
+    ``stress`` (2 k,) is the mean fibre stress of the step that led here, ``x_before`` what x was at its start.
+    """
 
     x: Floats
     fibres: Floats
+    stress: Floats
+    x_before: Floats
 
 
 class SphericalBody:
@@ -85,7 +91,8 @@ class SphericalBody:
         self.wall = np.array([left.wall, right.wall])
 
     def rest(self) -> SphereState:
-        return SphereState(np.zeros((2, 1)), self.tissue.active.rest(len(self.activation)))
+        x, k = np.zeros((2, 1)), len(self.activation)
+        return SphereState(x, self.tissue.active.rest(k), np.zeros(k), x)
 
     def stretch(self, x: Floats) -> Floats:
         r""":math:`\Lambda` (2,)."""
@@ -105,23 +112,25 @@ class SphericalBody:
     def wall_volume(self, x: Floats) -> float:  # noqa: ARG002
         return float(self.wall.sum())
 
-    def step(self, state: SphereState, start: float, dt: float, period: float) -> "SphereStep":
-        rate, attach = self.tissue.control.mean(start, dt, self.activation, period)
-        n_0 = self.tissue.active.starling.available(state.fibres[0])
-        return SphereStep(self, state, Drive(rate, attach, n_0, dt))
+    def step(self, state: SphereState, step: TimeStep) -> "SphereStep":
+        control = self.tissue.control.mean(step.start, step.length, self.activation, step.period)
+        return SphereStep(self, state, step, self.tissue.active.drive(step, control, state.fibres))
 
     def endless_step(self, state: SphereState) -> "SphereStep":
         none = np.zeros(len(self.activation))
-        return SphereStep(self, state, Drive(none, none, none, np.inf))
+        return SphereStep(self, state, ENDLESS, Drive(none, none, none, np.inf))
 
 
 class SphereStep:
     """Forces and stiffness of both spheres at the end of one step."""
 
-    def __init__(self, body: SphericalBody, state: SphereState, drive: Drive) -> None:
-        self.body, self.state, self.drive = body, state, drive
-        self._old = body.stretch(state.x)
-        self._fibre = np.empty((3, len(body.activation)))
+    def __init__(self, body: SphericalBody, state: SphereState, time_step: TimeStep, drive: Drive) -> None:
+        self.body, self.state, self.time_step, self.drive = body, state, time_step, drive
+        old, before = body.stretch(state.x), body.stretch(state.x_before)
+        self._e_old = np.repeat(0.5 * (old * old - 1.0), len(body.activation) // 2)
+        self._fibre = body.tissue.active.begin(self._e_old, state.fibres)
+        self._plane = time_step.shifted(old**2, before**2)
+        self._radial = time_step.shifted(old**-4, before**-4)
 
     def forces(self, x: Floats) -> Floats:
         """Internal forces (2,), conjugate to the displacements of the mid-walls."""
@@ -130,20 +139,22 @@ class SphereStep:
             raise StepFailed(f"the spheres are stretched to {stretch.round(3)} of their reference radii")
         self._respond(stretch)
         passive, viscous = self.body.passive, self._viscous(stretch)[0]
-        stress = passive.in_plane_stress(stretch) + viscous + stretch * self._mean(0)
+        stress = passive.in_plane_stress(stretch) + viscous + stretch * self._tension()[0]
         return self.body.wall / self.body.radius * stress
 
     def _respond(self, stretch: Floats) -> None:
-        count = len(self.body.activation) // 2
-        old, new = (np.repeat(0.5 * (s * s - 1.0), count) for s in (self._old, stretch))
-        self.body.tissue.active.respond(self.drive, old, new, self.state.fibres, self._fibre)
+        new = np.repeat(0.5 * (stretch * stretch - 1.0), len(self.body.activation) // 2)
+        self.body.tissue.active.respond(self.drive, self._e_old, new, self.state.fibres, self._fibre)
 
-    def _mean(self, row: int) -> Floats:
-        return self._fibre[row].reshape(2, -1).mean(axis=1)
+    def _tension(self) -> tuple[Floats, Floats]:
+        """Mean fibre stress (2,) of the spheres at the end of the step, and its derivative by the strain."""
+        stress = self.time_step.at_end(self._fibre[0], self.state.stress)
+        slope = (1.0 + self.time_step.memory) * self._fibre[1]
+        return stress.reshape(2, -1).mean(axis=1), slope.reshape(2, -1).mean(axis=1)
 
     def _viscous(self, stretch: Floats) -> tuple[Floats, Floats]:
-        rate = self.body.tissue.passive.eta / self.drive.dt
-        plane, radial = 0.5 * (stretch**2 - self._old**2), 0.5 * (stretch**-4 - self._old**-4)
+        rate = self.body.tissue.passive.eta / self.time_step.effective
+        plane, radial = 0.5 * (stretch**2 - self._plane), 0.5 * (stretch**-4 - self._radial)
         stress = rate * (2.0 * plane * stretch - 2.0 * radial * stretch**-5)
         slope = rate * (2.0 * plane + 2.0 * stretch**2 + 10.0 * radial * stretch**-6 + 4.0 * stretch**-10)
         return stress, slope
@@ -152,13 +163,13 @@ class SphereStep:
         """Derivative of the forces where they were last evaluated, which is ``x``."""
         stretch = self.body.stretch(x)
         slope = self.body.passive.in_plane_stiffness(stretch) + self._viscous(stretch)[1]
-        slope = slope + stretch**2 * self._mean(1) + self._mean(0)
+        tension, stiffness = self._tension()
+        slope = slope + stretch**2 * stiffness + tension
         return Stiffness(self.body.wall / self.body.radius**2 * slope)
 
     def commit(self, x: Floats) -> SphereState:
-        return SphereState(
-            x.copy(), self.body.tissue.active.advance(self.drive, self.state.fibres, self._fibre[2])
-        )
+        fibres = self.body.tissue.active.advance(self.drive, self.state.fibres, self._fibre[2])
+        return SphereState(x.copy(), fibres, self._fibre[0].copy(), self.state.x)
 
     def size(self, residual: Floats) -> float:
         return float(np.linalg.norm(residual))

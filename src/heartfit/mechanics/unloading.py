@@ -25,10 +25,9 @@ from heartfit.geometry.arrays import Floats
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics import kinematics
 from heartfit.mechanics.acceleration import Anderson
-from heartfit.mechanics.assembly import SparsityPattern
 from heartfit.mechanics.body import FiniteElementBody, Step, StepFailed, Tissue
+from heartfit.mechanics.general_solver import GeneralFactor
 from heartfit.mechanics.kinematics import VOIGT
-from heartfit.mechanics.solver import Factor
 
 INCREMENT = 0.25
 """First increment of the load, over the whole."""
@@ -67,7 +66,7 @@ class _Search:
     def __init__(self, loaded: VentricularMesh, tissue: Tissue) -> None:
         self.loaded, self.reference, self.tissue = loaded, loaded, tissue
         body = FiniteElementBody(loaded, tissue)
-        self._pattern: SparsityPattern = body.pattern
+        self._elimination = body.elimination
         self._x = body.rest().x
 
     def balance(self, pressures: Floats) -> None:
@@ -105,7 +104,7 @@ class _Search:
         """Imbalance at the unknowns ``x``, whose displacements lead from the reference to the loaded mesh."""
         moved = self.loaded.with_points(self.loaded.points - x[:, :3])
         reference = replace(moved, fibres=_pull_back(moved, self.loaded))
-        body = FiniteElementBody(reference, self.tissue, self._pattern)
+        body = FiniteElementBody(reference, self.tissue, self._elimination)
         step = body.endless_step(body.rest())
         return step, step.forces(x) - body.volume_gradients(x) @ pressures
 
@@ -114,7 +113,7 @@ def _failure(pressures: Floats) -> str:
     return f"no unloaded reference at {pressures[0]:.0f} / {pressures[1]:.0f} Pa"
 
 
-def _tangent(step: Step, x: Floats) -> Factor:
+def _tangent(step: Step, x: Floats) -> GeneralFactor:
     """Factorised derivative of the forces at fixed loaded positions; see the module."""
     elements, nodes = step.stiffness(x)
     body, (F, S) = step.body, step.deformation
@@ -124,7 +123,7 @@ def _tangent(step: Step, x: Floats) -> Factor:
     blocks[:, :, :3, :, :3] += np.einsum("ebi,eaj->eaibj", forces, slopes)
     blocks[:, :, :3, :, :3] -= np.einsum("eai,ebj->eaibj", forces, slopes)
     blocks[..., :3] = np.einsum("eaibk,ekj->eaibj", blocks[..., :3], F)
-    return Factor(body.pattern.assemble(elements, nodes), body.pattern.permutation)
+    return GeneralFactor(body.tets, elements, nodes, body.elimination.permutation)
 
 
 def _pull_back(reference: VentricularMesh, loaded: VentricularMesh) -> Floats:

@@ -10,11 +10,18 @@ in series with an elastic element, :math:`1 + 2 e_{1D} = (1 + 2 e_c)(1 + 2 e_s)`
 
 .. math:: \sigma_{1D} = \frac{\tau_c + \mu \dot e_c}{1 + 2 e_s} = \frac{E_s e_s}{1 + 2 e_c}.
 
-The update advances :math:`k_c` and :math:`\lambda_c = \tau_c/\sqrt{k_c}` and finds the increment
+The update advances :math:`r = \sqrt{k_c}` and :math:`\lambda_c = \tau_c/r` and finds the increment
 :math:`d = e_c^{n+1} - e_c^n` from one scalar equation. The bridge energy is :math:`\lambda_c^2/2`, that of the
-spring :math:`E_s e_s^2/2`; both balance exactly in every step, of any length.
+spring :math:`E_s e_s^2/2`; both balance exactly in every step, of any length. Of second order, destruction acts on
+:math:`\bar r^2`, :math:`\bar r = (r^n + r^{n+1})/2`,
+
+.. math:: (r^{n+1})^2 - (r^n)^2 = -x \bar r^2 + s k_0, \qquad x = \Delta t |u| + \alpha |d|, \quad
+          s = \Delta t\, n_0 |u|_+ ,
+
+which keeps :math:`\tau_c/k_c = \sigma_0/k_0` of bridges that attach to a sarcomere of constant length; of first order
+it acts on :math:`k_c^{n+1}`.
 Sources: Marchesseau et al., MICCAI 2012, eq. (1); Chapelle et al., IJMCE 10 (2012) for the change of variable;
-the scheme of the kinetics is that of PhysioBlocks' cardiac model.
+the scheme of first order is that of PhysioBlocks' cardiac model.
 """
 
 from dataclasses import dataclass, field
@@ -25,6 +32,7 @@ from numba import njit
 from heartfit.geometry.arrays import Floats
 from heartfit.mechanics.active.starling import Starling
 from heartfit.mechanics.kinematics import StepFailed
+from heartfit.mechanics.time_step import TimeStep
 from heartfit.parameter import parameter, require_admissible
 
 BRIDGE_FLOOR = 1.0
@@ -33,9 +41,8 @@ BRIDGE_FLOOR = 1.0
 LARGEST_INCREMENT = 0.1
 """Largest change of e_c in a step; beyond it the scalar equation has spurious roots."""
 
-
-CONVERGED = 1e-12
-"""Change of e_c, below which its equation is solved: E_s times it is far below a pascal."""
+CONVERGED = 1e-8
+"""Newton step in e_c after which the stress is right to first order: E_s times its square is no pascal."""
 
 
 @dataclass(frozen=True)
@@ -55,26 +62,41 @@ class BestelClementSorine:
         require_admissible(self)
 
     def rest(self, points: int) -> Floats:
-        """State (3, m) of relaxed fibres: rows :math:`e_c, k_c, \\lambda_c`."""
-        state = np.zeros((3, points))
+        """State (4, m) of relaxed fibres: rows :math:`e_c, k_c, \\lambda_c` and the rate of e_c, 1/s."""
+        state = np.zeros((4, points))
         state[1] = BRIDGE_FLOOR
         return state
 
     def constants(self) -> Floats:
         return np.array([self.sigma_0, self.k_0, self.alpha, self.mu, self.E_s])
 
-    def respond(self, drive: "Drive", e_old: Floats, e_new: Floats, state: Floats, out: Floats) -> None:
-        """Fill ``out`` (3, m) with fibre stress, its derivative by ``e_new`` and the increment of ``e_c``.
+    def drive(self, step: TimeStep, control: tuple[Floats, Floats], state: Floats) -> "Drive":
+        """What drives fibres in the state (4, m) during ``step``, given the means of |u| and |u|_+."""
+        ahead = 0.5 * step.length * state[3] if step.second_order else 0.0
+        n_0 = self.starling.available(state[0] + ahead)
+        return Drive(*control, n_0, step.length, step.second_order)
 
-        An endless step (``drive.dt`` infinite) of relaxed fibres has no stress: bridges detach, the rest follows.
+    def begin(self, e_old: Floats, state: Floats) -> Floats:
+        """Room (4, m) for the responses of one step: stress, slope, increment and extension of the spring."""
+        out = np.zeros((4, e_old.size))
+        out[3] = (e_old - state[0]) / (1.0 + 2.0 * state[0])
+        return out
+
+    def respond(self, drive: "Drive", e_old: Floats, e_new: Floats, state: Floats, out: Floats) -> None:
+        """Fill ``out``, which :meth:`begin` made, with the means over the step at the strains ``e_new`` (m,):
+
+        fibre stress, its derivative by ``e_new``, increment of ``e_c``, and the spring's e_s, from which the next
+        call starts. An endless step (``drive.dt`` infinite) of relaxed fibres has no stress: bridges detach, the
+        rest follows.
         """
         if np.isinf(drive.dt):
             out[:2], out[2] = 0.0, e_new - state[0]
             return
-        _respond(drive.rate, drive.attach, drive.n_0, drive.dt, self.constants(), e_old, e_new, state, out)
+        given = drive.rate, drive.attach, drive.n_0
+        _respond(*given, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, out)
 
     def advance(self, drive: "Drive", state: Floats, increment: Floats) -> Floats:
-        """State (3, m) at the end of a step in which ``e_c`` changed by ``increment``.
+        """State (4, m) at the end of a step in which ``e_c`` changed by ``increment``.
 
         Raises StepFailed where the increment met its bound: the fibre equation has no solution in it then.
         """
@@ -82,17 +104,19 @@ class BestelClementSorine:
             return np.vstack([state[0] + increment, self.rest(increment.size)[1:]])
         if np.abs(increment).max() >= LARGEST_INCREMENT:
             raise StepFailed(f"e_c of a fibre changed by {LARGEST_INCREMENT:g} in a step of {drive.dt:.2g} s")
-        return _advance(drive.rate, drive.attach, drive.n_0, drive.dt, self.constants(), state, increment)
+        given = drive.rate, drive.attach, drive.n_0
+        return _advance(*given, drive.dt, drive.second_order, self.constants(), state, increment)
 
 
 @dataclass(frozen=True)
 class Drive:
-    """What drives the fibres during one step: mean |u|, mean |u|_+, n_0 (all (m,)) and the step's length."""
+    """What drives the fibres during one step: mean |u|, mean |u|_+, n_0 (all (m,)), its length and its order."""
 
     rate: Floats
     attach: Floats
     n_0: Floats
     dt: float
+    second_order: bool = True
 
 
 def tension(state: Floats) -> Floats:
@@ -101,57 +125,66 @@ def tension(state: Floats) -> Floats:
     return result
 
 
-@njit(cache=True)
-def _bridges(d, rate, attach, n_0, dt, constants, k, lam):  # type: ignore[no-untyped-def]
+@njit(cache=True, error_model="numpy")
+def _root(d, rate, attach, n_0, dt, second_order, constants, k):  # type: ignore[no-untyped-def]
+    """End value and mean of sqrt(k_c) that the scheme uses, and the derivative of the mean by ``d``."""
+    k_0, alpha = constants[1], constants[2]
+    x, made = dt * rate + alpha * abs(d), dt * n_0 * k_0 * attach
+    slope = alpha if d >= 0.0 else -alpha
+    if not second_order:
+        new = (k + made) / (1.0 + x)
+        if new <= BRIDGE_FLOOR:
+            return BRIDGE_FLOOR, np.sqrt(BRIDGE_FLOOR), 0.0
+        root = np.sqrt(new)
+        return new, root, -0.5 * root * slope / (1.0 + x)
+    g, old = 1.0 + 0.25 * x, np.sqrt(k)
+    square = np.sqrt(k + g * made)
+    root = (square - 0.25 * x * old) / g
+    if root * root <= BRIDGE_FLOOR:
+        return BRIDGE_FLOOR, 0.5 * (old + np.sqrt(BRIDGE_FLOOR)), 0.0
+    change = 0.25 * slope * (0.5 * made / square - old - root) / g
+    return root * root, 0.5 * (old + root), 0.5 * change
+
+
+@njit(cache=True, error_model="numpy")
+def _bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam):  # type: ignore[no-untyped-def]
     """New stiffness, mean lambda and the bridge stress tau#, with the derivative of the latter by ``d``."""
     sigma_0, k_0, alpha = constants[0], constants[1], constants[2]
-    s = 1.0 if d >= 0.0 else -1.0
-    g = 1.0 + dt * rate + alpha * abs(d)
-    kn = max((k + dt * n_0 * k_0 * attach) / g, BRIDGE_FLOOR)
-    root = np.sqrt(kn)
-    b = dt * n_0 * attach * sigma_0
-    numerator = lam + 0.5 * (root * d + b / root)
-    denominator = 1.0 + 0.25 * (dt * rate + alpha * abs(d)) + 0.25 * dt * n_0 * attach * k_0 / kn
-    mean = numerator / denominator
-    dk = -kn * alpha * s / g if kn > BRIDGE_FLOOR else 0.0
-    droot = 0.5 * dk / root
-    dnum = 0.5 * (droot * d + root - b / kn * droot)
-    dden = 0.25 * alpha * s - 0.25 * dt * n_0 * attach * k_0 * dk / (kn * kn)
-    dmean = (dnum - mean * dden) / denominator
-    return kn, mean, root * mean, droot * mean + root * dmean
+    new, root, droot = _root(d, rate, attach, n_0, dt, second_order, constants, k)
+    slope = alpha if d >= 0.0 else -alpha
+    made, inverse = dt * n_0 * attach, 1.0 / root
+    gain, loss = made * sigma_0 * inverse, 0.25 * made * k_0 * inverse * inverse
+    shrink = 1.0 / (1.0 + 0.25 * (dt * rate + alpha * abs(d)) + loss)
+    mean = (lam + 0.5 * (root * d + gain)) * shrink
+    dnum = 0.5 * (droot * d + root - gain * inverse * droot)
+    dmean = (dnum - mean * (0.25 * slope - 2.0 * loss * inverse * droot)) * shrink
+    return new, mean, root * mean, droot * mean + root * dmean
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _series(d, e_old, e_new, e_c, E_s):  # type: ignore[no-untyped-def]
     """Fibre stress sigma# and contractile stress sigma_c# of the spring, each with d/de and d/dd."""
     es_old = (e_old - e_c) / (1.0 + 2.0 * e_c)
-    outer = 1.0 + 2.0 * (e_c + d)
-    es_new = (e_new - e_c - d) / outer
+    es_e = 1.0 / (1.0 + 2.0 * (e_c + d))
+    es_new = (e_new - e_c - d) * es_e
+    es_d = -(1.0 + 2.0 * e_new) * es_e * es_e
     mean = 0.5 * (es_old + es_new)
-    A, B = 1.0 + 2.0 * e_c + d, 1.0 + 2.0 * mean
-    es_e, es_d = 1.0 / outer, -(1.0 + 2.0 * e_new) / (outer * outer)
-    s = E_s * mean / A
-    s_e, s_d = E_s * es_e / (2.0 * A), E_s * es_d / (2.0 * A) - E_s * mean / (A * A)
+    per_A, B = 1.0 / (1.0 + 2.0 * e_c + d), 1.0 + 2.0 * mean
+    s = E_s * mean * per_A
+    s_e, s_d = 0.5 * E_s * es_e * per_A, (0.5 * E_s * es_d - s) * per_A
     return s, s_e, s_d, s * B, B * s_e + s * es_e, B * s_d + s * es_d
 
 
-@njit(cache=True)
-def _imbalance(d, rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam):  # type: ignore[no-untyped-def]
+@njit(cache=True, error_model="numpy")
+def _fibre(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, spring):  # type: ignore[no-untyped-def]
+    """Stress, slope, increment and spring: Newton from a known spring (it is stiff), kept in a bracket."""
     mu, E_s = constants[3], constants[4]
-    _, _, stress, stress_d = _bridges(d, rate, attach, n_0, dt, constants, k, lam)
-    s, s_e, s_d, c, c_e, c_d = _series(d, e_old, e_new, e_c, E_s)
-    slope = stress_d + mu / dt - c_d
-    return stress + mu * d / dt - c, slope, s, s_e + s_d * c_e / slope
-
-
-@njit(cache=True)
-def _increment(rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam):  # type: ignore[no-untyped-def]
-    """Newton from an unchanged spring (it is stiff), safeguarded by a bracket."""
     low, high = -LARGEST_INCREMENT, LARGEST_INCREMENT
-    spring = (e_old - e_c) / (1.0 + 2.0 * e_c)
     d = min(max((e_new - spring) / (1.0 + 2.0 * spring) - e_c, low), high)
     for _ in range(60):
-        value, slope, s, ds = _imbalance(d, rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam)
+        _, _, tau, tau_d = _bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
+        s, s_e, s_d, c, c_e, c_d = _series(d, e_old, e_new, e_c, E_s)
+        value, slope = tau + mu * d / dt - c, tau_d + mu / dt - c_d
         if value > 0.0:
             high = d
         else:
@@ -159,40 +192,30 @@ def _increment(rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam):  # 
         following = d - value / slope if slope > 0.0 else 0.5 * (low + high)
         if not low <= following <= high:
             following = 0.5 * (low + high)
-        change = abs(following - d)
+        change = following - d
         d = following
-        if change < CONVERGED:
+        if abs(change) < CONVERGED:
             break
-    _, _, s, ds = _imbalance(d, rate, attach, n_0, dt, constants, e_old, e_new, e_c, k, lam)
-    return d, s, ds
+    spring = (e_new - e_c - d) / (1.0 + 2.0 * (e_c + d))
+    return s + s_d * change, s_e + s_d * c_e / slope, d, spring
 
 
-@njit(cache=True)
-def _respond(rate, attach, n_0, dt, constants, e_old, e_new, state, out):  # type: ignore[no-untyped-def]
+@njit(cache=True, error_model="numpy")
+def _respond(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, out):  # type: ignore[no-untyped-def]
     for i in range(e_new.size):
-        d, s, ds = _increment(
-            rate[i],
-            attach[i],
-            n_0[i],
-            dt,
-            constants,
-            e_old[i],
-            e_new[i],
-            state[0, i],
-            state[1, i],
-            state[2, i],
-        )
-        out[0, i], out[1, i], out[2, i] = s, ds, d
+        drive = rate[i], attach[i], n_0[i]
+        held = e_old[i], e_new[i], state[0, i], state[1, i], state[2, i], out[3, i]
+        out[0, i], out[1, i], out[2, i], out[3, i] = _fibre(*drive, dt, second_order, constants, *held)
 
 
-@njit(cache=True)
-def _advance(rate, attach, n_0, dt, constants, state, increment):  # type: ignore[no-untyped-def]
+@njit(cache=True, error_model="numpy")
+def _advance(rate, attach, n_0, dt, second_order, constants, state, increment):  # type: ignore[no-untyped-def]
     new = np.empty_like(state)
     for i in range(increment.size):
-        k, mean, _, _ = _bridges(
-            increment[i], rate[i], attach[i], n_0[i], dt, constants, state[1, i], state[2, i]
-        )
-        new[0, i] = state[0, i] + increment[i]
-        new[1, i] = k
-        new[2, i] = 2.0 * mean - state[2, i]
+        d, k, lam = increment[i], state[1, i], state[2, i]
+        stiffness, mean, _, _ = _bridges(d, rate[i], attach[i], n_0[i], dt, second_order, constants, k, lam)
+        new[0, i] = state[0, i] + d
+        new[1, i] = stiffness
+        new[2, i] = 2.0 * mean - lam
+        new[3, i] = d / dt
     return new

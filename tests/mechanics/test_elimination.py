@@ -1,0 +1,67 @@
+"""Fronts: every node once, and every entry that elimination makes has its row."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from heartfit.mechanics import elimination
+from heartfit.mechanics.elimination import Fronts, fronts
+
+
+def filled(tets: np.ndarray, order: np.ndarray) -> list[set[int]]:
+    """Later positions that the elimination of each touches, by the definition."""
+    position = np.argsort(order)
+    touched: list[set[int]] = [set() for _ in order]
+    for tet in position[tets]:
+        for i in tet:
+            touched[i] |= {int(j) for j in tet if j > i}
+    for i in range(len(order)):
+        for j in touched[i]:
+            touched[j] |= {k for k in touched[i] if k > j}
+    return touched
+
+
+@pytest.fixture(params=[(0, 0.0, 1), (8, 0.05, 32), (100, 1.0, 100)], ids=["single", "default", "one"])
+def dissected(request, monkeypatch, block: Callable) -> tuple[np.ndarray, Fronts]:
+    for name, value in zip(("SMALL", "WASTE", "LARGEST"), request.param, strict=True):
+        monkeypatch.setattr(elimination, name, value)
+    mesh = block((4, 3, 3))
+    return mesh.tets, fronts(mesh.tets, len(mesh.points))
+
+
+def test_every_node_is_eliminated_once(dissected: tuple[np.ndarray, Fronts]) -> None:
+    _, found = dissected
+    assert sorted(found.order) == list(range(len(found.order)))
+    assert found.starts[0] == 0
+    assert found.starts[-1] == len(found.order)
+    assert (np.diff(found.starts) > 0).all()
+
+
+def test_a_front_touches_what_its_nodes_touch(dissected: tuple[np.ndarray, Fronts]) -> None:
+    tets, found = dissected
+    touched = filled(tets, found.order)
+    for s in range(len(found.parents)):
+        start, end = found.starts[s], found.starts[s + 1]
+        rows = found.rows[found.row_starts[s] : found.row_starts[s + 1]]
+        needed = set.union(*touched[start:end])
+        assert list(rows) == sorted(j for j in needed if j >= end)
+
+
+def test_the_parent_eliminates_the_first_row(dissected: tuple[np.ndarray, Fronts]) -> None:
+    _, found = dissected
+    for s, parent in enumerate(found.parents):
+        rows = found.rows[found.row_starts[s] : found.row_starts[s + 1]]
+        if parent == -1:
+            assert len(rows) == 0
+        else:
+            assert found.starts[parent] <= rows[0] < found.starts[parent + 1]
+
+
+def test_a_single_node_per_front_wastes_nothing(dissected: tuple[np.ndarray, Fronts]) -> None:
+    """Merging may add rows, never lose one; without it, the fill is that of the definition."""
+    tets, found = dissected
+    entries = np.diff(found.row_starts).sum()
+    least = sum(map(len, filled(tets, found.order)))
+    alone = (np.diff(found.starts) == 1).all()
+    assert entries == least if alone else entries < least
