@@ -6,6 +6,7 @@ python3 study.py run ARGS     the same with further arguments of Snakemake, as -
 python3 study.py test ARGS    set up, then pass the tests; ARGS go to pytest
 python3 study.py lint         set up, then style, types and the workflow's own lint
 python3 study.py benchmark    set up, then measure what a beat costs and write docs/performance.md; half an hour
+python3 study.py convergence  set up, then see what mesh and time step change and write docs/convergence.md; as long
 python3 study.py lock         write requirements.lock anew from pyproject.toml
 """
 
@@ -155,12 +156,24 @@ def benchmark(arguments: list[str]) -> int:
     return subprocess.run(tool("python", "-m", "benchmarks", *arguments), check=False).returncode
 
 
+def convergence(_: list[str]) -> int:
+    """Write docs/convergence.md anew."""
+    return subprocess.run(tool("python", "-m", "benchmarks.convergence"), check=False).returncode
+
+
 def lock(_: list[str]) -> int:
     """Write requirements.lock anew."""
     return subprocess.run(tool(*COMPILE_LOCK), check=False).returncode
 
 
-COMMANDS = {"run": run, "test": test, "lint": lint, "benchmark": benchmark, "lock": lock}
+COMMANDS = {
+    "run": run,
+    "test": test,
+    "lint": lint,
+    "benchmark": benchmark,
+    "convergence": convergence,
+    "lock": lock,
+}
 
 if __name__ == "__main__":
     try:

@@ -10,17 +10,17 @@ from benchmarks.newton import newton_steps
 from benchmarks.page import ELEMENTS, Measured, page
 from benchmarks.process import install_peers
 from benchmarks.targets import figures
-from benchmarks.ventricles import ROOT, SIZES, mesh_file
+from benchmarks.ventricles import ROOT, mesh_file
 from heartfit.io.atomic import write_text
 from heartfit.io.configuration import read_study
 from heartfit.kernels import compile_kernels
 
-SMALL = ("3k", "10k")
+SMALL, ALL = ("3k", "10k"), ("3k", "10k", "30k", "100k")
 T = TypeVar("T")
 
 
 def main(arguments: list[str]) -> None:
-    meshes = SMALL if "--small" in arguments else tuple(SIZES)
+    meshes = SMALL if "--small" in arguments else ALL
     said("installing the other programs", install_peers)
     said("compiling the kernels", compile_kernels)
     for mesh in meshes:
