@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from numba import njit
 
 from heartfit.geometry.arrays import Floats, Integers
 
@@ -63,27 +64,53 @@ class Mixed:
     dofs: int = 4
 
     def pressure(self, x: Floats, tets: Integers, J: Floats, K: float) -> tuple[Floats, Floats]:  # noqa: ARG002
-        return x[tets, 3].mean(axis=1), np.zeros_like(J)
+        return _mean_pressure(x, tets), np.zeros_like(J)
 
     def add_forces(
         self, x: Floats, tets: Integers, J: Floats, volumes: Floats, K: float, G: float, out: Floats
     ) -> None:
-        rows = np.repeat(0.25 * (J - 1.0)[:, None], 4, axis=1) - x[tets, 3] @ self._compliance(K, G)
-        out[:, 3] += np.bincount(tets.ravel(), weights=(volumes[:, None] * rows).ravel(), minlength=len(out))
+        _add_volume_equations(x, tets, J, volumes, self._compliance(K, G), out)
 
     def add_stiffness(self, slopes: Floats, volumes: Floats, K: float, G: float, out: Floats) -> None:
-        coupling = np.einsum("e,eai->eai", 0.25 * volumes, slopes)
-        for a in range(4):
-            for b in range(4):
-                out[:, 4 * a : 4 * a + 3, 4 * b + 3] = coupling[:, a]
-                out[:, 4 * b + 3, 4 * a : 4 * a + 3] = coupling[:, a]
-                out[:, 4 * a + 3, 4 * b + 3] = -volumes * self._compliance(K, G)[a, b]
+        _add_pressure_blocks(slopes, volumes, self._compliance(K, G), out)
 
     @staticmethod
     def _compliance(K: float, G: float) -> Floats:
         """Compressibility and stabilisation of the nodal pressures; G is the shear modulus."""
         compliance: Floats = CONSISTENT_MASS / K + PROJECTION_DEFECT / G
         return compliance
+
+
+@njit(cache=True)
+def _mean_pressure(x: Floats, tets: Integers) -> Floats:
+    result = np.empty(len(tets))
+    for e in range(len(tets)):
+        result[e] = 0.25 * (x[tets[e, 0], 3] + x[tets[e, 1], 3] + x[tets[e, 2], 3] + x[tets[e, 3], 3])
+    return result
+
+
+@njit(cache=True)
+def _add_volume_equations(
+    x: Floats, tets: Integers, J: Floats, volumes: Floats, compliance: Floats, out: Floats
+) -> None:
+    for e in range(len(tets)):
+        for a in range(4):
+            value = 0.25 * (J[e] - 1.0)
+            for b in range(4):
+                value -= compliance[a, b] * x[tets[e, b], 3]
+            out[tets[e, a], 3] += volumes[e] * value
+
+
+@njit(cache=True)
+def _add_pressure_blocks(slopes: Floats, volumes: Floats, compliance: Floats, out: Floats) -> None:
+    for e in range(len(volumes)):
+        for a in range(4):
+            for b in range(4):
+                out[e, 4 * a + 3, 4 * b + 3] -= volumes[e] * compliance[a, b]
+                for i in range(3):
+                    coupling = 0.25 * volumes[e] * slopes[e, a, i]
+                    out[e, 4 * a + i, 4 * b + 3] += coupling
+                    out[e, 4 * b + 3, 4 * a + i] += coupling
 
 
 ELEMENTS: dict[str, Element] = {"p1": P1(), "mixed": Mixed()}

@@ -77,17 +77,18 @@ class BestelClementSorine:
         return Drive(*control, n_0, step.length, step.second_order)
 
     def begin(self, e_old: Floats, state: Floats) -> Floats:
-        """Room (4, m) for the responses of one step: stress, slope, increment and extension of the spring."""
-        out = np.zeros((4, e_old.size))
-        out[3] = (e_old - state[0]) / (1.0 + 2.0 * state[0])
+        """Room (5, m) for the responses of one step; see :meth:`respond`. The spring starts unchanged."""
+        out = np.zeros((5, e_old.size))
+        out[3] = (1.0 + 2.0 * state[0]) / (1.0 + 2.0 * e_old)
+        out[4] = e_old
         return out
 
     def respond(self, drive: "Drive", e_old: Floats, e_new: Floats, state: Floats, out: Floats) -> None:
         """Fill ``out``, which :meth:`begin` made, with the means over the step at the strains ``e_new`` (m,):
 
-        fibre stress, its derivative by ``e_new``, increment of ``e_c``, and the spring's e_s, from which the next
-        call starts. An endless step (``drive.dt`` infinite) of relaxed fibres has no stress: bridges detach, the
-        rest follows.
+        fibre stress, its derivative by ``e_new``, increment of ``e_c``, its derivative, and ``e_new`` itself, from
+        which the next call starts. An endless step (``drive.dt`` infinite) of relaxed fibres has no stress:
+        bridges detach, the rest follows.
         """
         if np.isinf(drive.dt):
             out[:2], out[2] = 0.0, e_new - state[0]
@@ -176,11 +177,11 @@ def _series(d, e_old, e_new, e_c, E_s):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy")
-def _fibre(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, spring):  # type: ignore[no-untyped-def]
-    """Stress, slope, increment and spring: Newton from a known spring (it is stiff), kept in a bracket."""
+def _fibre(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, d):  # type: ignore[no-untyped-def]
+    """Stress, slope, increment and its slope: Newton from the guess ``d``, kept in a bracket."""
     mu, E_s = constants[3], constants[4]
     low, high = -LARGEST_INCREMENT, LARGEST_INCREMENT
-    d = min(max((e_new - spring) / (1.0 + 2.0 * spring) - e_c, low), high)
+    d = min(max(d, low), high)
     for _ in range(60):
         _, _, tau, tau_d = _bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
         s, s_e, s_d, c, c_e, c_d = _series(d, e_old, e_new, e_c, E_s)
@@ -196,16 +197,18 @@ def _fibre(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k,
         d = following
         if abs(change) < CONVERGED:
             break
-    spring = (e_new - e_c - d) / (1.0 + 2.0 * (e_c + d))
-    return s + s_d * change, s_e + s_d * c_e / slope, d, spring
+    turn = c_e / slope
+    return s + s_d * change, s_e + s_d * turn, d, turn
 
 
 @njit(cache=True, error_model="numpy")
 def _respond(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, out):  # type: ignore[no-untyped-def]
     for i in range(e_new.size):
+        guess = out[2, i] + out[3, i] * (e_new[i] - out[4, i])
         drive = rate[i], attach[i], n_0[i]
-        held = e_old[i], e_new[i], state[0, i], state[1, i], state[2, i], out[3, i]
+        held = e_old[i], e_new[i], state[0, i], state[1, i], state[2, i], guess
         out[0, i], out[1, i], out[2, i], out[3, i] = _fibre(*drive, dt, second_order, constants, *held)
+        out[4, i] = e_new[i]
 
 
 @njit(cache=True, error_model="numpy")

@@ -68,8 +68,9 @@ def _stress(C: Floats, J: Floats, scale: Floats, c_1: float, c_2: float, S: Floa
     for e in range(C.shape[0]):
         I1, I2 = _invariants(C[e])
         inverse(C[e], J[e] * J[e], Ci)
-        a = 2.0 * c_1 * scale[e] * J[e] ** (-2.0 / 3.0)
-        b = 2.0 * c_2 * scale[e] * J[e] ** (-4.0 / 3.0)
+        root = 1.0 / np.cbrt(J[e])
+        a = 2.0 * c_1 * scale[e] * root**2
+        b = 2.0 * c_2 * scale[e] * root**4
         for i in range(6):
             identity = 1.0 if i < 3 else 0.0
             S[e, i] = a * (identity - I1 / 3.0 * Ci[i])
