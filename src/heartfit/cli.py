@@ -120,8 +120,9 @@ def configuration_schema(_: argparse.Namespace) -> int:
 
 
 def verification(_: argparse.Namespace) -> int:
-    """print the page of verification, in half a minute"""
-    from heartfit.verification.page import verification_page
+    """print the page of verification, in two minutes; fails if a check is missed"""
+    from heartfit.verification.page import MISSED, verification_page
 
-    print(verification_page(), end="")
-    return 0
+    page = verification_page()
+    print(page, end="")
+    return int(MISSED in page)

@@ -1,112 +1,114 @@
-"""The project's own wall on a block: its surface moved as given, its fibres at constant tension."""
+"""The project's own wall on a block: its surface moved or pulled as given, its fibres at constant tension."""
 
-from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
-from skfem import Basis, ElementTetP1, MeshTet
+from skfem import Basis, ElementTetP1, FacetBasis, MeshTet
 
 from heartfit.geometry.arrays import Floats, Integers
-from heartfit.geometry.mesh import VentricularMesh, element_volumes
+from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.topology import boundary_faces
-from heartfit.mechanics.active.bcs import BestelClementSorine, Drive
 from heartfit.mechanics.body import FiniteElementBody, Step, StepFailed, Tissue
-from heartfit.mechanics.support import Support
+from heartfit.verification.grids import named, oriented
 from heartfit.verification.manufactured import FIBRE, Manufactured
+from heartfit.verification.parts import ConstantTension, Held
 
-CLAMP = 1e9
-"""Springs, N/m, that leave a clamped node where it is in a Newton step."""
+Sides = tuple[str, ...]
+PULLED: Sides = ("rv_endo", "epi")
+"""Sides, z = L and x = L, that may bear the exact traction; the others are always moved as given."""
 
 ITERATIONS = 30
 RELATIVE_TOLERANCE = 1e-9
-
-
-@dataclass(frozen=True)
-class ConstantTension(BestelClementSorine):
-    """Fibres of the tension ``tension_of_fibres``, Pa, whatever their strain."""
-
-    tension_of_fibres: float = 0.0
-
-    def respond(self, drive: Drive, e_old: Floats, e_new: Floats, state: Floats, out: Floats) -> None:  # noqa: ARG002
-        out[0], out[1:] = self.tension_of_fibres, 0.0
-
-
-@dataclass(frozen=True)
-class Clamped(Support):
-    """Nothing but a clamp on the whole surface; what it bears is no equation of the problem."""
-
-    def stiffness(self, mesh: VentricularMesh) -> Floats:
-        result = np.zeros((len(mesh.points), 3, 3))
-        result[_surface_nodes(mesh)] = CLAMP * np.eye(3)
-        return result
-
-    def damping(self, mesh: VentricularMesh) -> Floats:
-        return np.zeros((len(mesh.points), 3, 3))
-
-    def passive_scale(self, mesh: VentricularMesh) -> Floats:
-        return np.ones(len(mesh.tets))
 
 
 def cube(n: int, L: float) -> VentricularMesh:
     """A cube of edge ``L`` with ``n`` elements along an edge; floor and lid are called cavities."""
     grid = MeshTet.init_tensor(*[np.linspace(0.0, L, n + 1)] * 3)
     points, tets = np.ascontiguousarray(grid.p.T), grid.t.T.astype(np.int64, order="C")
-    mirrored = element_volumes(points, tets) < 0.0
-    tets[mirrored] = tets[mirrored][:, [0, 2, 1, 3]]
+    tets = oriented(points, tets)
     shell = boundary_faces(tets)
     centres = points[shell].mean(axis=1)
     surfaces = {name: shell[np.isclose(centres[:, axis], at)] for name, (axis, at) in _places(L).items()}
-    fibres, times = np.tile(FIBRE, (len(tets), 1)), np.zeros(len(tets))
-    return VentricularMesh(points, tets, surfaces, fibres, None, times, np.zeros(len(points)))
+    return named(points, tets, surfaces, np.tile(FIBRE, (len(tets), 1)))
 
 
 @cache
-def solve(problem: Manufactured, n: int, element: str) -> tuple[VentricularMesh, Floats]:
-    """The cube and its unknowns (n, dofs) in equilibrium with the manufactured force; raises StepFailed."""
+def solve(problem: Manufactured, n: int, element: str, pulled: Sides = ()) -> tuple[VentricularMesh, Floats]:
+    """The cube and its unknowns (n, dofs) in equilibrium with the manufactured force; raises StepFailed.
+
+    The sides ``pulled`` bear the exact traction, all others are moved as given.
+    """
     mesh = cube(n, problem.L)
+    held = np.zeros((len(mesh.points), 3), dtype=bool)
+    held[_moved_nodes(mesh, pulled)] = True
     active = ConstantTension(tension_of_fibres=problem.sigma)
-    body = FiniteElementBody(mesh, Tissue(problem.material, active, support=Clamped(), element=element))
+    body = FiniteElementBody(mesh, Tissue(problem.material, active, support=Held(held=held), element=element))
     x = np.zeros((len(mesh.points), body.element.dofs))
     x[:, :3] = problem.displacement(mesh.points.T).T
-    return mesh, _newton(body.endless_step(body.rest()), x, _load(problem, mesh))
+    load = _body_load(problem, mesh)
+    for side in pulled:
+        load += _traction_load(problem, mesh, side)
+    return mesh, _newton(body.endless_step(body.rest()), x, load, held)
 
 
-def _newton(step: Step, x: Floats, load: Floats) -> Floats:
-    clamped, first = _surface_nodes(step.body.reference), np.inf
+def _newton(step: Step, x: Floats, load: Floats, held: np.ndarray) -> Floats:
+    first = np.inf
     for _ in range(ITERATIONS):
         residual = step.forces(x).reshape(x.shape)
         residual[:, :3] -= load
-        residual[clamped, :3] = 0.0
+        residual[:, :3][held] = 0.0
         size = step.size(residual)
         first = min(first, max(size, float(np.linalg.norm(load))))
         if size < RELATIVE_TOLERANCE * first:
             return x
         change = step.tangent(x).solve(residual.ravel()).reshape(x.shape)
-        change[clamped, :3] = 0.0
+        change[:, :3][held] = 0.0
         x = x - change
     raise StepFailed(f"the block finds no equilibrium, residual {size:.3g} N of {first:.3g} N")
 
 
-def _load(problem: Manufactured, mesh: VentricularMesh) -> Floats:
+def _body_load(problem: Manufactured, mesh: VentricularMesh) -> Floats:
     """Nodal forces (n, 3) of the body force."""
     basis = quadrature(mesh)
-    force = problem.force(np.asarray(basis.global_coordinates())) * basis.dx
-    load = np.zeros_like(mesh.points)
+    return _spread(problem.force(np.asarray(basis.global_coordinates())), basis, np.asarray(basis.mesh.t))
+
+
+def _traction_load(problem: Manufactured, mesh: VentricularMesh, side: str) -> Floats:
+    """Nodal forces (n, 3) of the exact traction on a side."""
+    grid, (axis, at) = _grid(mesh), _places(problem.L)[side]
+    facets = grid.facets_satisfying(lambda X: np.isclose(X[axis], at), boundaries_only=True)
+    basis = FacetBasis(grid, ElementTetP1(), facets=facets, intorder=5)
+    X, normals = np.asarray(basis.global_coordinates()), np.asarray(basis.normals)
+    return _spread(problem.traction(X, normals), basis, np.asarray(grid.t[:, basis.tind]))
+
+
+def _spread(density: Floats, basis: Any, corners: Integers) -> Floats:
+    """Nodal forces (n, 3) of a density (3, e, q) at the quadrature points; ``corners`` (4, e) are global nodes."""
+    load = np.zeros((basis.mesh.p.shape[1], 3))
     for a in range(4):
-        share = np.einsum("ieq,eq->ei", force, np.broadcast_to(np.asarray(basis.basis[a][0]), basis.dx.shape))
-        np.add.at(load, basis.mesh.t[a], share)
+        shape = np.broadcast_to(np.asarray(basis.basis[a][0]), basis.dx.shape)
+        np.add.at(load, corners[a], np.einsum("ieq,eq,eq->ei", density, shape, basis.dx))
     return load
 
 
 def quadrature(mesh: VentricularMesh) -> Basis:
     """Linear shape functions at the points of a rule exact to degree 5."""
-    grid = MeshTet(np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.tets.T))
-    return Basis(grid, ElementTetP1(), intorder=5)
+    return Basis(_grid(mesh), ElementTetP1(), intorder=5)
+
+
+def _grid(mesh: VentricularMesh) -> MeshTet:
+    return MeshTet(np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.tets.T))
 
 
 def _places(L: float) -> dict[str, tuple[int, float]]:
     return {"lv_endo": (2, 0.0), "rv_endo": (2, L), "base": (0, 0.0), "epi": (0, L)}
 
 
-def _surface_nodes(mesh: VentricularMesh) -> Integers:
-    return np.unique(boundary_faces(mesh.tets))
+def _moved_nodes(mesh: VentricularMesh, pulled: Sides) -> Integers:
+    """Nodes of the whole surface but the inside of the sides ``pulled``."""
+    shell = boundary_faces(mesh.tets)
+    free = [mesh.surfaces[side] for side in pulled]
+    keys = {tuple(sorted(face)) for side in free for face in side.tolist()}
+    moved: Integers = np.unique(shell[[tuple(sorted(face)) not in keys for face in shell.tolist()]])
+    return moved

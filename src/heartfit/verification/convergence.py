@@ -7,7 +7,7 @@ import numpy as np
 
 from heartfit.geometry.arrays import Floats
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.verification.block import quadrature, solve
+from heartfit.verification.block import Sides, quadrature, solve
 from heartfit.verification.manufactured import Manufactured
 
 
@@ -20,9 +20,9 @@ class Errors:
 
 
 @cache
-def errors(problem: Manufactured, n: int, element: str) -> Errors:
+def errors(problem: Manufactured, n: int, element: str, pulled: Sides = ()) -> Errors:
     """Of the cube with ``n`` elements along an edge, integrated to degree 5; raises StepFailed."""
-    mesh, x = solve(problem, n, element)
+    mesh, x = solve(problem, n, element, pulled)
     return error_of(problem, mesh, x)
 
 

@@ -1,4 +1,4 @@
-r"""A deformation of a block for which the body force is known exactly.
+r"""A deformation of a block for which body force and traction are known exactly.
 
 The map is a stretch of the height followed by three shears,
 
@@ -10,7 +10,7 @@ then grows with K is locking. The force is :math:`b = -\mathrm{Div} P` of
 
 .. math:: P = \partial W / \partial F + \sigma\, F f \otimes f ,
 
-differentiated by a complex step, which has no truncation error beyond round-off.
+differentiated by a complex step, which has no truncation error beyond round-off; the traction is P N.
 Source of the method: Salari and Knupp, SAND2000-1444; of the step: Squire and Trapp, SIAM Rev. 40 (1998) 110.
 """
 
@@ -98,6 +98,11 @@ class Manufactured:
             moved[j] += 1j * COMPLEX_STEP
             divergence += self.stress(self.deformation_gradient(moved))[:, j].imag / COMPLEX_STEP
         return -divergence
+
+    def traction(self, X: Floats, normals: Floats) -> Floats:
+        """Force (3, ...) per reference area, Pa, on faces of the outward unit ``normals`` (3, ...)."""
+        force: Floats = np.einsum("ij...,j...->i...", self.stress(self.deformation_gradient(X)), normals)
+        return force
 
     def _lift(self, z: np.ndarray) -> np.ndarray:
         k = 2.0 * np.pi / self.L

@@ -2,15 +2,20 @@
 
 import numpy as np
 
+from heartfit.verification.arostica_checks import arostica_checks
 from heartfit.verification.block_checks import HARD, SIZES, SOFT, USUAL, block_checks, block_error
 from heartfit.verification.check import Check
+from heartfit.verification.land_checks import coarse_land_checks, fine_land_checks, land_table
 from heartfit.verification.slab import CHASTE_CORNER, SIZE, exact
 from heartfit.verification.slab_checks import slab_checks
 
+MISSED = "**missed**"
+
 HEADER = """# Verification
 
-The simulator beside answers that nobody here produced. This page is written by `heartfit verification`; a test asserts
-every row.
+The simulator beside answers that nobody here produced. This page is written by `heartfit verification`, which fails
+if a row is missed. The tests assert every row; the last five, on the finest meshes of the ventricles and the beam, take
+over a minute and are asserted by `python3 study.py test -m long` alone.
 
 | check | measured | expected | | | unit | by |
 |---|---|---|---|---|---|---|
@@ -21,7 +26,9 @@ BLOCK = """
 
 A cube of 20 mm of active Mooney-Rivlin tissue, fibre tension 20 kPa, is deformed as a formula says; the body force that
 this takes is differentiated exactly, its surface is moved as given, and the step of the wall, with its own elements,
-assembly and factors, solves for the inside. Wall pressures stay the same as K grows. Relative errors of
+assembly and factors, solves for the inside. In the rows "traction" two of its sides are free and bear the exact
+traction instead: there a stress that is wrong by a constant shows too. Wall pressures stay the same as K grows, and
+with them the deformation. Relative errors, surface moved, of
 the displacement, in L2 / of its gradient (H1), for 3, 6 and 12 elements along an edge:
 
 | element | K, Pa | 3 | 6 | 12 |
@@ -39,20 +46,50 @@ lies within the range but verifies nothing: its mesh is too coarse, along its ed
 0.20 m/s across the fibres. The eikonal solver is held to the closed form.
 """
 
+LAND = """
+## Benchmark of cardiac mechanics
+
+Land et al. 2015, with the exponential law of Guccione and the element `mixed`. A beam of 10 x 1 x 1 mm is bent by 4 Pa
+from below, which follow its surface; a truncated ellipsoid, clamped at its base, is inflated; the same with fibres that
+turn from +90 to -90 degrees across the wall is inflated and contracts. Expected is what a participant, Simula-FEniCS,
+found with elements of order 2 to 5 and published with the benchmark; its digits no longer change with the mesh.
+The asked points are the tip (10, 0.5, 1) mm, whose z of 4.17 mm is a position and its deflection 1 mm less, and the
+nodes on the axis at endocardium and epicardium. On the axis the fibres of the third problem have no direction, and
+coarse meshes err there: with quadratic elements of 1.5 mm the participant finds the endocardial apex at -11.9 mm, and
+the -12.0 mm that a public code prints is as far off. That our coarsest mesh is nearer than the next is luck. Linear
+elements bend stiffly; the cavity, which nobody asked for, converges later than the apices.
+
+| problem | | coarse | middle | fine | expected |
+|---|---|---|---|---|---|
+"""
+
+ACTIVE = """
+## Active stress of the benchmark of elastodynamics
+
+Arostica et al. 2025 prescribe a control with smooth edges and the stress that follows from it by an equation of its
+own. The contractile law of the wall, its series element stiff and its strain held at zero, gives the same stress: at
+most 118.106 kPa, at 479.5 ms.
+"""
+
 
 def all_checks() -> list[Check]:
-    """Every check of the page; takes about 15 s."""
-    return block_checks() + slab_checks()
+    """Every check that the tests assert each time; takes about 20 s."""
+    return block_checks() + slab_checks() + arostica_checks() + coarse_land_checks()
+
+
+def page_checks() -> list[Check]:
+    """Every check of the page; takes two minutes."""
+    return all_checks() + fine_land_checks()
 
 
 def verification_page() -> str:
     """The page."""
-    table = "".join(map(_row, all_checks()))
-    return HEADER + table + BLOCK + _errors() + SLAB.format(**_arrivals())
+    table = "".join(map(_row, page_checks()))
+    return HEADER + table + BLOCK + _errors() + SLAB.format(**_arrivals()) + LAND + land_table() + ACTIVE
 
 
 def _row(check: Check) -> str:
-    verdict = "met" if check.passed else "**missed**"
+    verdict = "met" if check.passed else MISSED
     cells = (check.name, f"{check.measured:.2f}", f"{check.expected:g}", f"± {check.tolerance:g}", verdict)
     return f"| {' | '.join([*cells, check.unit, check.source])} |\n"
 
