@@ -12,8 +12,8 @@ from benchmarks.ventricles import FOLDER, ROOT, mesh_file
 from heartfit.io.meshes import read_mesh
 
 PEERS = ("scikit_fem", "ngsolve")
-SAME_RESIDUAL, SAME_DIRECTION = 1e-9, 0.05
-"""Largest relative differences; our factors are in single precision, as the engine uses them."""
+SAME = {"residual": 1e-9, "tangent": 1e-6}
+"""Largest relative differences; ours of the tangent comes from differences of forces."""
 
 
 @dataclass(frozen=True)
@@ -49,10 +49,10 @@ def newton_steps(mesh: str, element: str) -> list[Newton]:
 
 
 def _require_same(step: Newton) -> None:
-    if not (step.defects["residual"] < SAME_RESIDUAL and step.defects["direction"] < SAME_DIRECTION):
+    if not all(step.defects[name] < largest for name, largest in SAME.items()):
         raise RuntimeError(
             f"{step.solver}, {step.mesh}, {step.element}: differs by {step.defects} relative to ours; "
-            f"expected below {SAME_RESIDUAL:g} and {SAME_DIRECTION:g}: not the same problem"
+            f"expected below {SAME}: not the same problem"
         )
 
 
@@ -63,7 +63,7 @@ def main(mesh: str, element: str) -> None:
     tangent_s, factor = median_cpu(lambda: step.tangent(x))
     solve_s, _ = median_cpu(lambda: factor.solve(residual))
     times = {"residual": residual_s, "tangent and factors": tangent_s, "solution": solve_s}
-    print(json.dumps({"solver": "heartfit", "times": times, "defects": {"residual": 0.0, "direction": 0.0}}))
+    print(json.dumps({"solver": "heartfit", "times": times, "defects": {}}))
 
 
 if __name__ == "__main__":

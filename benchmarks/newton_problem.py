@@ -18,9 +18,12 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics.body import FiniteElementBody, Step, Tissue
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 from heartfit.mechanics.support import Support
-from heartfit.verification.block import CLAMP, ConstantTension
+from heartfit.verification.block import ConstantTension
 
 TENSION = 30e3  # Pa
+HOLD = 1e7
+"""Springs, N/m, some thousand times a node's own stiffness: more would spoil factors in single precision."""
+PROBE = 1e-5
 STRAIN, PRESSURE = 0.1, 2e3  # 1, Pa: of the state
 
 
@@ -30,7 +33,7 @@ class HeldBase(Support):
 
     def stiffness(self, mesh: VentricularMesh) -> np.ndarray:
         blocks = np.zeros((len(mesh.points), 3, 3))
-        blocks[base_nodes(mesh)] = CLAMP * np.eye(3)
+        blocks[base_nodes(mesh)] = HOLD * np.eye(3)
         return blocks
 
     def damping(self, mesh: VentricularMesh) -> np.ndarray:
@@ -62,10 +65,14 @@ def step_of(mesh: VentricularMesh, element: str) -> tuple[Step, np.ndarray]:
 
 
 def write_problem(path: Path, mesh: VentricularMesh, element: str) -> None:
-    """All that another program needs, with our residual and Newton direction to compare."""
+    """All that another program needs, and what to compare: our residual, our Newton direction, and the derivative
+    of our forces in some direction, by differences.
+    """
     step, x = step_of(mesh, element)
     residual = step.forces(x)
     direction = step.tangent(x).solve(residual)
+    probe = x[:, [1, 2, 0, *range(3, x.shape[1])]]
+    derivative = (step.forces(x + PROBE * probe) - step.forces(x - PROBE * probe)) / (2.0 * PROBE)
     law = step.body.tissue.passive
     np.savez(
         path,
@@ -77,4 +84,6 @@ def write_problem(path: Path, mesh: VentricularMesh, element: str) -> None:
         x=x,
         residual=residual.reshape(x.shape),
         direction=direction.reshape(x.shape),
+        probe=probe,
+        derivative=derivative.reshape(x.shape),
     )

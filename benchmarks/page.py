@@ -40,8 +40,9 @@ NEWTON = """
 
 One full Newton step of the same wall in other programs: Mooney-Rivlin law, fibres of constant tension, base held,
 the same deformed state; `mixed` is the same stabilised element everywhere. CPU ms of residual, tangent, factors and
-solution; µs per unknown. All residuals agree to 1e-9 or better; "left" is what remains of the residual where the
-other's exact tangent is applied to our Newton direction, whose factors are in single precision. "ratio" compares
+solution; µs per unknown. All residuals agree to 1e-9 or better, all tangents to 1e-6; "left" is what remains of the
+residual where the other's tangent is applied to our Newton direction: our factors are in single precision, as a
+direction needs no more. "ratio" compares
 full steps. The engine keeps its factors over many steps;
 "in use" divides the full step of the others, which is what they do as they come, by the mean time of an iteration
 in our beat, with everything that belongs to it: fibres, circuit, factors now and then.

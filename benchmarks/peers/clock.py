@@ -24,6 +24,8 @@ class Problem:
     x: np.ndarray
     residual: np.ndarray
     direction: np.ndarray
+    probe: np.ndarray
+    derivative: np.ndarray
 
     @property
     def free(self) -> np.ndarray:
@@ -49,21 +51,23 @@ def median_cpu(work: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def say(
-    problem: Problem, times: dict[str, float], residual: np.ndarray, image: np.ndarray, solver: str
+    problem: Problem, times: dict[str, float], residual: np.ndarray, images: list[np.ndarray], solver: str
 ) -> None:
-    """Print times and how far the answers are from ours: ``image`` (n, dofs) is the tangent on our direction."""
+    """Print times and how far the answers are from ours; images (n, dofs): the tangent on probe and direction."""
     defects = {
-        "residual": _relative(residual - problem.residual, problem),
-        "direction": _relative(image - problem.residual, problem),
+        "residual": _relative(residual, problem.residual, problem),
+        "tangent": _relative(images[0], problem.derivative, problem),
+        "direction": _relative(images[1], problem.residual, problem),
     }
     print(json.dumps({"solver": solver, "times": times, "defects": defects}))
 
 
-def _relative(difference: np.ndarray, problem: Problem) -> float:
+def _relative(theirs: np.ndarray, ours: np.ndarray, problem: Problem) -> float:
     """The worse of forces and wall-pressure equations, each over its own norm."""
     parts = []
     for part in (slice(None, 3), slice(3, None)):
-        free, ours = problem.free[:, part], problem.residual[:, part]
+        free = problem.free[:, part]
         if free.size:
-            parts.append(np.linalg.norm(difference[:, part][free]) / np.linalg.norm(ours[free]))
+            difference = (theirs - ours)[:, part][free]
+            parts.append(np.linalg.norm(difference) / np.linalg.norm(ours[:, part][free]))
     return float(max(parts))

@@ -33,12 +33,11 @@ def main() -> None:
     step = Step(problem)
     residual_s, residual = clock.median_cpu(step.residual)
     tangent_s, matrix = clock.median_cpu(step.tangent)
-    ours, image = step.vector(problem.direction), step.x.vec.CreateVector()
-    image.data = matrix * ours
+    images = [step.image(matrix, each) for each in (problem.probe, problem.direction)]
     factor_s, solve_s, solver = min(map(step.solved, SOLVERS))
     times = {"residual": residual_s, "tangent": tangent_s, "factors": factor_s, "solution": solve_s}
     name = f"NGSolve {ngsolve.__version__}, {solver}"
-    clock.say(problem, times, step.table(residual), step.table(image), name)
+    clock.say(problem, times, step.table(residual), images, name)
 
 
 class Step:
@@ -95,6 +94,11 @@ class Step:
     def tangent(self):
         self.form.AssembleLinearization(self.x.vec)
         return self.form.mat
+
+    def image(self, matrix, table: np.ndarray) -> np.ndarray:
+        given, result = self.vector(table), self.x.vec.CreateVector()
+        result.data = matrix * given
+        return self.table(result)
 
     def solved(self, solver: str) -> tuple[float, float, str]:
         """CPU s for factors and solution, and the solver's name; infinite where it does not solve."""

@@ -18,9 +18,9 @@ def main() -> None:
     factor_s, factors = clock.median_cpu(lambda: splu(inner))
     solve_s, _ = clock.median_cpu(lambda: factors.solve(residual[step.free]))
     times = {"residual": residual_s, "tangent": tangent_s, "factors": factor_s, "solution": solve_s}
-    image = matrix @ step.vector(problem.direction)
+    images = [step.table(matrix @ step.vector(each)) for each in (problem.probe, problem.direction)]
     solver = f"scikit-fem {skfem.__version__}, SuperLU of scipy {scipy.__version__}"
-    clock.say(problem, times, step.table(residual), step.table(image), solver)
+    clock.say(problem, times, step.table(residual), images, solver)
 
 
 class Step:
