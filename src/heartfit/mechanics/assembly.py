@@ -4,7 +4,7 @@ import numpy as np
 from numba import njit
 
 from heartfit.geometry.arrays import Floats, Integers
-from heartfit.mechanics.kinematics import COLUMN, ROW, inverse, symmetric_product
+from heartfit.mechanics.kinematics import inverse, symmetric_product
 
 
 @njit(cache=True, error_model="numpy")
@@ -27,16 +27,30 @@ def add_stresses(
             S[e, i] += p[e] * J[e] * Ci[i] + viscous + tension[e] * dyads[e, i]
 
 
-@njit(cache=True)
-def add_volumetric_tangent(C: Floats, J: Floats, p: Floats, slope: Floats, D: Floats) -> None:
-    r"""Add :math:`(pJ + p'J^2) C^{-1}\otimes C^{-1} - 2 p J\, C^{-1}\odot C^{-1}`, ``slope`` being p'(J)."""
+@njit(cache=True, error_model="numpy")
+def add_tangents(
+    C: Floats,
+    J: Floats,
+    p: Floats,
+    slope: Floats,
+    viscosity: float,
+    stiffness: Floats,
+    dyads: Floats,
+    D: Floats,
+) -> None:
+    r"""Add the derivatives of :func:`add_stresses` to ``D``, ``slope`` being p'(J), ``stiffness`` that of the tension.
+
+    The volumetric one is :math:`(pJ + p'J^2) C^{-1}\otimes C^{-1} - 2 p J\, C^{-1}\odot C^{-1}`.
+    """
     Ci = np.empty(6)
     for e in range(C.shape[0]):
         inverse(C[e], J[e] * J[e], Ci)
         a, b = p[e] * J[e] + slope[e] * J[e] * J[e], 2.0 * p[e] * J[e]
         for i in range(6):
             for j in range(6):
-                D[e, i, j] += a * Ci[i] * Ci[j] - b * symmetric_product(Ci, i, j)
+                volumetric = a * Ci[i] * Ci[j] - b * symmetric_product(Ci, i, j)
+                D[e, i, j] += volumetric + stiffness[e] * dyads[e, i] * dyads[e, j]
+            D[e, i, i] += viscosity * (2.0 if i < 3 else 1.0)
 
 
 @njit(cache=True)
@@ -58,40 +72,56 @@ def add_nodal_forces(
                 out[tets[e, a], i] += volumes[e] * force
 
 
-@njit(cache=True)
-def element_stiffness(  # noqa: C901
+@njit(cache=True, error_model="numpy")
+def element_stiffness(
     F: Floats, S: Floats, D: Floats, gradients: Floats, volumes: Floats, dofs: int, out: Floats
 ) -> None:
     r"""Fill the displacement blocks of ``out`` (m, 4 dofs, 4 dofs) with material and geometric stiffness."""
-    B, DB = np.empty((6, 12)), np.empty((6, 12))
+    B, DB, K = np.empty((6, 12)), np.empty((6, 12)), np.empty((12, 12))
     for e in range(F.shape[0]):
-        g = gradients[e]
+        _strains(F[e], gradients[e], B)
+        _multiply(D[e], B, DB)
+        _multiply(B.T, DB, K)
+        _add_geometric(S[e], gradients[e], K)
         for a in range(4):
             for i in range(3):
-                for r in range(6):
-                    shear = 1.0 if r < 3 else 2.0
-                    value = F[e, i, ROW[r]] * g[a, COLUMN[r]] + F[e, i, COLUMN[r]] * g[a, ROW[r]]
-                    B[r, 3 * a + i] = 0.5 * shear * value
-        for r in range(6):
-            for c in range(12):
-                value = 0.0
-                for k in range(6):
-                    value += D[e, r, k] * B[k, c]
-                DB[r, c] = value
-        for a in range(4):
-            for b in range(4):
-                geometric = 0.0
-                for r in range(6):
-                    value = g[a, ROW[r]] * g[b, COLUMN[r]]
-                    if r >= 3:
-                        value += g[a, COLUMN[r]] * g[b, ROW[r]]
-                    geometric += S[e, r] * value
-                for i in range(3):
+                for b in range(4):
                     for j in range(3):
-                        value = geometric if i == j else 0.0
-                        for r in range(6):
-                            value += B[r, 3 * a + i] * DB[r, 3 * b + j]
-                        out[e, dofs * a + i, dofs * b + j] = volumes[e] * value
+                        out[e, dofs * a + i, dofs * b + j] = volumes[e] * K[3 * a + i, 3 * b + j]
+
+
+@njit(cache=True, error_model="numpy")
+def _strains(F: Floats, gradients: Floats, B: Floats) -> None:
+    """Fill ``B`` (6, 12) with the derivatives of the engineering strains by the displacements."""
+    for a in range(4):
+        for i in range(3):
+            for r in range(3):
+                B[r, 3 * a + i] = F[i, r] * gradients[a, r]
+            B[3, 3 * a + i] = F[i, 0] * gradients[a, 1] + F[i, 1] * gradients[a, 0]
+            B[4, 3 * a + i] = F[i, 0] * gradients[a, 2] + F[i, 2] * gradients[a, 0]
+            B[5, 3 * a + i] = F[i, 1] * gradients[a, 2] + F[i, 2] * gradients[a, 1]
+
+
+@njit(cache=True, error_model="numpy")
+def _multiply(A: Floats, B: Floats, out: Floats) -> None:
+    """Fill ``out`` with A B, in rows of B, as small as they are."""
+    for i in range(A.shape[0]):
+        for j in range(12):
+            out[i, j] = 0.0
+        for k in range(6):
+            for j in range(12):
+                out[i, j] += A[i, k] * B[k, j]
+
+
+@njit(cache=True, error_model="numpy")
+def _add_geometric(S: Floats, gradients: Floats, K: Floats) -> None:
+    for a in range(4):
+        x, y, z = gradients[a]
+        left = S[0] * x + S[3] * y + S[4] * z, S[3] * x + S[1] * y + S[5] * z, S[4] * x + S[5] * y + S[2] * z
+        for b in range(4):
+            value = left[0] * gradients[b, 0] + left[1] * gradients[b, 1] + left[2] * gradients[b, 2]
+            for i in range(3):
+                K[3 * a + i, 3 * b + i] += value
 
 
 @njit(cache=True)

@@ -85,6 +85,11 @@ class FiniteElementBody:
         """How the tangent is factorised; may be handed on to bodies of the same tetrahedra."""
         return self._elimination or Elimination(self.tets, len(self.reference.points), self.element.dofs)
 
+    @cached_property
+    def element_matrices(self) -> Floats:
+        """Room (m, 4 dofs, 4 dofs) for the tangent of every element: the largest array there is."""
+        return np.empty((len(self.tets), 4 * self.element.dofs, 4 * self.element.dofs))
+
     def rest(self) -> BodyState:
         """The stress-free state."""
         m = len(self.tets)
@@ -184,16 +189,18 @@ class Step:
         return self.body.elimination.factorise(*self.stiffness(x))
 
     def stiffness(self, x: Floats) -> tuple[Floats, Floats]:
-        """That derivative as element matrices (m, 4 dofs, 4 dofs) and nodal blocks (n, dofs, dofs)."""
+        """That derivative as element matrices (m, 4 dofs, 4 dofs), overwritten by the next call, and nodal blocks.
+
+        The latter are (n, dofs, dofs).
+        """
         body = self.body
-        dofs, m = body.element.dofs, len(body.tets)
-        elements = np.zeros((m, 4 * dofs, 4 * dofs))
+        dofs, m, elements = body.element.dofs, len(body.tets), body.element_matrices
         D = self._material_tangent(x)
         assembly.element_stiffness(self._F, self._S, D, body.gradients, body.element_volumes, dofs, elements)
         slopes = np.empty((m, 4, 3))
         assembly.volume_slopes(self._F, body.gradients, slopes)
         K, G = body.tissue.passive.K, body.tissue.passive.shear_modulus
-        body.element.add_stiffness(slopes, body.element_volumes, K, G, elements)
+        body.element.fill_stiffness(slopes, body.element_volumes, K, G, elements)
         nodes = np.zeros((len(x), dofs, dofs))
         nodes[:, :3, :3] = self._support
         return elements, nodes
@@ -203,10 +210,8 @@ class Step:
         D = np.empty((len(body.tets), 6, 6))
         tissue.passive.tangent(self._C, self._J, body.passive_scale, body.dyads, D)
         p, slope = body.element.pressure(x, body.tets, self._J, tissue.passive.K)
-        assembly.add_volumetric_tangent(self._C, self._J, p, slope, D)
-        D[:, range(6), range(6)] += 2.0 * self._viscosity * np.array([1, 1, 1, 0.5, 0.5, 0.5])
-        slope = (1.0 + self.time_step.memory) * self._fibre[1]
-        D += slope[:, None, None] * body.dyads[:, :, None] * body.dyads[:, None, :]
+        stiffness = (1.0 + self.time_step.memory) * self._fibre[1]
+        assembly.add_tangents(self._C, self._J, p, slope, self._viscosity, stiffness, body.dyads, D)
         return D
 
     def commit(self, x: Floats) -> BodyState:

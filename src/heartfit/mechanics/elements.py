@@ -35,8 +35,8 @@ class Element(Protocol):
     ) -> None:
         """Add the equations of the pressure unknowns to ``out`` (n, dofs)."""
 
-    def add_stiffness(self, slopes: Floats, volumes: Floats, K: float, G: float, out: Floats) -> None:
-        """Add the blocks of the pressure unknowns to the element matrices ``out``."""
+    def fill_stiffness(self, slopes: Floats, volumes: Floats, K: float, G: float, out: Floats) -> None:
+        """Fill the blocks of the pressure unknowns in the element matrices ``out``."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class P1:
     ) -> None:
         """Nothing: there is no pressure unknown."""
 
-    def add_stiffness(self, slopes: Floats, volumes: Floats, K: float, G: float, out: Floats) -> None:
+    def fill_stiffness(self, slopes: Floats, volumes: Floats, K: float, G: float, out: Floats) -> None:
         """Nothing: the volumetric stiffness is in the material tangent."""
 
 
@@ -71,8 +71,8 @@ class Mixed:
     ) -> None:
         _add_volume_equations(x, tets, J, volumes, self._compliance(K, G), out)
 
-    def add_stiffness(self, slopes: Floats, volumes: Floats, K: float, G: float, out: Floats) -> None:
-        _add_pressure_blocks(slopes, volumes, self._compliance(K, G), out)
+    def fill_stiffness(self, slopes: Floats, volumes: Floats, K: float, G: float, out: Floats) -> None:
+        _fill_pressure_blocks(slopes, volumes, self._compliance(K, G), out)
 
     @staticmethod
     def _compliance(K: float, G: float) -> Floats:
@@ -102,15 +102,15 @@ def _add_volume_equations(
 
 
 @njit(cache=True)
-def _add_pressure_blocks(slopes: Floats, volumes: Floats, compliance: Floats, out: Floats) -> None:
+def _fill_pressure_blocks(slopes: Floats, volumes: Floats, compliance: Floats, out: Floats) -> None:
     for e in range(len(volumes)):
         for a in range(4):
             for b in range(4):
-                out[e, 4 * a + 3, 4 * b + 3] -= volumes[e] * compliance[a, b]
+                out[e, 4 * a + 3, 4 * b + 3] = -volumes[e] * compliance[a, b]
                 for i in range(3):
                     coupling = 0.25 * volumes[e] * slopes[e, a, i]
-                    out[e, 4 * a + i, 4 * b + 3] += coupling
-                    out[e, 4 * b + 3, 4 * a + i] += coupling
+                    out[e, 4 * a + i, 4 * b + 3] = coupling
+                    out[e, 4 * b + 3, 4 * a + i] = coupling
 
 
 ELEMENTS: dict[str, Element] = {"p1": P1(), "mixed": Mixed()}

@@ -105,12 +105,15 @@ def _eliminate(  # type: ignore[no-untyped-def]
     place, corners = np.empty(len(nodes), dtype=np.int64), np.empty(4, dtype=np.int64)
     stack, filled = np.empty(stack_size, dtype=np.float32), 0
     waiting, top = np.empty(len(parents), dtype=np.int64), 0
+    largest = (np.diff(starts) + np.diff(row_starts)).max()
+    room = np.empty((dofs * largest) ** 2, dtype=np.float32)
     for s in range(len(parents)):
         touched = rows[row_starts[s] : row_starts[s + 1]]
         c, r = dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
         place[starts[s] : starts[s + 1]] = np.arange(0, c, dofs)
         place[touched] = np.arange(c, c + r, dofs)
-        front = np.zeros((c + r, c + r), dtype=np.float32)
+        front = room[: (c + r) ** 2].reshape(c + r, c + r)
+        front[:] = 0.0
         for i in range(starts[s], starts[s + 1]):
             _add(front, nodes[i], place[i : i + 1], dofs)
         for e in chosen[chosen_starts[s] : chosen_starts[s + 1]]:
@@ -127,8 +130,8 @@ def _eliminate(  # type: ignore[no-untyped-def]
         inverses[inverse_starts[s] : inverse_starts[s + 1]] = inverse.ravel()
         if r:
             below = front[c:, :c].copy()
-            coupling = np.dot(below, inverse)
-            couplings[coupling_starts[s] : coupling_starts[s + 1]] = coupling.ravel()
+            coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
+            np.dot(below, inverse, coupling)
             _leave(front[c:, c:], coupling, below, stack[filled : filled + r * r].reshape(r, r))
             filled += r * r
             waiting[top] = s
@@ -158,8 +161,9 @@ def _add(front, block, places, dofs):  # type: ignore[no-untyped-def]
 @njit(cache=True)
 def _leave(rest, coupling, below, update):  # type: ignore[no-untyped-def]
     """Fill the lower triangle of ``update`` with what the elimination leaves of ``rest``."""
-    for start in range(0, len(rest), BLOCK):
-        end = min(start + BLOCK, len(rest))
+    block = BLOCK if len(rest) > 2 * BLOCK else len(rest)
+    for start in range(0, len(rest), block):
+        end = min(start + block, len(rest))
         update[start:end, :end] = rest[start:end, :end]
         update[start:end, :end] -= np.dot(coupling[start:end], below[:end].T)
 

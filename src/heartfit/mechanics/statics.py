@@ -16,20 +16,20 @@ CONTRACTION = 0.4
 
 def inflate(body: Any, pressures: Floats, increments: int = INCREMENTS) -> Any:
     """State of ``body`` filled from rest to ``pressures`` (2,), Pa; raises StepFailed if it balloons."""
-    state = body.rest()
+    state, factor = body.rest(), None
     for share in np.linspace(0.0, 1.0, increments + 1)[1:]:
-        state = _equilibrium(body, state, share * pressures)
+        state, factor = _equilibrium(body, state, share * pressures, factor)
     return state
 
 
-def _equilibrium(body: Any, state: Any, pressures: Floats) -> Any:
-    step, x = body.endless_step(state), state.x.copy()
-    factor, previous = None, np.inf
+def _equilibrium(body: Any, state: Any, pressures: Floats, factor: Any) -> tuple[Any, Any]:
+    """The state under ``pressures``, and the factor that led there, to start the next from."""
+    step, x, previous = body.endless_step(state), state.x.copy(), np.inf
     for _ in range(ITERATIONS):
         residual = step.forces(x) - body.volume_gradients(x) @ pressures
         size = step.size(residual)
         if size < FORCE_TOLERANCE:
-            return step.commit(x)
+            return step.commit(x), factor
         if factor is None or size > CONTRACTION * previous:
             factor = step.tangent(x)
         previous = size
