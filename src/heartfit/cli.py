@@ -120,7 +120,7 @@ def configuration_schema(_: argparse.Namespace) -> int:
 
 
 def verification(_: argparse.Namespace) -> int:
-    """print the page of verification, in two minutes; fails if a check is missed"""
+    """print the page of verification, in a minute or two; fails if a check is missed"""
     from heartfit.verification.page import MISSED, verification_page
 
     page = verification_page()

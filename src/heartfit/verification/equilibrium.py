@@ -146,6 +146,7 @@ class Balance:
         result[:, :3][held] = 0.0
         return result
 
+    @np.errstate(over="ignore", invalid="ignore")  # an exponential law overflows where a step leads too far
     def shortened(self, x: Floats, change: Floats, size: float) -> tuple[Floats, Floats]:
         """``x`` less as much of the change as keeps all elements and does not throw the residual far up."""
         for share in 0.5 ** np.arange(HALVINGS):

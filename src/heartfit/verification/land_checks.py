@@ -10,12 +10,12 @@ SOURCE = "Land et al. 2015, Simula-FEniCS"
 
 
 def coarse_land_checks() -> list[Check]:
-    """On the coarsest meshes, 3 s."""
+    """On the coarsest meshes, 2 s of computing."""
     return [row for problem in PROBLEMS for row in _rows(problem, problem.sizes[0], COARSE)]
 
 
 def fine_land_checks() -> list[Check]:
-    """On the finest meshes, a minute and a half."""
+    """On the finest meshes, half a minute of computing."""
     return [row for problem in PROBLEMS for row in _rows(problem, problem.sizes[-1], FINE)]
 
 

@@ -15,7 +15,7 @@ HEADER = """# Verification
 
 The simulator beside answers that nobody here produced. This page is written by `heartfit verification`, which fails
 if a row is missed. The tests assert every row; the last five, on the finest meshes of the ventricles and the beam, take
-over a minute and are asserted by `python3 study.py test -m long` alone.
+half a minute of computing and are asserted by `python3 study.py test -m long` alone.
 
 | check | measured | expected | | | unit | by |
 |---|---|---|---|---|---|---|
@@ -73,12 +73,12 @@ most 118.106 kPa, at 479.5 ms.
 
 
 def all_checks() -> list[Check]:
-    """Every check that the tests assert each time; takes about 20 s."""
+    """Every check that the tests assert each time; takes about 20 s of computing."""
     return block_checks() + slab_checks() + arostica_checks() + coarse_land_checks()
 
 
 def page_checks() -> list[Check]:
-    """Every check of the page; takes two minutes."""
+    """Every check of the page; takes a minute of computing."""
     return all_checks() + fine_land_checks()
 
 
