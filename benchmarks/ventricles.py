@@ -18,7 +18,7 @@ SIZES = {
     "6k": (9e-3, 0.3e-3),
     "10k": (5.6e-3, 0.25e-3),
     "30k": (3.5e-3, 0.25e-3),
-    "100k": (2.28e-3, 0.25e-3),
+    "100k": (2.34e-3, 0.25e-3),
 }
 """Edge length and tolerance, m, that fill the wall with about so many tetrahedra."""
 
