@@ -5,15 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.electrophysiology.onset import assign_activation
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.mesher import fill_wall
-from heartfit.geometry.parametric import ParametricVentricles
-from heartfit.geometry.prepare import prepare
 from heartfit.heart import Heart
 from heartfit.mechanics.body import FiniteElementBody, Tissue
 from heartfit.mechanics.sphere import Sphere, SphericalBody
 from heartfit.mechanics.unloading import unload
+from heartfit.verification.specimen import COARSE, specimen
 
 MEASURED_HEART = ("../shared/data/bivme_patient1", "resources/bivme_patient1")
 DESELECTED = pytest.StashKey[int]()
@@ -23,11 +20,7 @@ END_DIASTOLIC_PRESSURE = np.array([1000.0, 500.0])
 @pytest.fixture(scope="session")
 def ventricle() -> VentricularMesh:
     """Ventricles at end diastole, as coarse as still beats."""
-    shape = ParametricVentricles(
-        edv=130e-6, wall_thickness=10e-3, sphericity=0.95, rv_edv=140e-6, rv_wall_thickness=4.5e-3
-    )
-    mesh = fill_wall(shape.surface(), edge_length=0.017, tolerance=0.0012)
-    return assign_activation(prepare(mesh))
+    return specimen(COARSE)
 
 
 @pytest.fixture(scope="session")

@@ -31,6 +31,8 @@ HEIGHTS = (
     ("catalogue",),
     ("configuration",),
     ("protocol",),
+    ("verification",),
+    ("kernels",),
     ("console",),
     ("io",),
     ("cli",),

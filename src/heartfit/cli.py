@@ -5,6 +5,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from heartfit import protocol
 from heartfit.catalogue import declared, parameter_page
 from heartfit.console import Progress, beat_summary
@@ -44,9 +46,14 @@ def _parser() -> argparse.ArgumentParser:
         )
         if carry_out is simulate:
             _simulate_arguments(command)
-    for page in (parameters, configuration_schema, verification):
+    for page in (parameters, configuration_schema, verification, robustness):
         command = commands.add_parser(page.__name__.replace("_", "-"), help=page.__doc__)
         command.set_defaults(carry_out=page)
+    compared = commands.add_parser("reference", help=reference.__doc__)
+    compared.set_defaults(carry_out=reference)
+    compared.add_argument(
+        "mesh", type=Path, help="ventricles (.vtu) at end diastole, as the study builds them"
+    )
     return parser
 
 
@@ -126,3 +133,22 @@ def verification(_: argparse.Namespace) -> int:
     page = verification_page()
     print(page, end="")
     return int(MISSED in page)
+
+
+def robustness(_: argparse.Namespace) -> int:
+    """print the page of robustness, in a quarter of an hour"""
+    from heartfit.verification.robustness_page import robustness_page
+
+    print(robustness_page(say=lambda text: print(text, file=sys.stderr)), end="")
+    return 0
+
+
+def reference(given: argparse.Namespace) -> int:
+    """print what the choice of the stress-free reference does to the beat of a mesh, in some minutes"""
+    from heartfit.verification.reference import find
+    from heartfit.verification.reference_checks import reference_table
+
+    study = read_study([STANDARD])
+    loads = np.array([study.end_diastolic_pressure.lv, study.end_diastolic_pressure.rv])
+    print(reference_table(find(read_mesh(given.mesh), loads, study.numerics.numerics())), end="")
+    return 0

@@ -1,7 +1,7 @@
 """Run beats until the limit cycle; a run that fails is a result with a reason."""
 
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -21,6 +21,7 @@ SHIFT = 0.62
 the rest of it (the feedback on the measured heart is -0.6)."""
 
 Progress = Callable[[float], None]
+Watch = Callable[[Sequence[HeartState]], None]
 
 
 @dataclass(frozen=True)
@@ -41,32 +42,39 @@ class Numerics:
 
 
 def simulate(
-    heart: Heart, body: Body, numerics: Numerics | None = None, progress: Progress | None = None
+    heart: Heart,
+    body: Body,
+    numerics: Numerics | None = None,
+    progress: Progress | None = None,
+    watch: Watch | None = None,
 ) -> Beat:
     """Beat of ``heart`` with the ventricles ``body`` on its limit cycle.
 
     Between beats the pressures of the Windkessels, whose memory of tau is longer than a beat, are shifted
     towards where the stroke volume of the last beat would hold them. A beat counts as periodic by its own
     drift, from start to end, which is stated.
-    ``progress`` is called with the fraction done of ``max_beats`` after every time step.
+    ``progress`` is called with the fraction done of ``max_beats`` after every time step, ``watch`` once with the
+    states of the beat, one for each time.
     """
-    run = _Run(heart, body, numerics or Numerics(), progress)
+    run = _Run(heart, body, numerics or Numerics(), progress, watch)
     try:
         return run.to_limit_cycle()
     except StepFailed as failure:
         return failed_beat(f"beat {run.beats + 1}: {failure}", heart.period, heart.trigger, run.diagnostics())
 
 
-def _silence(_: float) -> None:
-    """Progress that nobody watches."""
+def _silence(_: object) -> None:
+    """What nobody watches."""
 
 
 class _Run:
-    def __init__(self, heart: Heart, body: Body, numerics: Numerics, progress: Progress | None) -> None:
+    def __init__(
+        self, heart: Heart, body: Body, numerics: Numerics, progress: Progress | None, watch: Watch | None
+    ) -> None:
         self.heart, self.body, self.numerics = heart, body, numerics
         self.coupling = Coupling(body, heart.circulation, heart.mechanisms, numerics.tolerances)
         self.steps = round(heart.period / numerics.time_step)
-        self.progress = progress or _silence
+        self.progress, self.watch = progress or _silence, watch or _silence
         self.beats, self.cuts, self.drift = 0, 0, np.inf
         self._started = clock.process_time()
 
@@ -81,6 +89,7 @@ class _Run:
             self.beats += 1
             self.drift = _drift(history)
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
+                self.watch(history)
                 return self._beat(history)
             state = self._shift(history[0], state)
 

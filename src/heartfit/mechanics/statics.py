@@ -9,7 +9,7 @@ from heartfit.mechanics.body import StepFailed
 
 INCREMENTS = 6
 ITERATIONS = 40
-FORCE_TOLERANCE = 1e-3  # N
+FORCE_TOLERANCE = 1e-6  # N: every beat starts from here
 CONTRACTION = 0.4
 """A step that shrinks the residual less than this renews the tangent."""
 

@@ -3,9 +3,12 @@
 import numpy as np
 
 from heartfit.verification.arostica_checks import arostica_checks
+from heartfit.verification.audit_checks import audit_checks
+from heartfit.verification.audit_page import audit_section
 from heartfit.verification.block_checks import HARD, SIZES, SOFT, USUAL, block_checks, block_error
 from heartfit.verification.check import Check
 from heartfit.verification.land_checks import coarse_land_checks, fine_land_checks, land_table
+from heartfit.verification.reference_checks import reference_checks, reference_section
 from heartfit.verification.slab import CHASTE_CORNER, SIZE, exact
 from heartfit.verification.slab_checks import slab_checks
 
@@ -73,8 +76,15 @@ most 118.106 kPa, at 479.5 ms.
 
 
 def all_checks() -> list[Check]:
-    """Every check that the tests assert each time; takes about 20 s of computing."""
-    return block_checks() + slab_checks() + arostica_checks() + coarse_land_checks()
+    """Every check that the tests assert each time; takes some 40 s of computing."""
+    return (
+        block_checks()
+        + slab_checks()
+        + arostica_checks()
+        + coarse_land_checks()
+        + reference_checks()
+        + audit_checks()
+    )
 
 
 def page_checks() -> list[Check]:
@@ -85,7 +95,18 @@ def page_checks() -> list[Check]:
 def verification_page() -> str:
     """The page."""
     table = "".join(map(_row, page_checks()))
-    return HEADER + table + BLOCK + _errors() + SLAB.format(**_arrivals()) + LAND + land_table() + ACTIVE
+    return (
+        HEADER
+        + table
+        + BLOCK
+        + _errors()
+        + SLAB.format(**_arrivals())
+        + LAND
+        + land_table()
+        + ACTIVE
+        + reference_section()
+        + audit_section()
+    )
 
 
 def _row(check: Check) -> str:

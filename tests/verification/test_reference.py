@@ -1,0 +1,46 @@
+"""The table of references: each variant is the heart and the reference that its name says."""
+
+import numpy as np
+import pytest
+
+from heartfit.beat import failed_beat
+from heartfit.heart import Heart
+from heartfit.mechanics.unloading import unload
+from heartfit.verification import reference
+from heartfit.verification.reference import FROZEN, OWN, Finding, Variant, find
+from heartfit.verification.reference_checks import first_beats, reference_table
+from heartfit.verification.specimen import COARSE, END_DIASTOLIC_PRESSURE, specimen
+
+
+def test_c_1_moves_by_its_deviations():
+    up, down = (Variant("", FROZEN, z).heart().tissue.passive.c_1 for z in (2.0, -2.0))
+    assert np.log(up / down) == pytest.approx(4 * 0.25)
+    assert up * down == pytest.approx(Heart().tissue.passive.c_1 ** 2)
+
+
+def test_a_frozen_reference_is_that_of_the_standard_heart(monkeypatch):
+    seen = []
+
+    def unloading(mesh, tissue, pressures):
+        seen.append(tissue.passive.c_1)
+        return unload(mesh, tissue, 0.0 * pressures)
+
+    monkeypatch.setattr(reference, "unload", unloading)
+    monkeypatch.setattr(reference, "simulate", lambda *_: failed_beat("not run", 0.8, 0.0, {}))
+    for variant in (Variant("", FROZEN, 2.0), Variant("", OWN, 2.0)):
+        with pytest.raises(ValueError, match="did the beat fail"):
+            find(specimen(COARSE), END_DIASTOLIC_PRESSURE, None, (variant,))
+    assert seen == pytest.approx([6e3, 6e3 * np.exp(0.5)])
+
+
+def test_the_table_has_a_row_per_finding():
+    row = {"own": Finding({"lv": 1.02, "rv": 0.98}, {"V_min": 40e-6, "q_max": 400e-6, "q_min": -500e-6})}
+    assert reference_table(row).splitlines()[-1] == "| own | +2.0 % / -2.0 % | 40 | 400 | -500 |"
+
+
+def test_every_reference_that_is_its_own_fills_alike():
+    """Both cavities, whatever c_1, to what was measured; the paper's overfills both."""
+    found = first_beats()
+    for name in ("own", "own, c_1 up", "own, c_1 down"):
+        assert list(found[name].filled.values()) == pytest.approx([1.0, 1.0], abs=0.05)
+    assert min(found["end-diastolic mesh, as the paper"].filled.values()) > 1.1

@@ -1,0 +1,70 @@
+"""Hearts of the prior: drawn as said, counted right, and their failures named."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from heartfit.catalogue import declared
+from heartfit.heart import FOURTEEN
+from heartfit.mechanics.body import StepFailed
+from heartfit.simulation import Numerics
+from heartfit.verification import robustness
+from heartfit.verification import robustness_page as page
+from heartfit.verification.robustness import CAMPAIGNS, CUT, Campaign, attempt, normal, uniform
+from heartfit.verification.specimen import COARSE, specimen
+
+COMMITTED = Path(__file__).parents[2] / "docs" / "robustness.md"
+SPHERES = Campaign("spheres", "sphere", normal, 6, 4, {"sigma_0": 150e3})
+
+
+def test_normal_draws_are_cut_and_uniform_ones_fill_the_box():
+    rng = np.random.default_rng(0)
+    z = normal(rng, (3000, 14))
+    assert np.abs(z).max() <= CUT
+    assert z.std() == pytest.approx(0.9866, abs=0.01)  # of a normal variable cut at 3
+    flat = uniform(rng, (3000, 14))
+    assert np.abs(flat).max() <= CUT
+    assert flat.std() == pytest.approx(CUT / np.sqrt(3.0), abs=0.01)
+
+
+def test_hearts_are_log_normal_about_the_centre():
+    """ln(theta / theta_0) over the declared deviation is z, and the centre moves what it names only."""
+    campaign = CAMPAIGNS[-1]
+    heart, z = next(campaign.hearts()), campaign.draws()[0]
+    values = heart.parameters()
+    for name, drawn in zip(FOURTEEN, z, strict=True):
+        middle = campaign.centre.get(name, declared(name).value)
+        assert np.log(values[heart.path_of(name)] / middle) / declared(name).sd == pytest.approx(drawn)
+    assert heart.tissue.element == "p1"
+
+
+def test_the_same_seed_gives_the_same_hearts():
+    assert list(SPHERES.hearts()) == list(SPHERES.hearts())
+    assert list(SPHERES.hearts()) != list(replace(SPHERES, seed=5).hearts())
+
+
+def test_what_cannot_be_unloaded_or_filled_ends_with_its_reason(monkeypatch):
+    heart = next(SPHERES.hearts())
+    hopeless = attempt(heart, specimen(COARSE), Numerics(max_beats=1, time_step=0.4, cuts=0))
+    assert (hopeless.unloaded, hopeless.completed) == (True, False)
+    assert hopeless.reason.startswith("beat 1: at ")
+    monkeypatch.setattr(robustness, "ventricles", too_soft)
+    lost = attempt(heart, specimen(COARSE))
+    assert (lost.unloaded, lost.completed, lost.reason) == (False, False, "no unloaded reference")
+
+
+def too_soft(*_: object) -> None:
+    raise StepFailed("no unloaded reference")
+
+
+def test_the_page_counts_and_names(monkeypatch):
+    monkeypatch.setattr(page, "specimen", lambda: specimen(COARSE))
+    monkeypatch.setattr(page, "CAMPAIGNS", (SPHERES,))
+    said = []
+    text = page.robustness_page((SPHERES,), said.append)
+    assert "| spheres | `sphere` | 4 | 6 | 6 | 6 (100.0 %) |" in text
+    assert said[-1] == "spheres: 6 of 6, 6 completed"
+    assert "Nothing." in text
+    assert "the beat completes with" in text
