@@ -20,8 +20,9 @@ HEIGHTS = (
     ("circulation",),
     ("mechanisms",),
     ("heart",),
-    ("beat", "registration", "ventricles"),
+    ("beat", "limit_cycle", "registration", "ventricles"),
     ("simulation",),
+    ("sphere",),
     ("cohort",),
     ("observation",),
     ("verification",),
@@ -42,6 +43,8 @@ PHYSICS = {"geometry", "electrophysiology", "mechanics", "mechanism", "mechanism
 PHYSICS |= {
     "branch",
     "simulation",
+    "sphere",
+    "limit_cycle",
     "beat",
     "cohort",
     "registration",
@@ -58,6 +61,8 @@ HEART = {
     "circulation",
     "electrophysiology",
     "simulation",
+    "sphere",
+    "limit_cycle",
     "io",
 }
 FORBIDDEN_TO_PHYSICS = {

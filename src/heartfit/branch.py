@@ -34,14 +34,15 @@ class Branch(NamedTuple):
 
     def flow(self, drop: float) -> tuple[float, float]:
         """Flow, m^3/s, at the pressure drop, Pa, and its derivative by the drop."""
-        flow, slope = branch_flow(np.array(self), drop)
+        flow, slope = branch_flow(np.array([[self]]), 0, 0, drop)
         return float(flow), float(slope)
 
 
-@njit(cache=True, error_model="numpy")
-def branch_flow(law, drop):  # type: ignore[no-untyped-def]
-    """Flow and slope of the law (4,); increases with the drop."""
-    conductance, area = (law[0], law[1]) if drop > 0.0 else (law[2], law[3])
+@njit(cache=True, error_model="numpy", inline="always")
+def branch_flow(laws, t, k, drop):  # type: ignore[no-untyped-def]
+    """Flow and slope of branch k at time t of the ``laws`` (.., .., 4); increases with the drop."""
+    way = 0 if drop > 0.0 else 2
+    conductance, area = laws[t, k, way], laws[t, k, way + 1]
     flow, slope = conductance * drop, conductance
     if area != 0.0:
         factor = area * np.sqrt(2.0 / BLOOD_DENSITY)
@@ -50,3 +51,32 @@ def branch_flow(law, drop):  # type: ignore[no-untyped-def]
         flow += root * drop
         slope += root * (0.5 * drop * drop + SMOOTHING * SMOOTHING) / smooth
     return flow, slope
+
+
+CONVERGED, ITERATIONS = 1e-14, 60
+"""Relative change of an inertial flow at which its equation is solved, and how often it is tried."""
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def inertial_flow(laws, t, k, drop, inertance, before):  # type: ignore[no-untyped-def]
+    r"""Flow and slope of a branch with inertance at the end of a step of length w: :math:`q = f(\Delta p - L \dot q)`.
+
+    ``inertance`` is L/w, Pa s/m^3, ``before`` the flow :math:`q^*` with :math:`\dot q = (q - q^*)/w`.
+    """
+    if inertance == 0.0:
+        return branch_flow(laws, t, k, drop)
+    driving, slope = drop + inertance * before, 0.0
+    q, low, high = 0.0, min(0.0, driving / inertance), max(0.0, driving / inertance)
+    for _ in range(ITERATIONS):
+        flow, slope = branch_flow(laws, t, k, driving - inertance * q)
+        if flow > q:
+            low = q
+        else:
+            high = q
+        following = q + (flow - q) / (1.0 + inertance * slope)
+        if not low <= following <= high:
+            following = 0.5 * (low + high)
+        change, q = following - q, following
+        if abs(change) <= CONVERGED * abs(q):
+            break
+    return q, slope / (1.0 + inertance * slope)

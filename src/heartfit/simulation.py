@@ -11,14 +11,11 @@ from heartfit.circulation.coupling import Body, Coupling, HeartState, Tolerances
 from heartfit.circulation.network import NetworkStep
 from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
+from heartfit.limit_cycle import Recurrence
 from heartfit.mechanics.body import StepFailed
 from heartfit.mechanics.statics import inflate
 from heartfit.mechanics.time_step import TimeStep
 from heartfit.mechanism import COMPARTMENTS
-
-SHIFT = 0.62
-"""Part of the periodic pressure shift that is taken: a higher pressure lowers the stroke volume, which undoes
-the rest of it (the feedback on the measured heart is -0.6)."""
 
 Progress = Callable[[float], None]
 Watch = Callable[[Sequence[HeartState]], None]
@@ -87,11 +84,14 @@ class _Run:
                 history.append(state)
                 self.progress((self.beats + (n + 1) / self.steps) / self.numerics.max_beats)
             self.beats += 1
-            self.drift = _drift(history)
+            cycle = Recurrence(
+                np.array([each.volumes for each in history]), history[0].trees, history[-1].trees
+            )
+            self.drift = cycle.drift()
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
                 self.watch(history)
                 return self._beat(history)
-            state = self._shift(history[0], state)
+            state = state.raised(cycle.shifts(self.heart.circulation.trees(), self.heart.period))
 
     @property
     def dt(self) -> float:
@@ -117,12 +117,6 @@ class _Run:
         self.cuts += 1
         half = self._advance(replace(state, trend=()), step.half(second=False), cuts - 1)
         return self._advance(half, replace(step.half(second=True), last=half.last), cuts - 1)
-
-    def _shift(self, first: HeartState, last: HeartState) -> HeartState:
-        sides = zip(self.heart.circulation.trees(), first.trees, last.trees, strict=True)
-        period = self.heart.period
-        shifts = [SHIFT * tree.periodic_shift(before, after, period) for tree, before, after in sides]
-        return last.raised(shifts)
 
     def _beat(self, history: list[HeartState]) -> Beat:
         time = np.linspace(0.0, self.heart.period, self.steps + 1)
@@ -173,11 +167,3 @@ class _Run:
             "factorisations": float(self.coupling.factorisations),
             "cpu_s": clock.process_time() - self._started,
         }
-
-
-def _drift(history: list[HeartState]) -> float:
-    first, last = history[0], history[-1]
-    volumes = np.array([state.volumes for state in history])
-    in_volume = np.abs(last.volumes - first.volumes) / np.ptp(volumes, axis=0)
-    in_pressure = [abs(b.P_c / a.P_c - 1.0) for a, b in zip(first.trees, last.trees, strict=True)]
-    return float(max(*in_volume, *in_pressure))

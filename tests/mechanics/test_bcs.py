@@ -18,8 +18,10 @@ from heartfit.mechanics.kinematics import StepFailed
 from heartfit.mechanics.time_step import TimeStep
 
 LAW = BestelClementSorine()
+ADDITIVE = BestelClementSorine(additive=True)
 ONE = np.ones(1)
 BOTH = pytest.mark.parametrize("second_order", [False, True])
+RHEOLOGIES = pytest.mark.parametrize("law", [LAW, ADDITIVE], ids=["A", "B"])
 
 
 def drive(attach: float, detach: float, dt: float, n_0: float = 0.8, second_order: bool = True) -> Drive:
@@ -53,6 +55,11 @@ def random_steps(
     e_new = e_old + rng.choice([-1.0, 1.0], count) * rng.uniform(5e-4, 3e-2, count)
     dt = 10 ** rng.uniform(-4.0, -1.5)
     return Drive(rate, attach, rng.uniform(0.0, 1.0, count), dt, second_order), e_old, e_new, state
+
+
+def strain(law: BestelClementSorine, e: np.ndarray) -> np.ndarray:
+    """Green-Lagrange strain of an ``e`` that is meant in the rheology's own measure."""
+    return e * (1.0 + 0.5 * e) if law.additive else e
 
 
 def respond(
@@ -131,15 +138,18 @@ def test_steady_shortening_follows_the_force_velocity_relation(
 
 
 @BOTH
-@pytest.mark.parametrize("seed", range(5))
-def test_every_step_balances_its_energy(seed: int, second_order: bool) -> None:
+@RHEOLOGIES
+@pytest.mark.parametrize("seed", range(3))
+def test_every_step_balances_its_energy(seed: int, law: BestelClementSorine, second_order: bool) -> None:
     """Spring and bridges store what work and attachment bring and friction and detachment do not take."""
-    step, e_old, e_new, state = random_steps(2000, seed, second_order)
-    stress, _, d = respond(LAW, step, e_old, e_new, state)
-    new = LAW.advance(step, state, d)
+    step, *strains, state = random_steps(2000, seed, second_order)
+    e_old, e_new = (strain(law, e) for e in strains)
+    stress, _, d = respond(law, step, e_old, e_new, state)
+    new = law.advance(step, state, d)
 
     def energy(e: np.ndarray, fibres: np.ndarray) -> np.ndarray:
-        spring = (e - fibres[0]) / (1.0 + 2.0 * fibres[0])
+        multiplied = (e - fibres[0]) / (1.0 + 2.0 * fibres[0])
+        spring = np.sqrt(1.0 + 2.0 * e) - 1.0 - fibres[0] if law.additive else multiplied
         return 0.5 * LAW.E_s * spring**2 + 0.5 * fibres[2] ** 2
 
     mean, attached = 0.5 * (state[2] + new[2]), step.dt * step.n_0 * step.attach
@@ -174,6 +184,40 @@ def test_tangent_is_the_derivative_of_the_stress(seed: int, second_order: bool) 
             return respond(LAW, one, e_old[i : i + 1], e, state[:, i : i + 1])[0]
 
         assert_derivative(stress, slope[i : i + 1] * 1e-4, e_new[i : i + 1], direction[i : i + 1])
+
+
+@BOTH
+def test_the_additive_tangent_is_the_derivative_of_its_stress(second_order: bool) -> None:
+    """By differences of one length: the root of its strain leaves more round-off than a shrinking one bears."""
+    step, *strains, state = random_steps(2000, 3, second_order)
+    e_old, e_new = (strain(ADDITIVE, e) for e in strains)
+    _, slope, d = respond(ADDITIVE, step, e_old, e_new, state)
+    h = 1e-5
+    upper, lower = (respond(ADDITIVE, step, e_old, e_new + sign * h, state)[0] for sign in (1.0, -1.0))
+    smooth = (abs(d) > 2e-4) & (abs(d) < 0.9 * LARGEST_INCREMENT)
+    assert slope[smooth] == pytest.approx(((upper - lower) / (2.0 * h))[smooth], rel=1e-4, abs=1.0)
+
+
+def test_both_rheologies_agree_at_small_strains() -> None:
+    """To first order in the strain: the difference of the stresses vanishes like it."""
+    given, _, _, state = random_steps(200, seed=9)
+    step = replace(given, attach=np.zeros(200))
+
+    def apart(scale: float) -> float:
+        held = np.array([scale * state[0], state[1], scale * state[2], state[3]])
+        old, moved = held[0] + 1e-3 * scale, held[0] + 0.01 * scale
+        one, other = (respond(law, step, old, moved, held)[0] for law in (LAW, ADDITIVE))
+        return float(np.linalg.norm(one - other) / np.linalg.norm(one))
+
+    assert apart(1e-3) / apart(1e-4) == pytest.approx(10.0, rel=0.1)
+
+
+def test_the_length_dependence_of_the_additive_rheology_is_in_engineering_strain() -> None:
+    law, state = BestelClementSorine(additive=True, starling=Starling(1.0, 0.0)), LAW.rest(1)
+    state[0] = 0.0969
+    step = law.drive(TimeStep(0.0, 5e-3, 1.0), (ONE, ONE), state)
+    assert step.n_0 == pytest.approx([0.8933])
+    assert law.unstressed(np.array([0.105])) == pytest.approx([0.1])
 
 
 def test_a_stiff_spring_hands_the_strain_to_the_sarcomere() -> None:

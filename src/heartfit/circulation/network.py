@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numba import njit
 
-from heartfit.branch import branch_flow
+from heartfit.branch import inertial_flow
 from heartfit.circulation.valves import LinearValve, Valve
 from heartfit.circulation.windkessel import PULMONARY, Windkessel, WindkesselState
 from heartfit.geometry.arrays import Floats
@@ -81,7 +81,11 @@ class Network:
         """Coefficients (branches, 4, ...) of the branches at ``time`` (...); see :class:`~heartfit.branch.Branch`."""
         time = np.asarray(time)
         laws = [*self._valves, *(leak.law(time) for leak in self._leaks)]
-        return np.array([[np.broadcast_to(each, time.shape) for each in law] for law in laws])
+        result = np.empty((len(laws), 4, *time.shape))
+        for k, law in enumerate(laws):
+            for c, coefficient in enumerate(law):
+                result[k, c] = coefficient
+        return result
 
 
 class NetworkStep:
@@ -90,22 +94,22 @@ class NetworkStep:
     def __init__(
         self, circulation: Circulation, mechanisms: Sequence[Mechanism], time: float, dt: float, period: float
     ) -> None:
-        self._circulation, self._network = circulation, Network(circulation, mechanisms)
-        self.dt = dt
+        self._circulation, network = circulation, Network(circulation, mechanisms)
+        self.dt, self._names = dt, network.names
         self.atrial = circulation.atrial(time, period, mechanisms)
-        self._laws = self._network.laws(time)
+        self.ends, self.laws = network.ends, network.laws(time)[None]
+        self.moving = np.zeros((3, len(self.ends)))
 
     def flows(self, pressures: Floats) -> dict[str, float]:
         """Flow of every branch by name."""
-        p = np.concatenate([pressures, self.atrial])
-        drops = p[self._network.ends[:, 0]] - p[self._network.ends[:, 1]]
-        named = zip(self._network.names, self._laws, drops, strict=True)
-        return {name: branch_flow(law, drop)[0] for name, law, drop in named}
+        self.outflow(pressures)
+        return dict(zip(self._names, self.moving[2].tolist(), strict=True))
 
     def outflow(self, pressures: Floats) -> tuple[Floats, Floats]:
         """Net outflow (4,) of the unknown compartments and its Jacobian (4, 4)."""
-        out, slope = net_outflow(self._laws, self._network.ends, np.concatenate([pressures, self.atrial]))
-        return out[:4], slope[:4, :4]
+        out, slope = np.empty((1, 4)), np.empty((4, 4))
+        net_outflow(self.ends, self.laws, self.moving, self.atrial[None], 0, pressures, out, slope)
+        return out[0], slope
 
     def windkessels(self, trees: Sequence[WindkesselState]) -> Floats:
         """Rows (a, b) of the arterial pressures a + b q at the end of the step, aorta first."""
@@ -121,17 +125,40 @@ class NetworkStep:
         return systemic.advance(trees[0], -out[2], self.dt), pulmonary.advance(trees[1], -out[3], self.dt)
 
 
-@njit(cache=True, error_model="numpy")
-def net_outflow(laws, ends, p):  # type: ignore[no-untyped-def]
-    """Net outflow (6,) of all compartments at the pressures p (6,), and its Jacobian (6, 6)."""
-    out, slope = np.zeros(6), np.zeros((6, 6))
-    for branch in range(ends.shape[0]):
-        i, j = ends[branch]
-        q, dq = branch_flow(laws[branch], p[i] - p[j])
-        out[i] += q
-        out[j] -= q
-        slope[i, i] += dq
-        slope[i, j] -= dq
-        slope[j, j] += dq
-        slope[j, i] -= dq
-    return out, slope
+@njit(cache=True, error_model="numpy", inline="always")
+def net_outflow(ends, laws, moving, atria, t, p, out, slope):  # type: ignore[no-untyped-def]
+    """Fill the net outflow (.., 2 v), in row 0, of v ventricles and their arteries and its Jacobian (2 v, 2 v).
+
+    p (2 v,) are their pressures, ``atria`` (.., 2) those of the atria and ``laws`` (.., k, 4) those of the branches
+    with the given ``ends`` (k, 2) at many times, of which t is the one. ``moving`` (3, k) are the inertances of the
+    branches per length of the step, the flows it starts from and, filled, the flows.
+    """
+    n = p.size
+    for i in range(n):
+        out[0, i] = 0.0
+        for j in range(n):
+            slope[i, j] = 0.0
+    for k in range(ends.shape[0]):
+        upstream, downstream = ends[k, 0], ends[k, 1]
+        i, j = _unknown(upstream, n // 2), _unknown(downstream, n // 2)
+        up = p[i] if i >= 0 else atria[t, upstream - 4]
+        down = p[j] if j >= 0 else atria[t, downstream - 4]
+        q, dq = inertial_flow(laws, t, k, up - down, moving[0, k], moving[1, k])
+        moving[2, k] = q
+        if i >= 0:
+            out[0, i] += q
+            slope[i, i] += dq
+        if j >= 0:
+            out[0, j] -= q
+            slope[j, j] += dq
+        if i >= 0 and j >= 0:
+            slope[i, j] -= dq
+            slope[j, i] -= dq
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def _unknown(compartment, v):  # type: ignore[no-untyped-def]
+    """Row of a compartment's pressure among the unknowns; -1 of an atrium."""
+    if compartment < 2:
+        return compartment
+    return v + compartment - 2 if compartment < 4 else -1

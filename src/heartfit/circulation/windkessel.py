@@ -10,6 +10,8 @@ Source: Stergiopulos, Westerhof and Westerhof, Am. J. Physiol. 276 (1999) H81.
 
 from dataclasses import dataclass
 
+from numba import njit
+
 from heartfit.parameter import parameter, require_admissible
 
 
@@ -34,18 +36,17 @@ class Windkessel:
     def __post_init__(self) -> None:
         require_admissible(self)
 
+    def constants(self) -> tuple[float, ...]:
+        return self.R_p, self.tau, self.Z_c, self.L, self.P_ve
+
     def affine(self, state: WindkesselState, dt: float) -> tuple[float, float]:
         """(a, b) of the arterial pressure a + b q at the end of a step with inflow q."""
-        rise, theta = dt * self.R_p / self.tau, dt * self.Z_c / self.L
-        decay = 1.0 + dt / self.tau
-        a = (state.P_c + rise * self.P_ve / self.R_p) / decay - self.Z_c * state.q_L / (1.0 + theta)
-        return a, rise / decay + self.Z_c / (1.0 + theta)
+        a, b = affine(*self.constants(), state.P_c, state.q_L, dt)  # type: ignore[call-arg]
+        return a, b
 
     def advance(self, state: WindkesselState, inflow: float, dt: float) -> WindkesselState:
         """State at the end of a step with inflow ``inflow``."""
-        rise, theta = dt * self.R_p / self.tau, dt * self.Z_c / self.L
-        P_c = (state.P_c + rise * (inflow + self.P_ve / self.R_p)) / (1.0 + dt / self.tau)
-        return WindkesselState(P_c=P_c, q_L=(state.q_L + theta * inflow) / (1.0 + theta))
+        return WindkesselState(*advanced(*self.constants(), state.P_c, state.q_L, inflow, dt))  # type: ignore[call-arg]
 
     def periodic_shift(self, start: WindkesselState, end: WindkesselState, period: float) -> float:
         r"""Change of the mean P_c, Pa, that would balance the mean inflow of the beat from ``start`` to ``end``.
@@ -54,6 +55,22 @@ class Windkessel:
         mean pressure is short of its periodic value by :math:`\tau (P_c(T) - P_c(0))/T`.
         """
         return self.tau * (end.P_c - start.P_c) / period
+
+
+@njit(cache=True, error_model="numpy")
+def affine(R_p, tau, Z_c, L, P_ve, P_c, q_L, dt):  # type: ignore[no-untyped-def]
+    """:meth:`Windkessel.affine` as a compiled function."""
+    rise, theta = dt * R_p / tau, dt * Z_c / L
+    decay = 1.0 + dt / tau
+    a = (P_c + rise * P_ve / R_p) / decay - Z_c * q_L / (1.0 + theta)
+    return a, rise / decay + Z_c / (1.0 + theta)
+
+
+@njit(cache=True, error_model="numpy")
+def advanced(R_p, tau, Z_c, L, P_ve, P_c, q_L, inflow, dt):  # type: ignore[no-untyped-def]
+    """P_c and q_L of :meth:`Windkessel.advance`."""
+    rise, theta = dt * R_p / tau, dt * Z_c / L
+    return (P_c + rise * (inflow + P_ve / R_p)) / (1.0 + dt / tau), (q_L + theta * inflow) / (1.0 + theta)
 
 
 PULMONARY = Windkessel(R_p=1.5e7, tau=0.5, Z_c=2.5e6, L=1e5, P_ve=900.0)

@@ -36,8 +36,12 @@ class Control:
     def __post_init__(self) -> None:
         require_admissible(self)
 
-    def mean(self, start: float, dt: float, activation: Floats, period: float) -> tuple[Floats, Floats]:
+    def mean(
+        self, start: Floats | float, dt: float, activation: Floats, period: float
+    ) -> tuple[Floats, Floats]:
         """Means of |u| and of |u|_+ over ``[start, start + dt]`` at points activated at ``activation``.
+
+        Both may be arrays that broadcast, as many starts (n, 1) beside many points (m,).
 
         The action potential must end within one period; raises ``ValueError`` otherwise.
         """
@@ -49,7 +53,7 @@ class Control:
         attach = self.k_ATP * depolarised
         return attach + self.k_RS * (1.0 - depolarised), attach
 
-    def _depolarised(self, start: float, dt: float, activation: Floats, period: float) -> Floats:
+    def _depolarised(self, start: Floats | float, dt: float, activation: Floats, period: float) -> Floats:
         """Fraction of the step that each point spends depolarised."""
         elapsed = np.mod(start - self.onset - activation, period)
         upper, lower = self._primitive(elapsed + dt, period), self._primitive(elapsed, period)

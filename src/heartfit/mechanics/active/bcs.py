@@ -1,4 +1,4 @@
-r"""Bestel-Clement-Sorine sarcomere, series rheology A, with an energy-balanced local update.
+r"""Bestel-Clement-Sorine sarcomere, series rheology A or B, with an energy-balanced local update.
 
 Attached cross-bridges of stiffness :math:`k_c` and stress :math:`\tau_c`, driven by the control :math:`u`:
 
@@ -9,6 +9,9 @@ Attached cross-bridges of stiffness :math:`k_c` and stress :math:`\tau_c`, drive
 in series with an elastic element, :math:`1 + 2 e_{1D} = (1 + 2 e_c)(1 + 2 e_s)`,
 
 .. math:: \sigma_{1D} = \frac{\tau_c + \mu \dot e_c}{1 + 2 e_s} = \frac{E_s e_s}{1 + 2 e_c}.
+
+Rheology B adds engineering strains, :math:`\sqrt{1 + 2 e_{1D}} - 1 = e_c + e_s`, with the tension
+:math:`T = E_s e_s = \tau_c + \mu \dot e_c` and :math:`\sigma_{1D} = T / \sqrt{1 + 2 e_{1D}}`.
 
 The update advances :math:`r = \sqrt{k_c}` and :math:`\lambda_c = \tau_c/r` and finds the increment
 :math:`d = e_c^{n+1} - e_c^n` from one scalar equation. The bridge energy is :math:`\lambda_c^2/2`, that of the
@@ -47,7 +50,10 @@ CONVERGED = 1e-8
 
 @dataclass(frozen=True)
 class BestelClementSorine:
-    """Contractile law: five constants and the length dependence of the number of available bridges."""
+    """Contractile law: five constants and the length dependence of the number of available bridges.
+
+    With ``additive`` the series element is that of PhysioBlocks instead (rheology B).
+    """
 
     sigma_0: float = parameter(280e3, unit="Pa", symbol=r"\sigma_0", meaning="maximum contractility", sd=0.20)
     k_0: float = parameter(120e3, unit="Pa", symbol="k_0", meaning="maximum bridge stiffness", sd=0.30)
@@ -57,6 +63,7 @@ class BestelClementSorine:
     mu: float = parameter(9e3, unit="Pa.s", symbol=r"\mu", meaning="friction in the sarcomere", sd=0.20)
     E_s: float = parameter(3e7, unit="Pa", symbol="E_s", meaning="stiffness of the series element", sd=0.30)
     starling: Starling = field(default_factory=Starling)
+    additive: bool = False
 
     def __post_init__(self) -> None:
         require_admissible(self)
@@ -67,19 +74,23 @@ class BestelClementSorine:
         state[1] = BRIDGE_FLOOR
         return state
 
+    def unstressed(self, e: Floats) -> Floats:
+        """Contractile strain of relaxed fibres at rest, given theirs."""
+        return np.sqrt(1.0 + 2.0 * e) - 1.0 if self.additive else e
+
     def constants(self) -> Floats:
-        return np.array([self.sigma_0, self.k_0, self.alpha, self.mu, self.E_s])
+        return np.array([self.sigma_0, self.k_0, self.alpha, self.mu, self.E_s, self.additive])
 
     def drive(self, step: TimeStep, control: tuple[Floats, Floats], state: Floats) -> "Drive":
         """What drives fibres in the state (4, m) during ``step``, given the means of |u| and |u|_+."""
         ahead = 0.5 * step.length * state[3] if step.second_order else 0.0
-        n_0 = self.starling.available(state[0] + ahead)
+        n_0 = self.starling.available(green_strain(self.additive, state[0] + ahead))
         return Drive(*control, n_0, step.length, step.second_order)
 
     def begin(self, e_old: Floats, state: Floats) -> Floats:
         """Room (5, m) for the responses of one step; see :meth:`respond`. The spring starts unchanged."""
         out = np.zeros((5, e_old.size))
-        out[3] = (1.0 + 2.0 * state[0]) / (1.0 + 2.0 * e_old)
+        out[3] = unchanged_spring(self.additive, e_old, state[0])
         out[4] = e_old
         return out
 
@@ -91,7 +102,7 @@ class BestelClementSorine:
         bridges detach, the rest follows.
         """
         if np.isinf(drive.dt):
-            out[:2], out[2] = 0.0, e_new - state[0]
+            out[:2], out[2] = 0.0, self.unstressed(e_new) - state[0]
             return
         given = drive.rate, drive.attach, drive.n_0
         _respond(*given, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, out)
@@ -148,7 +159,7 @@ def _root(d, rate, attach, n_0, dt, second_order, constants, k):  # type: ignore
 
 
 @njit(cache=True, error_model="numpy")
-def _bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam):  # type: ignore[no-untyped-def]
+def bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam):  # type: ignore[no-untyped-def]
     """New stiffness, mean lambda and the bridge stress tau#, with the derivative of the latter by ``d``."""
     sigma_0, k_0, alpha = constants[0], constants[1], constants[2]
     new, root, droot = _root(d, rate, attach, n_0, dt, second_order, constants, k)
@@ -163,8 +174,38 @@ def _bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam):  # type
 
 
 @njit(cache=True, error_model="numpy")
-def _series(d, e_old, e_new, e_c, E_s):  # type: ignore[no-untyped-def]
+def unchanged_spring(additive, e, e_c):  # type: ignore[no-untyped-def]
+    """Derivative of the sarcomere's strain by the fibre's while the spring keeps its own."""
+    return 1.0 / np.sqrt(1.0 + 2.0 * e) if additive else (1.0 + 2.0 * e_c) / (1.0 + 2.0 * e)
+
+
+@njit(cache=True, error_model="numpy")
+def green_strain(additive, e_c):  # type: ignore[no-untyped-def]
+    """Green-Lagrange strain of the sarcomere."""
+    return e_c * (1.0 + 0.5 * e_c) if additive else e_c
+
+
+@njit(cache=True, error_model="numpy")
+def _series(d, e_old, e_new, e_c, E_s, additive):  # type: ignore[no-untyped-def]
     """Fibre stress sigma# and contractile stress sigma_c# of the spring, each with d/de and d/dd."""
+    return _sum(d, e_old, e_new, e_c, E_s) if additive else _product(d, e_old, e_new, e_c, E_s)
+
+
+@njit(cache=True, error_model="numpy")
+def _sum(d, e_old, e_new, e_c, E_s):  # type: ignore[no-untyped-def]
+    old, new = np.sqrt(1.0 + 2.0 * e_old), np.sqrt(1.0 + 2.0 * e_new)
+    tension, tension_e, tension_d = (
+        E_s * (0.5 * (old + new) - 1.0 - e_c - 0.5 * d),
+        0.5 * E_s / new,
+        -0.5 * E_s,
+    )
+    per = 2.0 / (old + new)
+    s = tension * per
+    return s, (tension_e - 0.5 * s / new) * per, tension_d * per, tension, tension_e, tension_d
+
+
+@njit(cache=True, error_model="numpy")
+def _product(d, e_old, e_new, e_c, E_s):  # type: ignore[no-untyped-def]
     es_old = (e_old - e_c) / (1.0 + 2.0 * e_c)
     es_e = 1.0 / (1.0 + 2.0 * (e_c + d))
     es_new = (e_new - e_c - d) * es_e
@@ -177,14 +218,14 @@ def _series(d, e_old, e_new, e_c, E_s):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy")
-def _fibre(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, d):  # type: ignore[no-untyped-def]
+def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, d):  # type: ignore[no-untyped-def]
     """Stress, slope, increment and its slope: Newton from the guess ``d``, kept in a bracket."""
-    mu, E_s = constants[3], constants[4]
+    mu, E_s, additive = constants[3], constants[4], constants[5] > 0.0
     low, high = -LARGEST_INCREMENT, LARGEST_INCREMENT
     d = min(max(d, low), high)
     for _ in range(60):
-        _, _, tau, tau_d = _bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
-        s, s_e, s_d, c, c_e, c_d = _series(d, e_old, e_new, e_c, E_s)
+        _, _, tau, tau_d = bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
+        s, s_e, s_d, c, c_e, c_d = _series(d, e_old, e_new, e_c, E_s, additive)
         value, slope = tau + mu * d / dt - c, tau_d + mu / dt - c_d
         if value > 0.0:
             high = d
@@ -207,7 +248,9 @@ def _respond(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state
         guess = out[2, i] + out[3, i] * (e_new[i] - out[4, i])
         drive = rate[i], attach[i], n_0[i]
         held = e_old[i], e_new[i], state[0, i], state[1, i], state[2, i], guess
-        out[0, i], out[1, i], out[2, i], out[3, i] = _fibre(*drive, dt, second_order, constants, *held)
+        out[0, i], out[1, i], out[2, i], out[3, i] = fibre_response(
+            *drive, dt, second_order, constants, *held
+        )
         out[4, i] = e_new[i]
 
 
@@ -216,7 +259,7 @@ def _advance(rate, attach, n_0, dt, second_order, constants, state, increment): 
     new = np.empty_like(state)
     for i in range(increment.size):
         d, k, lam = increment[i], state[1, i], state[2, i]
-        stiffness, mean, _, _ = _bridges(d, rate[i], attach[i], n_0[i], dt, second_order, constants, k, lam)
+        stiffness, mean, _, _ = bridges(d, rate[i], attach[i], n_0[i], dt, second_order, constants, k, lam)
         new[0, i] = state[0, i] + d
         new[1, i] = stiffness
         new[2, i] = 2.0 * mean - lam

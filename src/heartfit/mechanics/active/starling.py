@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 
 from heartfit.geometry.arrays import Floats
 from heartfit.parameter import parameter
@@ -27,9 +28,32 @@ class Starling:
         0.2, unit="1", symbol="x_0", meaning="extension of the reference over slack length"
     )
 
+    def constants(self) -> Floats:
+        return np.array([self.slope, self.shift])
+
     def available(self, e_c: Floats) -> Floats:
         """n_0 at the contractile strains ``e_c`` (any shape)."""
-        extension = np.sqrt(np.maximum(1.0 + 2.0 * e_c, 0.0)) - 1.0 + self.shift
-        table = np.interp(extension, EXTENSION, AVAILABLE, left=0.0, right=0.0)
-        result: Floats = 1.0 - self.slope * (1.0 - table)
+        result: Floats = _available(np.ravel(e_c), self.constants()).reshape(np.shape(e_c))
         return result
+
+
+@njit(cache=True, error_model="numpy")
+def available(e_c, constants):  # type: ignore[no-untyped-def]
+    """n_0 at one strain, of a law with the given slope and shift."""
+    slope, shift = constants
+    if slope == 0.0:
+        return 1.0
+    x = np.sqrt(max(1.0 + 2.0 * e_c, 0.0)) - 1.0 + shift
+    i = np.searchsorted(EXTENSION, x)
+    if i == 0 or i == EXTENSION.size:
+        return 1.0 - slope
+    part = (x - EXTENSION[i - 1]) / (EXTENSION[i] - EXTENSION[i - 1])
+    return 1.0 - slope * (1.0 - AVAILABLE[i - 1] - part * (AVAILABLE[i] - AVAILABLE[i - 1]))
+
+
+@njit(cache=True, error_model="numpy")
+def _available(e_c, constants):  # type: ignore[no-untyped-def]
+    result = np.empty(e_c.size)
+    for i in range(e_c.size):
+        result[i] = available(e_c[i], constants)
+    return result

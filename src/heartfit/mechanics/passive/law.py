@@ -32,8 +32,11 @@ class Passive(Protocol):
 
 
 @runtime_checkable
-class Isotropic(Passive, Protocol):
-    """A passive law that is the same in all directions, as the wall of a sphere asks."""
+class Isotropic(Protocol):
+    """What the wall of a sphere asks: a law that is the same in all directions of its surface."""
+
+    @property
+    def eta(self) -> float: ...
 
     def in_plane_stress(self, stretch: Floats) -> Floats:
         r""":math:`dW/d\Lambda` of the incompressible stretch :math:`(\Lambda, \Lambda, \Lambda^{-2})`, Pa."""

@@ -1,0 +1,127 @@
+"""A compiled run of steps of one or two spherical ventricles."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from heartfit.circulation.circuit import ABOUT, GAP, ONE_MILLILITRE, STORED, WEIGHT, solve_circuit
+from heartfit.geometry.arrays import Floats, Integers
+from heartfit.mechanics.sphere import LARGEST_STRETCH, SMALLEST_STRETCH
+from heartfit.sphere import rows as at
+from heartfit.sphere import step as steps
+from heartfit.sphere.wall import cavity, cavity_pressure
+
+TOLERANCE, ITERATIONS = 1e-3, 25
+"""Imbalance, mL and kPa, after which one more Newton step, without a look at what it leaves, ends the iteration:
+Newton's method squares it, and 1e-3 becomes some 1e-9."""
+
+
+class Tissue(NamedTuple):
+    """The wall of all sides: table of the passive law, constants of the sarcomere and its length dependence."""
+
+    passive: Floats
+    active: Floats
+    starling: Floats
+    eta: float
+    density: float
+
+
+class Course(NamedTuple):
+    """What is prescribed in n steps of equal ``length``, s, with m fibres and k branches.
+
+    Means over the steps of the control's size ``rate`` and positive part ``attach`` (n, m), 1/s; at their ends the
+    atrial pressures ``atria`` (n, 2), Pa, and the ``laws`` (n, k, 4) of the branches, whose ends are ``ends`` (k, 2).
+    """
+
+    length: float
+    second_order: bool
+    rate: Floats
+    attach: Floats
+    atria: Floats
+    laws: Floats
+    ends: Integers
+
+
+class State(NamedTuple):
+    """State at one time: tables of v sides, m fibres, k branches, and the lengths ``last`` (2,) of the last steps."""
+
+    sides: Floats
+    fibres: Floats
+    branches: Floats
+    last: Floats
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def respond(passive, active, eta, density, step, sides, fibres, system, p):  # type: ignore[no-untyped-def]
+    """Outcome of deforming the walls to their trial stretches: pressures and the linear response of the volumes."""
+    for v in range(sides.shape[1]):
+        if not SMALLEST_STRETCH < sides[at.X, v] < LARGEST_STRETCH:
+            return at.OVERSTRETCHED
+        p[v], stiffness, volume, area = cavity_pressure(passive, active, eta, density, step, sides, fibres, v)
+        if not abs(stiffness) > 0.0:
+            return at.SOFT
+        sides[at.P, v], sides[at.STIFFNESS, v] = p[v], stiffness
+        system[v, GAP], system[v, ABOUT] = (volume - sides[at.START_VOLUME, v]) / ONE_MILLILITRE, p[v]
+        system[v, WEIGHT], system[v, STORED + v] = (
+            step.effective / ONE_MILLILITRE,
+            area / stiffness / ONE_MILLILITRE,
+        )
+    return at.DONE
+
+
+@njit(cache=True, error_model="numpy")
+def advance(tissue, course, state, curves, first):  # type: ignore[no-untyped-def]
+    """Take the steps from ``first`` on; index of the first that failed, its outcome and the iterations of all.
+
+    Row 0 of ``curves`` (n + 1, 3 v + k) is filled with volumes, pressures of ventricles and arteries, and flows at the
+    start, the others with those after each step. A step that fails leaves the state as it was at its start.
+    """
+    passive, active, starling, eta, density = tissue
+    length, second_order, rate, attach, atria, laws, ends = course
+    sides, fibres, branches, last = state
+    count, total, moving = sides.shape[1], 0, branches[at.PER_STEP :]
+    p, system = np.empty(2 * count), np.zeros((2 * count, 3 + 2 * count))
+    room, jacobian = np.empty((3, 2 * count)), np.empty((2 * count, 2 * count))
+    record(sides, branches, curves, first)
+    for n in range(first, rate.shape[0]):
+        step = steps.time_step(length, second_order, last[0])
+        steps.begin_sides(step, sides)
+        steps.begin_branches(step, branches)
+        steps.begin_arteries(step, sides, system)
+        steps.begin_fibres(active, starling, step, rate, attach, n, sides, fibres)
+        steps.predict(step, last, sides, p)
+        outcome = at.UNSOLVED
+        for _ in range(ITERATIONS):
+            total += 1
+            outcome = respond(passive, active, eta, density, step, sides, fibres, system, p)
+            if outcome != at.DONE:
+                break
+            size = solve_circuit(ends, laws, moving, atria, n, system, p, room, jacobian)
+            for v in range(count):
+                sides[at.X, v] += (p[v] - sides[at.P, v]) / sides[at.STIFFNESS, v]
+            if size < TOLERANCE:
+                steps.follow(sides, fibres)
+                break
+            outcome = at.UNSOLVED
+        if outcome == at.DONE and steps.torn(fibres):
+            outcome = at.TORN
+        if outcome != at.DONE:
+            return n, outcome, total
+        steps.commit_sides(step, sides, p)
+        steps.commit_branches(branches)
+        steps.commit_fibres(active, step, sides, fibres)
+        last[1], last[0] = last[0], length
+        record(sides, branches, curves, n + 1)
+    return rate.shape[0], at.DONE, total
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def record(sides, branches, curves, n):  # type: ignore[no-untyped-def]
+    """Fill row n of the curves."""
+    count = sides.shape[1]
+    for v in range(count):
+        curves[n, v] = cavity(sides[at.RADIUS, v], sides[at.RATIO, v], sides[at.NOW + at.STRETCH, v])[0]
+        curves[n, count + v], curves[n, 2 * count + v] = sides[at.P, v], sides[at.NOW + at.ARTERY, v]
+    for k in range(branches.shape[1]):
+        curves[n, 3 * count + k] = branches[at.FLOW, k]

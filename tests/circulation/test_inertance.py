@@ -1,0 +1,48 @@
+"""Branches with inertance and arteries: the closed forms of one step and of a decay."""
+
+import numpy as np
+import pytest
+from tests.shrinking import assert_derivative
+
+from heartfit.branch import Branch, branch_flow, inertial_flow
+
+LINEAR, ORIFICE = Branch(4e-6, 0.0, 1e-11, 0.0), Branch(0.0, 4e-4, 1e-11, 0.0)
+laws = pytest.mark.parametrize("law", [LINEAR, ORIFICE], ids=["linear", "orifice"])
+DROPS = [-8e3, -50.0, 20.0, 300.0, 5e3]
+
+
+@laws
+@pytest.mark.parametrize("drop", DROPS)
+def test_the_drop_drives_flow_and_its_rate(law: Branch, drop: float) -> None:
+    """q = f(drop - L (q - q*)), the very equation that is solved."""
+    table = np.array([[law]])
+    for inertance, before in ((1e5, 0.0), (3e6, 2e-4), (1e7, -1e-5)):
+        q, _ = inertial_flow(table, 0, 0, drop, inertance, before)
+        assert q == pytest.approx(branch_flow(table, 0, 0, drop - inertance * (q - before))[0], rel=1e-9)
+
+
+@laws
+@pytest.mark.parametrize("drop", DROPS)
+def test_its_slope_is_the_derivative(law: Branch, drop: float) -> None:
+    table, x, step = np.array([[law]]), np.array([drop]), np.array([0.1 * drop])
+    slope = inertial_flow(table, 0, 0, drop, 1e6, 0.0)[1] * step
+    assert_derivative(lambda p: np.array([inertial_flow(table, 0, 0, p[0], 1e6, 0.0)[0]]), slope, x, step)
+
+
+def test_without_inertance_it_is_the_law() -> None:
+    table = np.array([[ORIFICE]])
+    assert inertial_flow(table, 0, 0, 500.0, 0.0, 1e-3) == branch_flow(table, 0, 0, 500.0)
+
+
+def test_flow_that_nothing_drives_decays_with_inertance_times_conductance() -> None:
+    """L K = 40 ms: after as long, a fraction 1/e of it is left, of first order in the step."""
+    table, inertance = np.array([[LINEAR]]), 1e4
+
+    def left(dt: float) -> float:
+        q = 1.0
+        for _ in range(round(0.04 / dt)):
+            q, _ = inertial_flow(table, 0, 0, 0.0, inertance / dt, q)
+        return float(q)
+
+    errors = [abs(left(dt) - np.exp(-1.0)) for dt in (4e-4, 2e-4, 1e-4)]
+    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([1.0, 1.0], abs=0.05)

@@ -1,0 +1,155 @@
+"""The compiled beat of spheres is the beat of the coupled path, step by step, and fails as honestly."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from heartfit.beat import Beat
+from heartfit.branch import Branch
+from heartfit.circulation.coupling import Tolerances
+from heartfit.circulation.network import Circulation
+from heartfit.circulation.valves import OrificeValve
+from heartfit.geometry.arrays import Floats
+from heartfit.heart import Heart
+from heartfit.mechanics import statics
+from heartfit.mechanics.sphere import Sphere, SphericalBody
+from heartfit.mechanism import Flow
+from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+from heartfit.parameter import parameter
+from heartfit.simulation import Numerics, simulate
+from heartfit.sphere import simulation
+from heartfit.sphere.beat import Course, State, Tissue, advance
+from heartfit.sphere.rows import UNSOLVED
+from heartfit.sphere.simulation import REASONS, simulate_spheres
+
+LEFT, RIGHT = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
+ONE_CLASS = np.array([0.03])
+SHORT = Numerics(time_step=0.01, max_beats=2, drift=0.0)
+TIGHT = Tolerances(force=1e-7, volume=1e-14, pressure=1e-4, iterations=60)
+BOTH = pytest.mark.parametrize("second_order", [False, True])
+
+
+@dataclass(frozen=True)
+class Shunt(Flow):
+    """A hole between the ventricles that opens and closes within the beat."""
+
+    upstream, downstream = "lv", "rv"
+    area: float = parameter(1e-5, unit="m^2", symbol="A", meaning="area", off=0.0)
+
+    def law(self, time: Floats) -> Branch:
+        area = self.area * np.sin(2.0 * np.pi * time) ** 2
+        return Branch(area=area, back_area=area)
+
+
+@pytest.fixture(scope="module")
+def heart(spherical_heart: Heart) -> Heart:
+    """Orifices, length dependence and two mechanisms, one of them between the ventricles and variable in time."""
+    circulation = Circulation(mitral=OrificeValve(area=5e-4), aortic=OrificeValve())
+    heart = replace(spherical_heart, circulation=circulation) + MitralRegurgitation() + Shunt()
+    return heart.with_parameters({"slope": 0.5})
+
+
+@pytest.fixture(scope="module")
+def inviscid() -> Heart:
+    """Strong muscle without any viscosity, which long steps do not get through."""
+    return Heart().with_parameters({"sigma_0": 400e3, "mu": 0.0, "eta": 0.0})
+
+
+def departures(beat: Beat, other: Beat) -> dict[str, float]:
+    """Largest distance of every curve over its range."""
+    signals, others = beat.signals(), other.signals()
+    assert beat.completed
+    assert other.completed
+    assert signals.keys() == others.keys()
+    return {name: float(abs(signals[name] - others[name]).max() / np.ptp(others[name])) for name in signals}
+
+
+@BOTH
+def test_it_is_the_beat_of_the_coupled_path(
+    heart: Heart, second_order: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Volumes, pressures and flows of every branch, over two beats with a shift between them."""
+    monkeypatch.setattr(statics, "FORCE_TOLERANCE", 1e-9)
+    numerics = replace(SHORT, second_order=second_order, tolerances=TIGHT)
+    coupled = simulate(heart, SphericalBody(LEFT, RIGHT, heart.tissue), numerics)
+    compiled = simulate_spheres(heart, [LEFT, RIGHT], numerics)
+    assert max(departures(compiled, coupled).values()) < 1e-7
+    assert compiled.diagnostics["drift"] == pytest.approx(coupled.diagnostics["drift"], rel=1e-4)
+    assert (compiled.time == coupled.time).all()
+    assert (compiled.period, compiled.trigger) == (coupled.period, coupled.trigger)
+
+
+def test_a_left_ventricle_alone_beats_as_beside_a_right_one(spherical_heart: Heart) -> None:
+    heart = spherical_heart + MitralRegurgitation()
+    alone, both = (simulate_spheres(heart, spheres, SHORT) for spheres in ([LEFT], [LEFT, RIGHT]))
+    assert alone.volume.keys() == {"lv"}
+    assert alone.pressure.keys() == {"lv", "aorta", "left_atrium"}
+    assert alone.flow.keys() == {"mitral", "aortic", "MitralRegurgitation"}
+    kept = {name: curve for name, curve in both.signals().items() if name in alone.signals()}
+    for name, curve in alone.signals().items():
+        assert curve == pytest.approx(kept[name], abs=1e-6 * np.ptp(curve))
+
+
+def test_one_fibre_class_is_many_of_the_same_time(spherical_heart: Heart) -> None:
+    one, many = (
+        simulate_spheres(spherical_heart, [LEFT], SHORT, times)
+        for times in (ONE_CLASS, np.repeat(ONE_CLASS, 4))
+    )
+    assert max(departures(one, many).values()) < 1e-9
+
+
+@BOTH
+def test_blood_is_conserved_step_by_step(heart: Heart, second_order: bool) -> None:
+    """The mean flow of a step is (q + b q# of the step before) / (1 + b), whatever the branches."""
+    beat = simulate_spheres(heart, [LEFT, RIGHT], replace(SHORT, max_beats=1, second_order=second_order))
+    flow, dt = beat.flow, beat.time[1]
+    net = flow["mitral"] - flow["aortic"] - flow["MitralRegurgitation"] - flow["Shunt"]
+    right = flow["tricuspid"] - flow["pulmonary"] + flow["Shunt"]
+    for side, inflow in (("lv", net), ("rv", right)):
+        mean = np.diff(beat.volume[side]) / dt
+        expected = (2.0 * inflow[2:] + mean[:-1]) / 3.0 if second_order else inflow[2:]
+        assert mean[1:] == pytest.approx(expected, abs=1e-3 * 1e-6)
+
+
+def test_cut_steps_recover_the_beat(inviscid: Heart) -> None:
+    coarse, fine = (simulate_spheres(inviscid, [LEFT], replace(SHORT, time_step=dt)) for dt in (0.02, 0.0025))
+    assert coarse.diagnostics["step_cuts"] > 0
+    assert fine.diagnostics["step_cuts"] == 0
+    assert coarse.volume["lv"].min() == pytest.approx(fine.volume["lv"].min(), rel=0.05)
+
+
+@pytest.mark.parametrize("failing", [0, 30, 82])
+def test_a_step_taken_in_halves_ends_where_the_whole_one_does(
+    spherical_heart: Heart, failing: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """But for the error of one step, and in the rows of the curves where it belongs."""
+    whole = simulate_spheres(spherical_heart, [LEFT], replace(SHORT, max_beats=1))
+
+    def fails_once(tissue: Tissue, course: Course, state: State, curves: Floats, first: int) -> tuple:
+        if len(course.rate) == 1 or first > failing:
+            return advance(tissue, course, state, curves, first)
+        short = course._replace(rate=course.rate[:failing])
+        done, _, iterations = advance(tissue, short, state, curves, first)
+        return done, UNSOLVED, iterations
+
+    monkeypatch.setattr(simulation, "advance", fails_once)
+    halved = simulate_spheres(spherical_heart, [LEFT], replace(SHORT, max_beats=1))
+    assert halved.diagnostics["step_cuts"] == 1
+    for name in ("lv_volume", "lv_pressure", "aorta_pressure"):
+        curve = whole.signals()[name]
+        assert halved.signals()[name] == pytest.approx(curve, abs=1.5e-2 * np.ptp(curve))
+
+
+def test_a_failing_heart_says_when_and_why(inviscid: Heart) -> None:
+    beat = simulate_spheres(inviscid, [LEFT], replace(SHORT, time_step=0.02, cuts=0))
+    assert (beat.status, beat.completed) == ("failed", False)
+    assert beat.reason.startswith("beat 1: at 0.")
+    assert beat.reason.removesuffix(": ").split(": ")[-1] in REASONS
+    assert beat.diagnostics["beats"] == 0.0
+
+
+def test_a_heart_that_cannot_be_filled_fails_too(spherical_heart: Heart) -> None:
+    balloon = spherical_heart.with_parameters({"c_1": 5.0, "c_2": 0.0})
+    beat = simulate_spheres(balloon, [LEFT, RIGHT])
+    assert beat.reason == "beat 1: no static equilibrium at 600 Pa below a stretch of 2"

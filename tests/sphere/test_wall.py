@@ -1,0 +1,42 @@
+"""The tables and derivatives of the compiled wall."""
+
+import numpy as np
+import pytest
+from tests.shrinking import assert_derivative
+
+from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
+from heartfit.mechanics.sphere import Sphere
+from heartfit.sphere.wall import cavity, passive_stress, tabulated, viscous
+
+STRETCHES = np.random.default_rng(4).uniform(0.5, 1.9, 200)
+
+
+def test_the_tabulated_passive_law_is_the_law() -> None:
+    law = MooneyRivlin()
+    found = np.array([passive_stress(tabulated(law), stretch) for stretch in STRETCHES])
+    stress, stiffness = law.in_plane_stress(STRETCHES), law.in_plane_stiffness(STRETCHES)
+    assert abs(found[:, 0] - stress).max() < 1e-8 * law.c_1 * 100.0
+    assert found[:, 0] == pytest.approx(stress, rel=1e-7, abs=1e-3)
+    assert found[:, 1] == pytest.approx(stiffness, rel=1e-5)
+
+
+def test_cavity_and_its_derivatives() -> None:
+    sphere = Sphere.of(80e-6, 130e-6)
+    ratio = 0.5 * sphere.thickness / sphere.radius
+    assert cavity(sphere.radius, ratio, 1.0)[0] == pytest.approx(80e-6)
+    for stretch in STRETCHES[STRETCHES > 0.75][:20]:
+        x, step = np.array([stretch]), np.array([0.02])
+        _, slope, curve = cavity(sphere.radius, ratio, stretch)
+        assert_derivative(lambda s: np.array([cavity(sphere.radius, ratio, s[0])[0]]), slope * step, x, step)
+        assert_derivative(lambda s: np.array([cavity(sphere.radius, ratio, s[0])[1]]), curve * step, x, step)
+
+
+def test_viscous_stress_is_that_of_the_strain_rate_and_has_its_derivative() -> None:
+    r"""eta/2 dE : dE of the stretches (x, x, x^-2), differentiated by hand at its end."""
+    old = 1.1
+    for new in (0.95, 1.02, 1.3):
+        in_plane, radial = 0.5 * (new**2 - old**2), 0.5 * (new**-4 - old**-4)
+        stress, slope = viscous(new, old**2, old**-4)
+        assert stress == pytest.approx(2.0 * in_plane * new - 2.0 * radial * new**-5)
+        x, step = np.array([new]), np.array([0.02])
+        assert_derivative(lambda s: np.array([viscous(s[0], old**2, old**-4)[0]]), slope * step, x, step)
