@@ -13,7 +13,9 @@ from heartfit.mechanics.unloading import unload
 from heartfit.verification.specimen import COARSE, specimen
 
 MEASURED_HEART = ("../shared/data/bivme_patient1", "resources/bivme_patient1")
-DESELECTED = pytest.StashKey[int]()
+PHYSIOBLOCKS = ("../shared/data/physioblocks_bcs0d", "resources/physioblocks_bcs0d")
+LAST_CYCLE = "spherical_heart_last_cycle_1kHz.csv"
+DESELECTED = pytest.StashKey[dict[str, int]]()
 END_DIASTOLIC_PRESSURE = np.array([1000.0, 500.0])
 
 
@@ -47,31 +49,46 @@ def spheres(spherical_heart: Heart) -> SphericalBody:
     return SphericalBody(left, right, spherical_heart.tissue)
 
 
-def _measured_heart_folder() -> Path | None:
-    """The folder of the measured heart, if this machine has its data; a fetched licence alone is not enough."""
+def _folder(places: tuple[str, ...], holds: str) -> Path | None:
+    """The first of the places that holds a file or folder; a fetched licence alone is not enough."""
     root = Path(__file__).parents[1]
-    return next((root / place for place in MEASURED_HEART if (root / place / "template").is_dir()), None)
+    return next((root / place for place in places if (root / place / holds).exists()), None)
+
+
+NEEDED = {"measured": (MEASURED_HEART, "template"), "physioblocks": (PHYSIOBLOCKS, LAST_CYCLE)}
+"""What tests with a marker need, by marker: places where it may lie, and what lies there."""
 
 
 @pytest.fixture(scope="session")
 def measured_heart_folder() -> Path:
-    folder = _measured_heart_folder()
+    folder = _folder(*NEEDED["measured"])
     assert folder is not None, "a test that needs the measured heart must carry the marker `measured`"
     return folder
 
 
+@pytest.fixture(scope="session")
+def physioblocks_cycle() -> Path:
+    folder = _folder(*NEEDED["physioblocks"])
+    assert folder is not None, (
+        "a test that needs the cycle of PhysioBlocks must carry the marker `physioblocks`"
+    )
+    return folder / LAST_CYCLE
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Without the data, what needs it is deselected, and the summary says why."""
-    if _measured_heart_folder() is not None:
-        return
-    needing = [item for item in items if item.get_closest_marker("measured")]
-    items[:] = [item for item in items if item not in needing]
-    config.hook.pytest_deselected(items=needing)
-    config.stash[DESELECTED] = len(needing)
+    config.stash[DESELECTED] = {}
+    for marker in (marker for marker, needed in NEEDED.items() if _folder(*needed) is None):
+        needing = [item for item in items if item.get_closest_marker(marker)]
+        items[:] = [item for item in items if item not in needing]
+        config.hook.pytest_deselected(items=needing)
+        config.stash[DESELECTED][marker] = len(needing)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
-    if count := config.stash.get(DESELECTED, 0):
-        terminalreporter.write_line(
-            f"{count} tests of the measured heart deselected: its data is in none of {', '.join(MEASURED_HEART)}"
-        )
+    for marker, count in config.stash.get(DESELECTED, {}).items():
+        if count:
+            places = ", ".join(NEEDED[marker][0])
+            terminalreporter.write_line(
+                f"{count} tests `{marker}` deselected: their data is in none of {places}"
+            )

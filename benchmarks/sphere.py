@@ -1,0 +1,101 @@
+"""The compiled beat of spheres, alone and beside PhysioBlocks on its own case: `python -m benchmarks.sphere`."""
+
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from benchmarks.figure import Figure
+from benchmarks.process import PYTHON, ask, install_peers
+from benchmarks.ventricles import ROOT
+from heartfit.beat import Beat
+from heartfit.geometry.arrays import Floats
+from heartfit.heart import Heart
+from heartfit.mechanics.sphere import ACTIVATION, Sphere
+from heartfit.simulation import Numerics
+from heartfit.sphere.simulation import simulate_spheres
+from heartfit.verification.physioblocks import departure, reference_beat
+
+LEFT, RIGHT = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
+CASES = {
+    "left ventricle, 1 fibre class": ([LEFT], np.array([0.03])),
+    "left ventricle, 8 fibre classes": ([LEFT], ACTIVATION),
+    "both ventricles, 8 fibre classes each": ([LEFT, RIGHT], ACTIVATION),
+}
+REPEATS, FEW, MANY = 100, 5, 25
+THEIRS = "PhysioBlocks, reference case of 1000 steps a beat"
+OURS = "ours, the same case"
+SAME = 0.02
+"""Largest relative L2 departure of volume and pressure; the tests hold their rates to it too."""
+
+
+def cost(run: Callable[[int], Beat]) -> tuple[float, float]:
+    """CPU s of a beat more in a run, and of what a run takes beside its beats: medians, kernels compiled."""
+    few, many = (_median(lambda n=n: run(n)) for n in (FEW, MANY))
+    beat = (many - few) / (MANY - FEW)
+    return beat, few - FEW * beat
+
+
+def _median(work: Callable[[], Beat]) -> float:
+    times = []
+    for _ in range(REPEATS + 1):
+        begin = time.process_time()
+        if not work().completed:
+            raise RuntimeError("a sphere of the benchmark failed")
+        times.append(time.process_time() - begin)
+    return float(np.median(times[1:]))
+
+
+def standard(spheres: Sequence[Sphere], activation: Floats, beats: int) -> Beat:
+    """So many beats of the standard heart at 5 ms, none of them taken as periodic."""
+    heart = Heart().with_parameters({"sigma_0": 150e3})
+    return simulate_spheres(heart, spheres, Numerics(max_beats=beats, drift=0.0), activation)
+
+
+def costs() -> dict[str, tuple[float, float]]:
+    """CPU s of a beat and beside the beats, by case; PhysioBlocks has one number."""
+    ours = {name: cost(lambda n, case=case: standard(*case, n)) for name, case in CASES.items()}
+    theirs = physioblocks()
+    apart = departures(theirs, reference_beat())
+    if max(apart.values()) > SAME:
+        raise RuntimeError(f"ours and theirs are not the same case: they depart by {apart}")
+    return ours | {
+        OURS: cost(lambda n: reference_beat(beats=n, drift=0.0)),
+        THEIRS: (theirs["cpu_s_a_beat"], 0.0),
+    }
+
+
+def physioblocks() -> dict[str, Any]:
+    """CPU s of a beat of PhysioBlocks in its own environment, and its last cycle."""
+    return ask(ROOT / "benchmarks" / "peers" / "physioblocks_beat.py", python=PYTHON)
+
+
+def departures(theirs: dict[str, Any], ours: Beat) -> dict[str, float]:
+    """Relative L2 departures of our volume and pressure from theirs."""
+    curves = {"volume": ours.volume["lv"], "pressure": ours.pressure["lv"]}
+    return {name: departure(curve, np.array(theirs[name])) for name, curve in curves.items()}
+
+
+def figures(measured: dict[str, tuple[float, float]]) -> list[Figure]:
+    """The figures with targets."""
+    first, ratio = measured[next(iter(CASES))][0], measured[THEIRS][0] / measured[OURS][0]
+    return [
+        Figure("beat of a sphere, 166 steps, 1 fibre class", 1e3 * first, 0.15, "CPU ms"),
+        Figure("sphere beside PhysioBlocks, its own case", ratio, 1000.0, "times faster", at_least=True),
+    ]
+
+
+def rows(measured: dict[str, tuple[float, float]]) -> list[tuple[str, str, str]]:
+    """Name, CPU ms of a beat, CPU ms beside the beats."""
+    return [(name, f"{1e3 * beat:.3f}", f"{1e3 * beside:.2f}") for name, (beat, beside) in measured.items()]
+
+
+if __name__ == "__main__":
+    install_peers()
+    found = costs()
+    for row in (
+        *rows(found),
+        *((each.name, f"{each.measured:.3g} {each.unit}", "") for each in figures(found)),
+    ):
+        print("{:<55} {:>14} {:>8}".format(*row))
