@@ -18,3 +18,21 @@ class Check:
     def passed(self) -> bool:
         """Whether it is; a number that is not finite is not."""
         return abs(self.measured - self.expected) <= self.tolerance
+
+    @property
+    def limit(self) -> str:
+        """What is asked, in words of a table: expected and tolerance."""
+        return f"{self.expected:g} | ± {self.tolerance:g}"
+
+
+@dataclass(frozen=True)
+class AtLeast(Check):
+    """``measured`` should not be below ``expected`` by more than ``tolerance``."""
+
+    @property
+    def passed(self) -> bool:
+        return self.measured >= self.expected - self.tolerance
+
+    @property
+    def limit(self) -> str:
+        return f"≥ {self.expected - self.tolerance:g} |"
