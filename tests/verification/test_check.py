@@ -12,6 +12,8 @@ def test_within_the_tolerance(measured, passed):
     assert Check("order", measured, 2.0, 0.15, "1", "theory").passed is passed
 
 
-@pytest.mark.parametrize(("measured", "passed"), [(1.9, True), (7.0, True), (1.7, False), (float("nan"), False)])
+@pytest.mark.parametrize(
+    ("measured", "passed"), [(1.9, True), (7.0, True), (1.7, False), (float("nan"), False)]
+)
 def test_at_least_is_a_bound_on_one_side(measured, passed):
     assert AtLeast("order", measured, 1.8, 0.0, "1", "theory").passed is passed

@@ -57,6 +57,10 @@ def test_the_command_fails_if_a_check_is_missed(monkeypatch, capsys):
 
 
 def test_the_committed_page_has_the_same_checks(solved):
-    rows = [line.split("|")[1].strip() for line in COMMITTED.read_text().splitlines() if "± " in line or "| ≥ " in line]
+    rows = [
+        line.split("|")[1].strip()
+        for line in COMMITTED.read_text().splitlines()
+        if "± " in line or "| ≥ " in line
+    ]
     assert rows == [check.name for check in page_checks()]
     assert MISSED not in COMMITTED.read_text()

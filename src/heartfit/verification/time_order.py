@@ -54,6 +54,7 @@ def errors(steps: int, second_order: bool) -> Floats:
 def orders(second_order: bool) -> dict[str, float]:
     """Observed order of every observation."""
     above, below = (
-        np.sqrt(np.mean([errors(k * steps, second_order) ** 2 for steps in COARSE], axis=0)) for k in (1, FACTOR)
+        np.sqrt(np.mean([errors(k * steps, second_order) ** 2 for steps in COARSE], axis=0))
+        for k in (1, FACTOR)
     )
     return dict(zip(NAMES, (np.log(above / below) / np.log(FACTOR)).tolist(), strict=True))

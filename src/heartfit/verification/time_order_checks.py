@@ -36,9 +36,7 @@ def time_order_checks() -> list[Check]:
 def time_order_section() -> str:
     """The part of the page: the errors of both schemes at the usual steps."""
     rows = (
-        (scheme, steps, errors(steps, second))
-        for scheme, (second, _) in SCHEMES.items()
-        for steps in USUAL
+        (scheme, steps, errors(steps, second)) for scheme, (second, _) in SCHEMES.items() for steps in USUAL
     )
     return SECTION + "".join(
         f"| {scheme} | {829.0 / steps:.1f} | {' | '.join(f'{100 * each:.2f} %' for each in off)} |\n"
