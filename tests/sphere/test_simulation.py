@@ -119,11 +119,11 @@ def test_cut_steps_recover_the_beat(inviscid: Heart) -> None:
     assert coarse.volume["lv"].min() == pytest.approx(fine.volume["lv"].min(), rel=0.05)
 
 
-@pytest.mark.parametrize("failing", [0, 30, 82])
+@pytest.mark.parametrize("failing", [0, 16, 52, 82])
 def test_a_step_taken_in_halves_ends_where_the_whole_one_does(
     spherical_heart: Heart, failing: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """But for the error of one step, and in the rows of the curves where it belongs."""
+    """But for the error of one step: at its own time, 16 in contraction, 52 in relaxation, and in its own row."""
     whole = simulate_spheres(spherical_heart, [LEFT], replace(SHORT, max_beats=1))
 
     def fails_once(tissue: Tissue, course: Course, state: State, curves: Floats, first: int) -> tuple:
@@ -138,7 +138,7 @@ def test_a_step_taken_in_halves_ends_where_the_whole_one_does(
     assert halved.diagnostics["step_cuts"] == 1
     for name in ("lv_volume", "lv_pressure", "aorta_pressure"):
         curve = whole.signals()[name]
-        assert halved.signals()[name] == pytest.approx(curve, abs=1.5e-2 * np.ptp(curve))
+        assert halved.signals()[name] == pytest.approx(curve, abs=2e-2 * np.ptp(curve))
 
 
 def test_a_failing_heart_says_when_and_why(inviscid: Heart) -> None:
