@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from heartfit.geometry.arrays import COLUMN, ROW
 from heartfit.geometry.coordinates import LeftVentricularAxes, septal_faces
-from heartfit.geometry.fibres import rule_based_fibres
+from heartfit.geometry.fibres import FibreRule
 from heartfit.geometry.mesh import VentricularMesh
 
 
@@ -38,7 +39,7 @@ def test_the_axes_of_a_heart_that_stands_upright(ventricle: VentricularMesh) -> 
 def test_one_angle_for_both_surfaces_is_met_throughout_the_free_wall(
     ventricle: VentricularMesh, angle: float
 ) -> None:
-    fibres = rule_based_fibres(ventricle, np.deg2rad(angle), np.deg2rad(angle))
+    fibres = FibreRule.of(ventricle, np.deg2rad(angle), np.deg2rad(angle)).fibres()
     assert np.linalg.norm(fibres, axis=1) == pytest.approx(np.ones(len(fibres)))
     assert np.median(helix_angle(ventricle, fibres)[free_wall(ventricle)]) == pytest.approx(angle, abs=6.0)
 
@@ -46,7 +47,7 @@ def test_one_angle_for_both_surfaces_is_met_throughout_the_free_wall(
 def test_the_angle_falls_from_endocardium_to_epicardium_and_passes_zero_midway(
     ventricle: VentricularMesh,
 ) -> None:
-    fibres = rule_based_fibres(ventricle, np.deg2rad(60.0), -np.deg2rad(60.0))
+    fibres = FibreRule.of(ventricle, np.deg2rad(60.0), -np.deg2rad(60.0)).fibres()
     angle = helix_angle(ventricle, fibres)
     centres = ventricle.points[ventricle.tets].mean(axis=1)
     wall = free_wall(ventricle)
@@ -84,3 +85,28 @@ def test_the_septum_is_the_side_of_the_right_cavity_that_touches_the_left_wall(
 def test_fields_of_the_wrong_length_are_refused(ventricle: VentricularMesh) -> None:
     with pytest.raises(ValueError, match="fibres has shape"):
         VentricularMesh(ventricle.points, ventricle.tets, ventricle.surfaces, fibres=np.ones((3, 3)))
+
+
+@pytest.mark.parametrize("angle", [30.0, 60.0, 80.0])
+def test_a_wall_of_one_tetrahedron_has_the_longitudinal_fibres_of_a_fine_one(
+    ventricle: VentricularMesh, angle: float
+) -> None:
+    """The mean of sin^2 over angles that run evenly from a to -a is 1/2 - sin(2 a) / (4 a)."""
+    a = np.deg2rad(angle)
+    rule = FibreRule.of(ventricle, a, -a)
+    volumes = ventricle.element_volumes()[free_wall(ventricle)]
+    axis = LeftVentricularAxes.of(ventricle).axis
+    tensors = rule.orientation()[free_wall(ventricle)][:, [[0, 3, 4], [3, 1, 5], [4, 5, 2]]]
+    along = np.average(np.einsum("i,eij,j->e", axis, tensors, axis), weights=volumes)
+    assert np.trace(tensors, axis1=1, axis2=2) == pytest.approx(np.ones(len(tensors)))
+    assert along == pytest.approx(0.5 - np.sin(2.0 * a) / (4.0 * a), abs=0.05)
+    sampled = np.average((rule.fibres()[free_wall(ventricle)] @ axis) ** 2, weights=volumes)
+    assert sampled < 0.75 * along
+
+
+def test_where_the_helix_does_not_turn_the_orientation_is_that_of_the_fibre(
+    ventricle: VentricularMesh,
+) -> None:
+    rule = FibreRule.of(ventricle, 0.5, 0.5)
+    along = np.einsum("ei,ej->eij", rule.fibres(), rule.fibres())[:, ROW, COLUMN]
+    assert np.median(abs(rule.orientation() - along)[free_wall(ventricle)]) < 0.01

@@ -12,7 +12,7 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
 from heartfit.io.meshes import read_mesh, read_motion, write_mesh, write_motion
 
-FIELDS = ("points", "tets", "fibres", "segments", "activation", "longitudinal")
+FIELDS = ("points", "tets", "fibres", "orientation", "segments", "activation", "longitudinal")
 
 
 def test_a_mesh_comes_back_bit_for_bit(ventricle: VentricularMesh, tmp_path: Path) -> None:
@@ -29,7 +29,7 @@ def test_a_mesh_comes_back_bit_for_bit(ventricle: VentricularMesh, tmp_path: Pat
 def test_a_bare_mesh_stays_bare(ventricle: VentricularMesh, tmp_path: Path) -> None:
     write_mesh(tmp_path / "mesh.vtu", replace(ventricle, **dict.fromkeys(FIELDS[2:])))
     found = read_mesh(tmp_path / "mesh.vtu")
-    assert [getattr(found, name) for name in FIELDS[2:]] == [None] * 4
+    assert [getattr(found, name) for name in FIELDS[2:]] == [None] * 5
 
 
 def test_inverted_tets_are_refused_by_number(ventricle: VentricularMesh, tmp_path: Path) -> None:

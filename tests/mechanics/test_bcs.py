@@ -17,8 +17,8 @@ from heartfit.mechanics.active.starling import Starling
 from heartfit.mechanics.kinematics import StepFailed
 from heartfit.mechanics.time_step import TimeStep
 
-LAW = BestelClementSorine()
-ADDITIVE = BestelClementSorine(additive=True)
+LAW = BestelClementSorine(sigma_0=280e3)
+ADDITIVE = replace(LAW, additive=True)
 ONE = np.ones(1)
 BOTH = pytest.mark.parametrize("second_order", [False, True])
 RHEOLOGIES = pytest.mark.parametrize("law", [LAW, ADDITIVE], ids=["A", "B"])

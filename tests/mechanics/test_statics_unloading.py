@@ -11,6 +11,7 @@ from tests.shrinking import assert_derivative
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics import unloading
 from heartfit.mechanics.body import FiniteElementBody, StepFailed, Tissue
+from heartfit.mechanics.kinematics import push_forward
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 from heartfit.mechanics.statics import inflate
 from heartfit.mechanics.support import Support
@@ -92,3 +93,14 @@ def test_a_wall_too_soft_for_its_pressure_is_named(ventricle: VentricularMesh) -
         unload(ventricle, SOFT, np.array([20e3, 10e3]))
     with pytest.raises(StepFailed, match=r"too soft for this pressure|collapse"):
         inflate(FiniteElementBody(ventricle, SOFT), np.array([20e3, 10e3]))
+
+
+def test_inflated_orientations_are_those_that_were_measured(
+    ventricle: VentricularMesh, coarse_body: FiniteElementBody
+) -> None:
+    state = inflate(coarse_body, END_DIASTOLIC_PRESSURE)
+    edges = coarse_body.positions(state.x)[coarse_body.tets]
+    deformed = np.einsum("eai,eaj->eij", edges, coarse_body.gradients)
+    moved = push_forward(coarse_body.dyads, deformed)
+    assert moved == pytest.approx(np.asarray(ventricle.orientation), abs=2e-3)
+    assert abs(coarse_body.dyads - np.asarray(ventricle.orientation)).max() > 0.03

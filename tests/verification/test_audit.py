@@ -39,7 +39,7 @@ def test_an_audit_by_other_parameters_does_not_close(spoilt: str) -> None:
     seen = watched(LONG_STEP)
     heart = Heart()
     value = heart.parameters()[heart.path_of(spoilt)]
-    body = FiniteElementBody(reference(), heart.with_parameters({spoilt: 1.5 * value}).tissue)
+    body = FiniteElementBody(reference(), heart.with_parameters({spoilt: 3.0 * value}).tissue)
     other = audit(body, seen.states, heart.period)
     assert abs(other.remainder - seen.audit.remainder) > 1e-6 * seen.audit.ejecting
 

@@ -1,4 +1,7 @@
-"""The array types of the whole geometry: float64 coordinates in metres and int64 connectivities."""
+"""The array types of the whole geometry: float64 coordinates in metres and int64 connectivities.
+
+Symmetric tensors are six-vectors in the order 11, 22, 33, 12, 13, 23 (``ROW``, ``COLUMN``).
+"""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,3 +9,6 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Names = NDArray[np.str_]
+
+ROW = np.array([0, 1, 2, 0, 0, 1])
+COLUMN = np.array([0, 1, 2, 1, 2, 2])

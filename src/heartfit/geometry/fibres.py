@@ -13,37 +13,82 @@ Bayer et al. take the angle endo instead of alpha in the endocardial frames: aft
 then still at +30 degrees. Here the mid-wall is circumferential. Blending the tensors f f' needs no sign of f
 and no quaternions.
 
+Within one tetrahedron of a coarse mesh the helix turns by 80 degrees and more, and the fibre at its centroid is
+never longitudinal: a wall of one or two tetrahedra would have no longitudinal fibres at all. So a tetrahedron
+also has the mean of f f' over its volume, its orientation.
+
 References
 ----------
 Bayer JD et al. 2012, doi 10.1007/s10439-012-0593-5.
 """
 
-import numpy as np
+from dataclasses import dataclass
 
-from heartfit.geometry.arrays import Floats
+import numpy as np
+from skfem.quadrature import get_quadrature
+from skfem.refdom import RefTet
+
+from heartfit.geometry.arrays import COLUMN, ROW, Floats
 from heartfit.geometry.coordinates import LeftVentricularAxes
 from heartfit.geometry.laplace import between, element_gradients
 from heartfit.geometry.mesh import VentricularMesh
 
 APICAL_PATCH = 0.05
+CENTROID = np.full(4, 0.25)
+DEGREE = 7
+"""Of the polynomials that the mean over a tetrahedron integrates exactly; 24 points."""
 
 
-def rule_based_fibres(
-    mesh: VentricularMesh, endo: float = np.deg2rad(80.0), epi: float = -np.deg2rad(80.0)
-) -> Floats:
-    """Unit fibre directions (m,3) at helix angles `endo` and `epi` in rad, positive if right-handed."""
-    fields = {name: _field_of(mesh, name) for name in ("lv_endo", "rv_endo", "epi")}
-    lv, rv, w = (field[mesh.tets].mean(axis=1) for field in fields.values())
-    d = rv / np.maximum(lv + rv, np.finfo(float).eps)
-    alpha = endo * (1.0 - w) + epi * w
-    across_lv, across_rv, across_epi = (_transmural(mesh, field) for field in fields.values())
-    along = _longitudinal_direction(mesh)
-    parts = [
-        ((1.0 - w) * (1.0 - d), _fibre(along, -across_lv, (1.0 - 2.0 * d) * alpha)),
-        ((1.0 - w) * d, _fibre(along, across_rv, (1.0 - 2.0 * d) * alpha)),
-        (w, _fibre(along, across_epi, alpha)),
-    ]
-    return _principal(sum(weight[:, None, None] * f[:, :, None] * f[:, None, :] for weight, f in parts))
+@dataclass(frozen=True, eq=False)
+class FibreRule:
+    """The rule on a mesh.
+
+    phi (3,n): phi_lv, phi_rv, phi_epi at the nodes; across: the gradient (m,3) of each; along (m,3): grad psi;
+    endo, epi: helix angles in rad, positive if right-handed.
+    """
+
+    mesh: VentricularMesh
+    phi: Floats
+    across: tuple[Floats, ...]
+    along: Floats
+    endo: float
+    epi: float
+
+    @classmethod
+    def of(
+        cls, mesh: VentricularMesh, endo: float = np.deg2rad(80.0), epi: float = -np.deg2rad(80.0)
+    ) -> "FibreRule":
+        """The rule of the helix angles `endo` and `epi` on a mesh."""
+        phi = np.array([_field_of(mesh, name) for name in ("lv_endo", "rv_endo", "epi")])
+        across = tuple(_transmural(mesh, field) for field in phi)
+        return cls(mesh, phi, across, _longitudinal_direction(mesh), endo, epi)
+
+    def fibres(self) -> Floats:
+        """Unit fibre directions (m,3) at the centroids."""
+        return self._at(CENTROID)
+
+    def orientation(self) -> Floats:
+        """Mean (m,6) of f f' over each tetrahedron, of trace 1; six-vectors as in heartfit.geometry.arrays."""
+        points, weights = get_quadrature(RefTet, DEGREE)
+        corners = np.vstack([1.0 - points.sum(axis=0), points]).T
+        fibres = (self._at(corner) for corner in corners)
+        mean: Floats = sum(
+            w * f[:, ROW] * f[:, COLUMN] for w, f in zip(weights / weights.sum(), fibres, strict=True)
+        )
+        return mean
+
+    def _at(self, corner: Floats) -> Floats:
+        """Fibres (m,3) at the barycentric coordinates `corner` (4,) of each tetrahedron."""
+        lv, rv, w = self.phi[:, self.mesh.tets] @ corner
+        d = rv / np.maximum(lv + rv, np.finfo(float).eps)
+        alpha = self.endo * (1.0 - w) + self.epi * w
+        across_lv, across_rv, across_epi = self.across
+        parts = [
+            ((1.0 - w) * (1.0 - d), _fibre(self.along, -across_lv, (1.0 - 2.0 * d) * alpha)),
+            ((1.0 - w) * d, _fibre(self.along, across_rv, (1.0 - 2.0 * d) * alpha)),
+            (w, _fibre(self.along, across_epi, alpha)),
+        ]
+        return _principal(sum(weight[:, None, None] * f[:, :, None] * f[:, None, :] for weight, f in parts))
 
 
 def _field_of(mesh: VentricularMesh, name: str) -> Floats:

@@ -16,7 +16,7 @@ class VentricularMesh:
     points (n,3) m; tets (m,4) positively oriented; surfaces: name -> boundary triangles (k,3), normals out of
     the wall; fibres (m,3) unit vectors; segments (m,) AHA 1..17, 0 = right ventricular free wall;
     activation (m,) s, time T_d at which each tet depolarises, earliest = 0;
-    longitudinal (n,) 0 apex .. 1 base.
+    longitudinal (n,) 0 apex .. 1 base; orientation (m,6) mean of f f' over the tet, where it is not that of one fibre.
     Raises ValueError when a field's shape does not match the points or tets.
     """
 
@@ -27,11 +27,12 @@ class VentricularMesh:
     segments: Integers | None = None
     activation: Floats | None = None
     longitudinal: Floats | None = None
+    orientation: Floats | None = None
 
     def __post_init__(self) -> None:
         n, m = len(self.points), len(self.tets)
         expected = {"points": (n, 3), "tets": (m, 4), "fibres": (m, 3), "segments": (m,)}
-        expected |= {"activation": (m,), "longitudinal": (n,)}
+        expected |= {"activation": (m,), "longitudinal": (n,), "orientation": (m, 6)}
         for name, shape in expected.items():
             field = getattr(self, name)
             if field is not None and field.shape != shape:

@@ -12,7 +12,7 @@ from heartfit.geometry.motion import Motion
 from heartfit.geometry.surface import SURFACES
 from heartfit.io.atomic import replacing
 
-CELL_FIELDS = {"fibres": (3,), "segments": (), "activation": ()}
+CELL_FIELDS = {"fibres": (3,), "orientation": (6,), "segments": (), "activation": ()}
 NO_SURFACE = -1
 
 

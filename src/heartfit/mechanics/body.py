@@ -73,7 +73,7 @@ class FiniteElementBody:
         self.element: Element = ELEMENTS[tissue.element]
         self.tets = reference.tets
         self.gradients, self.element_volumes = kinematics.shape_gradients(reference.points, self.tets)
-        self.dyads = kinematics.fibre_dyads(np.asarray(reference.fibres))
+        self.dyads = dyads_of(reference)
         self.stiffness = tissue.support.stiffness(reference)
         self.damping = tissue.support.damping(reference)
         self.passive_scale = tissue.support.passive_scale(reference)
@@ -126,6 +126,13 @@ class FiniteElementBody:
     def wall_volume(self, x: Floats) -> float:
         """Volume of the deformed wall, m^3."""
         return float(self.reference.with_points(self.positions(x)).wall_volume())
+
+
+def dyads_of(mesh: VentricularMesh) -> Floats:
+    r"""Six-vectors (m, 6) of :math:`f \otimes f`, or of its mean where the mesh knows that."""
+    if mesh.orientation is None:
+        return kinematics.fibre_dyads(np.asarray(mesh.fibres))
+    return mesh.orientation
 
 
 def _require_fields(mesh: VentricularMesh) -> None:

@@ -1,16 +1,15 @@
 r"""Deformation of linear tetrahedra.
 
-Symmetric tensors are six-vectors in the order 11, 22, 33, 12, 13, 23 (``ROW``, ``COLUMN``); tangents map
+Symmetric tensors are six-vectors, see heartfit.geometry.arrays; tangents map
 engineering strains (shear doubled) to second Piola-Kirchhoff stresses. Arrays run over elements first.
 """
 
 import numpy as np
 from numba import njit
 
+from heartfit.geometry.arrays import COLUMN as COLUMN
+from heartfit.geometry.arrays import ROW as ROW
 from heartfit.geometry.arrays import Floats, Integers
-
-ROW = np.array([0, 1, 2, 0, 0, 1])
-COLUMN = np.array([0, 1, 2, 1, 2, 2])
 
 
 class StepFailed(ArithmeticError):
@@ -97,8 +96,15 @@ def fibre_dyads(fibres: Floats) -> Floats:
     return np.ascontiguousarray(fibres[:, ROW] * fibres[:, COLUMN])
 
 
+def push_forward(dyads: Floats, F: Floats) -> Floats:
+    r"""Six-vectors (m, 6) of :math:`F H F^T / \mathrm{tr}`: unit fibres of mean dyad H after the map F (m, 3, 3)."""
+    moved = np.einsum("eij,ejk,elk->eil", F, dyads[:, VOIGT], F)
+    unit: Floats = (moved / np.trace(moved, axis1=1, axis2=2)[:, None, None])[:, ROW, COLUMN]
+    return unit
+
+
 def fibre_strain(C: Floats, dyads: Floats) -> Floats:
-    r"""Green-Lagrange fibre strain :math:`e_{1D} = (f \cdot C f - 1)/2`, (m,)."""
+    r"""Green-Lagrange fibre strain :math:`e_{1D} = (f \cdot C f - 1)/2`, (m,); mean dyads give its mean."""
     doubled = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
     strain: Floats = 0.5 * (np.einsum("ei,ei->e", C, dyads * doubled) - 1.0)
     return strain

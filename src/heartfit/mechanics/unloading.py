@@ -25,7 +25,7 @@ from heartfit.geometry.arrays import Floats
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics import kinematics
 from heartfit.mechanics.acceleration import Anderson
-from heartfit.mechanics.body import FiniteElementBody, Step, StepFailed, Tissue
+from heartfit.mechanics.body import FiniteElementBody, Step, StepFailed, Tissue, dyads_of
 from heartfit.mechanics.general_solver import GeneralFactor
 from heartfit.mechanics.kinematics import VOIGT
 
@@ -103,8 +103,7 @@ class _Search:
     def _residual(self, x: Floats, pressures: Floats) -> tuple[Step, Floats]:
         """Imbalance at the unknowns ``x``, whose displacements lead from the reference to the loaded mesh."""
         moved = self.loaded.with_points(self.loaded.points - x[:, :3])
-        reference = replace(moved, fibres=_pull_back(moved, self.loaded))
-        body = FiniteElementBody(reference, self.tissue, self._elimination)
+        body = FiniteElementBody(_pull_back(moved, self.loaded), self.tissue, self._elimination)
         step = body.endless_step(body.rest())
         return step, step.forces(x) - body.volume_gradients(x) @ pressures
 
@@ -126,10 +125,11 @@ def _tangent(step: Step, x: Floats) -> GeneralFactor:
     return GeneralFactor(body.tets, elements, nodes, body.elimination.permutation)
 
 
-def _pull_back(reference: VentricularMesh, loaded: VentricularMesh) -> Floats:
+def _pull_back(reference: VentricularMesh, loaded: VentricularMesh) -> VentricularMesh:
+    """The reference with the fibres of the loaded mesh, turned as the tissue is."""
     gradients, _ = kinematics.shape_gradients(loaded.points, loaded.tets)
     F = np.empty((len(loaded.tets), 3, 3))
     kinematics.deformation_gradient(reference.points - loaded.points, loaded.tets, gradients, F)
     fibres = np.einsum("eij,ej->ei", F, np.asarray(loaded.fibres))
-    pulled: Floats = fibres / np.linalg.norm(fibres, axis=1, keepdims=True)
-    return pulled
+    fibres /= np.linalg.norm(fibres, axis=1, keepdims=True)
+    return replace(reference, fibres=fibres, orientation=kinematics.push_forward(dyads_of(loaded), F))

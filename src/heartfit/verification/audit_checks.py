@@ -113,7 +113,8 @@ def apart_reordered() -> float:
     """The same between two orders of the elements."""
     mesh = reference()
     shuffled = np.random.default_rng(0).permutation(len(mesh.tets))
-    fields = {name: getattr(mesh, name)[shuffled] for name in ("tets", "fibres", "activation", "segments")}
+    names = ("tets", "fibres", "orientation", "activation", "segments")
+    fields = {name: getattr(mesh, name)[shuffled] for name in names}
     return apart(watched(LONG_STEP).beat.signals(), curves(replace(mesh, **fields)))
 
 

@@ -55,7 +55,7 @@ class BestelClementSorine:
     With ``additive`` the series element is that of PhysioBlocks instead (rheology B).
     """
 
-    sigma_0: float = parameter(280e3, unit="Pa", symbol=r"\sigma_0", meaning="maximum contractility", sd=0.20)
+    sigma_0: float = parameter(300e3, unit="Pa", symbol=r"\sigma_0", meaning="maximum contractility", sd=0.20)
     k_0: float = parameter(120e3, unit="Pa", symbol="k_0", meaning="maximum bridge stiffness", sd=0.30)
     alpha: float = parameter(
         8.0, unit="1", symbol=r"\alpha", meaning="bridge destruction by fast motion", sd=0.4

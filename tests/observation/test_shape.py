@@ -1,0 +1,90 @@
+"""Motions that a formula gives, on parametric ventricles whose apex points to -z: each quantity sees its own."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from heartfit.beat import Beat
+from heartfit.geometry.coordinates import LeftVentricularAxes
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.geometry.motion import Motion
+from heartfit.observation.shape import Shape, motion_of, shape_of
+
+SHARE = np.linspace(0.0, 1.0, 8)
+
+
+def _turned(x: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Points (n,3) turned by angles (n,) about the third axis."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.column_stack([cosine * x[:, 0] - sine * x[:, 1], sine * x[:, 0] + cosine * x[:, 1], x[:, 2]])
+
+
+@pytest.fixture
+def seen(ventricle: VentricularMesh) -> Callable[[Callable], Shape]:
+    """The shape of a motion given, at a share (0 to 1) of its end, in coordinates along the ventricle's axes."""
+    axes = LeftVentricularAxes.of(ventricle)
+    frame = np.array([axes.septal, axes.anterior, axes.axis])
+    local = (ventricle.points - axes.apex) @ frame.T
+
+    def look(moved: Callable[[np.ndarray, float], np.ndarray]) -> Shape:
+        positions = np.array([axes.apex + moved(local, share) @ frame for share in SHARE])
+        return shape_of(ventricle, Motion(0.1 * SHARE, 0.8, positions))
+
+    return look
+
+
+def test_a_heart_that_only_moves_and_turns_has_no_shape_to_see(seen: Callable) -> None:
+    def moved(x: np.ndarray, share: float) -> np.ndarray:
+        return _turned(x + np.array([0.0, 0.0, 0.01 * share]), np.full(len(x), 0.3 * share))
+
+    shape = seen(moved)
+    for quantity in (shape.shortening, shape.thickening, shape.twist):
+        assert quantity == pytest.approx(np.zeros(8), abs=1e-9)
+    assert shape.volume == pytest.approx(np.ones((8, 3)))
+    assert shape.rise == pytest.approx(0.01 * SHARE)
+    assert shape.descent == pytest.approx(-0.01 * SHARE)
+
+
+def test_a_stretch_along_the_axis_is_shortening_and_descent(seen: Callable) -> None:
+    shape = seen(lambda x, share: x * [1.0, 1.0, 1.0 - 0.15 * share])
+    assert shape.shortening == pytest.approx(0.15 * SHARE, rel=0.03)
+    assert shape.volume == pytest.approx(np.tile(1.0 - 0.15 * SHARE, (3, 1)).T)
+    assert shape.inward == pytest.approx(np.zeros(8), abs=1e-9)
+    assert abs(shape.rise).max() < 0.1 * shape.descent[-1]
+
+
+def test_a_heart_that_shrinks_evenly_does_so_in_every_quantity(
+    seen: Callable, ventricle: VentricularMesh
+) -> None:
+    shape = seen(lambda x, share: x * (1.0 - 0.1 * share))
+    assert shape.shortening == pytest.approx(0.1 * SHARE)
+    assert shape.thickening == pytest.approx(-0.1 * SHARE)
+    assert shape.volume == pytest.approx(np.tile((1.0 - 0.1 * SHARE) ** 3, (3, 1)).T)
+    away = LeftVentricularAxes.of(ventricle).away(ventricle.points[np.unique(ventricle.surfaces["lv_endo"])])
+    inner = np.linalg.norm(away, axis=1).max()
+    assert inner < shape.inward[-1] / 0.1 < inner + 0.015
+
+
+def test_a_torsion_is_twist_positive_counter_clockwise_seen_from_the_apex(
+    seen: Callable, ventricle: VentricularMesh
+) -> None:
+    length = LeftVentricularAxes.of(ventricle).length
+
+    def moved(x: np.ndarray, share: float) -> np.ndarray:
+        return _turned(x, 0.4 * share * (x[:, 2] / length - 1.0))
+
+    shape = seen(moved)
+    assert shape.twist == pytest.approx(0.4 * 0.5 * SHARE, rel=0.15)
+    assert shape.shortening == pytest.approx(np.zeros(8), abs=0.005)
+
+
+def test_a_beat_starts_at_its_trigger_and_is_refused_without_its_nodes() -> None:
+    time = np.linspace(0.0, 0.8, 17)
+    positions = np.tile(time[:, None, None], (1, 4, 3))
+    beat = Beat(time, {}, {}, {}, period=0.8, trigger=0.2, positions=positions)
+    motion = motion_of(beat)
+    assert motion.times == pytest.approx(time[:-1])
+    assert motion.positions[:, 0, 0] == pytest.approx(np.mod(time[:-1] + 0.2, 0.8), abs=1e-9)
+    with pytest.raises(ValueError, match="keep_positions"):
+        motion_of(Beat(time, {}, {}, {}, period=0.8, trigger=0.2))
