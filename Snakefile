@@ -21,7 +21,7 @@ rule all:
             "<results>/figures/{case}_{setting}{about}.{kind}",
             case=CASES,
             setting=SETTINGS,
-            about=("", "_sensitivity"),
+            about=("", "_sensitivity", "_shape"),
             kind=("png", "pdf"),
         ),
         # asked for by name, or Snakemake would not miss a beat that was deleted

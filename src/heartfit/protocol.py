@@ -1,6 +1,7 @@
 """The steps of a calibration, each from values to values, for scripts and command line."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -26,6 +27,7 @@ def run_beat(
     pressures: Pressures,
     scheme: TimeScheme,
     progress: Progress | None = None,
+    keep_positions: bool = False,
 ) -> Beat:
     """The beat of a setting with some parameters changed, of ventricles that were measured at end diastole.
 
@@ -39,7 +41,7 @@ def run_beat(
         body = ventricles(mesh, heart.tissue, loads, setting.reference == "unloaded")
     except StepFailed as failure:
         return failed_beat(str(failure), period, heart.trigger, {})
-    return simulate(heart, body, scheme.numerics(), progress)
+    return simulate(heart, body, replace(scheme.numerics(), keep_positions=keep_positions), progress)
 
 
 def estimate(

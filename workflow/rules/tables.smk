@@ -63,3 +63,24 @@ rule plot_sensitivity:
         code=code("plot_sensitivity.py"),
     script:
         "../scripts/plot_sensitivity.py"
+
+
+rule compare_shape:
+    input:
+        mesh="<results>/{case}/geometry/mesh.vtu",
+        motion="<results>/{case}/registration/motion.npz",
+        calibrated="<results>/{case}/{setting}/verification/shape.csv",
+    output:
+        table=expand("<results>/tables/{{case}}_{{setting}}_shape.{suffix}", suffix=("csv", "md", "tex")),
+        figure=expand("<results>/figures/{{case}}_{{setting}}_shape.{suffix}", suffix=("png", "pdf")),
+    log:
+        "<logs>/{case}/{setting}/compare_shape.log",
+    benchmark:
+        "<benchmarks>/{case}/{setting}/compare_shape.tsv"
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code("compare_shape.py"),
+    script:
+        "../scripts/compare_shape.py"

@@ -6,6 +6,7 @@ rule simulate_calibrated:
     output:
         beat="<results>/{case}/{setting}/verification/beat.json",
         curves="<results>/{case}/{setting}/verification/beat.csv",
+        shape="<results>/{case}/{setting}/verification/shape.csv",
     log:
         "<logs>/{case}/{setting}/simulate_calibrated.log",
     benchmark:

@@ -33,6 +33,15 @@ def read_published(path: Path) -> pd.DataFrame:
     return pd.read_csv(path, comment="#")
 
 
+def read_shape(path: Path) -> pd.DataFrame:
+    """The shape of a motion that write_table wrote as CSV; no rows if the beat failed."""
+    if not Path(path).is_file():
+        raise InputError(
+            f"{path}: no such file; expected the shape of a calibrated motion: simulate it first"
+        )
+    return pd.read_csv(path)
+
+
 def write_figure(path: Path, figure: Figure) -> None:
     """Write in the format of the suffix (png, pdf, svg), without the time of writing in it."""
     date = {"png": "Software", "pdf": "CreationDate", "svg": "Date"}.get(Path(path).suffix[1:])

@@ -16,6 +16,7 @@ from heartfit.geometry.mesh import VentricularMesh, element_volumes
 from heartfit.geometry.motion import Motion
 from heartfit.geometry.nearest import nearest_on_surface
 from heartfit.geometry.topology import rim_loops
+from heartfit.observation.volumes import cavity_volumes
 
 APEX, APICAL, MIDDLE, BASAL = (0.0, 0.08), (0.15, 0.40), (0.40, 0.70), (0.65, 0.90)
 """Levels of the left ventricle: ranges of the longitudinal coordinate."""
@@ -26,16 +27,17 @@ SPREAD = (1.0, 50.0, 99.0)
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """Curves (p,) over the phases of a motion, all zero (volume: one) in phase 0.
+    """Curves (p,) over the phases of a motion, zero in phase 0; times in s.
 
-    shortening: of the distance from the epicardial apex to the centre of the rings, 1; descent: of that centre
-    towards the apex, m; rise: of the apex towards the base, m; inward: mean motion of the free wall's epicardium
-    towards the axis at mid-height, m; thickening: of the wall at mid-height, 1; twist: apical less basal rotation, rad,
-    positive if counter-clockwise seen from the apex; volume (p, 3): percentiles SPREAD of element volume over that of
-    phase 0.
+    cavity: volume of the left ventricle, m^3; shortening: of the distance from the epicardial apex to the rings, 1;
+    descent: of the rings towards the apex, m; rise: of the apex towards the base, m; inward: of the free wall's
+    epicardium towards the axis at mid-height, mean, m; thickening: of the wall at mid-height, 1; twist: apical less
+    basal rotation, rad, positive if counter-clockwise seen from the apex; volume (p, 3): percentiles SPREAD of the
+    elements' volumes over those of phase 0.
     """
 
     times: Floats
+    cavity: Floats
     shortening: Floats
     descent: Floats
     rise: Floats
@@ -54,6 +56,7 @@ def shape_of(mesh: VentricularMesh, motion: Motion) -> Shape:
     length = np.linalg.norm(rings - apex, axis=1)
     return Shape(
         times=motion.times,
+        cavity=cavity_volumes(mesh, motion)["lv_volume"].values,
         shortening=1.0 - length / length[0],
         descent=(rings[0] - rings) @ axes.axis,
         rise=(apex - apex[0]) @ axes.axis,
