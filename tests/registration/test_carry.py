@@ -80,6 +80,7 @@ def test_a_node_within_a_tet_of_the_other_mesh_moves_with_its_corners(ventricle:
         points=within,
         tets=ventricle.tets[:0],
         fibres=None,
+        orientation=None,
         segments=None,
         activation=None,
         longitudinal=None,
