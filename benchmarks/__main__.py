@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable
 from typing import TypeVar
 
+from benchmarks import sphere
 from benchmarks.beat import cost
 from benchmarks.job import job
 from benchmarks.newton import newton_steps
@@ -36,8 +37,9 @@ def main(arguments: list[str]) -> None:
         for element in ELEMENTS.values()
     ]
     one = said("one job", lambda: job("3k", "physical"))
+    spheres = said("spheres", sphere.costs)
     time_step = read_study([ROOT / "config" / "config.yaml"]).numerics.time_step
-    measured = Measured(beats, steps, one, [], time_step)
+    measured = Measured(beats, steps, one, spheres, time_step)
     write_text(ROOT / "docs" / "performance.md", page(measured, figures(measured)))
 
 

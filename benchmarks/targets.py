@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from benchmarks import sphere
 from benchmarks.figure import Figure
 from benchmarks.newton import Newton
 from benchmarks.page import ELEMENTS, Measured, exponent
@@ -40,7 +41,7 @@ def figures(measured: Measured) -> list[Figure]:
     ]
     ratios = [figure for group in measured.newton for figure in _ratios(group)]
     start = Figure("one job beside its beat", measured.job.overhead, OVERHEAD, "CPU s", tried=START)
-    return [*beats, *growths, *ratios, start, *measured.others]
+    return [*beats, *growths, *ratios, start, *sphere.figures(measured.spheres)]
 
 
 def _ratios(group: Sequence[Newton]) -> list[Figure]:

@@ -10,6 +10,9 @@ from benchmarks.newton import Newton
 from benchmarks.page import ELEMENTS, Measured, exponent, page
 from benchmarks.targets import figures
 
+from benchmarks import sphere
+
+SPHERES = {next(iter(sphere.CASES)): (1e-4, 1e-3), sphere.OURS: (1e-3, 0.0), sphere.THEIRS: (5.0, 0.0)}
 SIZES = {"3k": 3000.0, "10k": 10000.0}
 
 
@@ -27,7 +30,7 @@ def measured():
     same = {"residual": 0.0, "direction": 0.0}
     steps = [Newton("10k", "mixed", who, 1000, times, same) for who, times in
              (("heartfit", ours), ("NGSolve 6", theirs))]  # fmt: skip
-    return Measured(beats, [steps], Job(1.0, 1.1, 0.5, 0.08), [Figure("more", 1.0, 2.0, "s")], 5e-3)
+    return Measured(beats, [steps], Job(1.0, 1.1, 0.5, 0.08), SPHERES, 5e-3)
 
 
 def test_growth_is_the_exponent_of_a_power():
@@ -48,5 +51,6 @@ def test_the_page_shows_every_figure_and_what_was_tried(measured):
     text = page(measured, figures(measured))
     assert text.count("**missed**") == 2, "the growth of both elements"
     assert "| 15.0 x | 3000 x |" in text, "1.5 s over 0.1 s, and over an iteration of 0.2 / 400 s"
-    assert "| more | 1 | ≤ 2 | s | met |" in text
+    assert "| 5e+03 | ≥ 1000 | times faster | met |" in text, "PhysioBlocks over ours"
+    assert text.count("| 0.100 | 1.00 |") == 1, "a beat of a sphere, and what a call takes"
     assert text.count("see the decision on the engine") == 1
