@@ -43,10 +43,9 @@ One full Newton step of the same wall in other programs: Mooney-Rivlin law, fibr
 the same deformed state; `mixed` is the same stabilised element everywhere. CPU ms of residual, tangent, factors and
 solution; µs per unknown. All residuals agree to 1e-9 or better, all tangents to 1e-6; "left" is what remains of the
 residual where the other's tangent is applied to our Newton direction: our factors are in single precision, as a
-direction needs no more. "ratio" compares
-full steps. The engine keeps its factors over many steps;
-"in use" divides the full step of the others, which is what they do as they come, by the mean time of an iteration
-in our beat, with everything that belongs to it: fibres, circuit, factors now and then.
+direction needs no more. "ratio" compares full steps. The engine keeps its factors over many steps; "in use" divides
+the full step of the others, which is what they do as they come, by the mean time of an iteration in our beat, with
+everything that belongs to it: fibres, circuit, factors now and then.
 
 | mesh | element | program | residual | tangent | factors | solution | sum | µs | ratio | in use | left |
 |---|---|---|---|---|---|---|---|---|---|---|---|
@@ -148,7 +147,7 @@ def _beat_row(setting: str, cost: Cost) -> str:
 
 
 def _missed(figures: Iterable[Figure]) -> str:
-    reasons = dict.fromkeys(figure.tried for figure in figures if not figure.met)
+    reasons = dict.fromkeys(figure.tried for figure in figures if figure.tried and not figure.met)
     title = "\n## What was tried where a target is missed\n\n"
     return title * bool(reasons) + "".join(f"- {each}\n" for each in reasons)
 
