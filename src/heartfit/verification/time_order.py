@@ -1,10 +1,10 @@
 r"""The observed order of the time schemes, on a whole beat of two spheres: fibres, wall, valves and arteries.
 
-Each observation of a beat with steps :math:`\Delta t` is compared with that of the second-order scheme at a step far below
-the shortest. Valves open and fibres activate between time levels, so errors scatter from one step to the next: the
-order is that of the root mean square over an octave of steps, beside the octave a factor below. Peaks of a rate are those
-of the curve through a Gaussian window of 10 ms, as an instrument of finite bandwidth sees them: the peak of a curve with
-kinks has no order.
+Each observation of a beat with steps :math:`\Delta t` is compared with that of the second-order scheme at a step far
+below the shortest. Valves open and fibres activate between time levels, so errors scatter from one step to the next:
+the order is that of the root mean square over an octave of steps, beside the octave a factor below. Peaks of a rate are
+those of the curve through a Gaussian window of 10 ms, as an instrument of finite bandwidth sees them: the peak of a
+curve with kinks has no order.
 """
 
 from functools import cache
