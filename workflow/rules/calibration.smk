@@ -20,7 +20,7 @@ rule simulate_point:
     input:
         mesh="<results>/{case}/geometry/mesh.vtu",
         points="<results>/{case}/{setting}/calibration/points.json",
-        kernels=ancient("<results>/kernels.json"),
+        kernels="<results>/kernels.json",
     output:
         beat="<results>/{case}/{setting}/calibration/beats/{point}.json",
         curves="<results>/{case}/{setting}/calibration/beats/{point}.csv",

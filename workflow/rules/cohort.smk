@@ -1,6 +1,6 @@
 rule generate_volunteer:
     input:
-        kernels=ancient("<results>/kernels.json"),
+        kernels="<results>/kernels.json",
     output:
         mesh="<results>/{case}/cohort/acquisition.vtu",
         motion="<results>/{case}/cohort/acquisition.npz",

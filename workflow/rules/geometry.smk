@@ -1,7 +1,6 @@
 rule build_measured_mesh:
     input:
         files=measured_files,
-        kernels=ancient("<results>/kernels.json"),
     output:
         "<results>/{case}/geometry/mesh.vtu",
     log:
@@ -24,7 +23,6 @@ rule build_measured_mesh:
 rule build_volunteer_mesh:
     input:
         acquisition="<results>/{case}/cohort/acquisition.vtu",
-        kernels=ancient("<results>/kernels.json"),
     output:
         "<results>/{case}/geometry/mesh.vtu",
     log:

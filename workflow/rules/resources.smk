@@ -1,4 +1,4 @@
-# what the jobs rest on is ancient to them: compiled anew, it changes no result
+# compiled once before any beat: many jobs would otherwise compile the same kernels at the same time
 rule compile_kernels:
     output:
         "<results>/kernels.json",

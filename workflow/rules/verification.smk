@@ -2,7 +2,7 @@ rule simulate_calibrated:
     input:
         mesh="<results>/{case}/geometry/mesh.vtu",
         posterior="<results>/{case}/{setting}/calibration/posterior.json",
-        kernels=ancient("<results>/kernels.json"),
+        kernels="<results>/kernels.json",
     output:
         beat="<results>/{case}/{setting}/verification/beat.json",
         curves="<results>/{case}/{setting}/verification/beat.csv",
