@@ -7,6 +7,7 @@ python3 study.py test ARGS    set up, then pass the tests; ARGS go to pytest
 python3 study.py lint         set up, then style, types and the workflow's own lint
 python3 study.py benchmark    set up, then measure what a beat costs and write docs/performance.md; half an hour
 python3 study.py convergence  set up, then see what mesh and time step change and write docs/convergence.md; as long
+python3 study.py mutations    set up, then spoil kernels one by one and write which test noticed into docs/mutations.md
 python3 study.py lock         write requirements.lock anew from pyproject.toml
 """
 
@@ -161,6 +162,11 @@ def convergence(_: list[str]) -> int:
     return subprocess.run(tool("python", "-m", "benchmarks.convergence"), check=False).returncode
 
 
+def mutations(arguments: list[str]) -> int:
+    """Write docs/mutations.md anew, or try the mutants that are named."""
+    return subprocess.run(tool("python", "-m", "tests.mutations", *arguments), check=False).returncode
+
+
 def lock(_: list[str]) -> int:
     """Write requirements.lock anew."""
     return subprocess.run(tool(*COMPILE_LOCK), check=False).returncode
@@ -172,6 +178,7 @@ COMMANDS = {
     "lint": lint,
     "benchmark": benchmark,
     "convergence": convergence,
+    "mutations": mutations,
     "lock": lock,
 }
 

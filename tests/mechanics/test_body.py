@@ -16,6 +16,7 @@ from heartfit.mechanics.time_step import TimeStep
 
 FREE = Support(k_b=0.0, c_b=0.0, k_p=0.0, annulus=1.0)
 DEPOLARISED, PERIOD = 0.19, 0.8
+EDGE = 0.04
 elements = pytest.mark.parametrize("element", ["p1", "mixed"])
 Matrix = Callable[[Step, np.ndarray], np.ndarray]
 
@@ -117,6 +118,21 @@ def test_the_faces_carry_the_first_piola_stress(block: Callable, element: str) -
     x = np.column_stack([X @ (F - np.eye(3)).T, np.full(len(X), 1e5 * (J - 1.0))])[:, : rest.x.shape[1]]
     forces = body.endless_step(rest).forces(x).reshape(x.shape)[:, :3]
     assert forces.T @ X / body.reference.wall_volume() == pytest.approx(piola)
+
+
+@pytest.mark.parametrize("last", [None, 4e-3], ids=["first", "later"])
+def test_dampers_resist_a_steady_motion_with_their_coefficient(block: Callable, last: float | None) -> None:
+    """Of a body with dampers beside the same without, both drifting at constant velocity."""
+    velocity, dt = np.array([0.01, -0.02, 0.03]), 5e-3
+    forces, mesh = [], block()
+    for c_b in (5e3, 0.0):
+        body = FiniteElementBody(mesh, Tissue(element="p1", support=replace(FREE, c_b=c_b)))
+        before = body.rest().x - velocity * (last or 0.0)
+        state = replace(body.rest(), x_before=before)
+        step = body.step(state, TimeStep(0.0, dt, PERIOD, last=last))
+        forces.append(step.forces(body.rest().x + velocity * dt).reshape(-1, 3))
+    area = (mesh.surfaces["base"].size / 6) * (EDGE / 3.0) ** 2
+    assert (forces[0] - forces[1]).sum(axis=0) == pytest.approx(5e3 * area * velocity)
 
 
 def test_volume_gradients_are_the_derivatives_of_the_volumes(block: Callable) -> None:

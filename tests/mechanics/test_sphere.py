@@ -63,6 +63,17 @@ def test_static_inflation_follows_the_closed_form(pressures: tuple[float, float]
     assert found == pytest.approx(pressures, rel=1e-4)
 
 
+def test_inflating_an_unloaded_sphere_gives_the_measured_cavities() -> None:
+    sides = [
+        Sphere.unloaded(cavity, wall, load, TISSUE.passive)
+        for cavity, wall, load in ((130e-6, 130e-6, 1300.0), (140e-6, 45e-6, 520.0))
+    ]
+    body = SphericalBody(*sides, TISSUE)
+    assert (body.volumes(body.rest().x) < [115e-6, 125e-6]).all()
+    state = inflate(body, np.array([1300.0, 520.0]))
+    assert body.volumes(state.x) == pytest.approx([130e-6, 140e-6], rel=1e-6)
+
+
 def test_a_thin_sphere_obeys_laplace() -> None:
     """P = 2 h sigma / r, up to thickness over radius."""
     thin = Sphere(radius=0.04, thickness=4e-5)

@@ -1,0 +1,233 @@
+"""Sign flips and dropped terms in the kernels, and the tests that should notice each."""
+
+from dataclasses import dataclass
+
+MECHANICS, CIRCULATION = "tests/mechanics", "tests/circulation"
+BODY, BCS = f"{MECHANICS}/test_body.py", f"{MECHANICS}/test_bcs.py"
+MOONEY, EXPONENTIAL = f"{MECHANICS}/test_mooney_rivlin.py", f"{MECHANICS}/test_guccione.py"
+SPHERE, TIME = f"{MECHANICS}/test_sphere.py", f"{MECHANICS}/test_time_step.py"
+CAVITY, EIKONAL = "tests/geometry/test_cavity.py", "tests/electrophysiology/test_eikonal.py"
+UNSCENTED, UPDATE = "tests/calibration/test_unscented.py", "tests/calibration/test_update.py"
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """In ``file``, below the package, ``old`` becomes ``new``; ``tests`` should fail."""
+
+    what: str
+    file: str
+    old: str
+    new: str
+    tests: str
+
+
+def _in(file: str, tests: str, *changes: tuple[str, str, str]) -> tuple[Mutant, ...]:
+    return tuple(Mutant(what, file, old, new, tests) for what, old, new in changes)
+
+
+MUTANTS = (
+    *_in(
+        "mechanics/active/bcs.py",
+        BCS,
+        ("destruction by motion dropped", "x, made = dt * rate + alpha * abs(d),", "x, made = dt * rate,"),
+        (
+            "motion mends bridges",
+            "shrink = 1.0 / (1.0 + 0.25 * (dt * rate + alpha",
+            "shrink = 1.0 / (1.0 + 0.25 * (dt * rate - alpha",
+        ),
+        ("bridges attach without tension", "made * sigma_0 * inverse, 0.25", "0.0 * sigma_0 * inverse, 0.25"),
+        ("attaching bridges share no stress", "abs(d)) + loss)", "abs(d)))"),
+        ("friction pushes", "tau + mu * d / dt - c,", "tau - mu * d / dt - c,"),
+        ("spring pulled by the old strain", "mean = 0.5 * (es_old + es_new)", "mean = es_old"),
+        ("fibre slope without the sarcomere", "change, s_e + s_d * turn, d, turn", "change, s_e, d, turn"),
+        ("lambda ends at its mean", "new[2, i] = 2.0 * mean - lam", "new[2, i] = mean"),
+    ),
+    *_in(
+        "mechanics/passive/mooney_rivlin.py",
+        MOONEY,
+        ("first invariant not isochoric", "a * (identity - I1 / 3.0 * Ci[i])", "a * identity"),
+        ("second invariant's sign", "(I1 * identity - C[e, i] -", "(I1 * identity + C[e, i] -"),
+        ("tangent lacks the I2 term", " + 2.0 / 3.0 * I2 * odot)", ")"),
+        ("in-plane stress lacks the radial part", "(stretch - stretch**-5)", "(stretch)"),
+    ),
+    *_in(
+        "mechanics/passive/guccione.py",
+        EXPONENTIAL,
+        ("not isochoric", "(H[i] - trace / 3.0 * Ci[i])", "H[i]"),
+        ("tangent of the exponential halved", "2.0 * H[i] * H[k] +", "H[i] * H[k] +"),
+        ("fibres do not mix", "0.5 * b[1] * mixed + b[2] * unit", "b[2] * unit"),
+    ),
+    *_in(
+        "mechanics/kinematics.py",
+        f"{MECHANICS}/test_kinematics.py {BODY}",
+        ("determinant's sign", "- F[e, 0, 1] * (F[e, 1, 0]", "+ F[e, 0, 1] * (F[e, 1, 0]"),
+        ("inverse's shear", "out[3] = (C[4] * C[5] - C[3] * C[2])", "out[3] = (C[4] * C[5] + C[3] * C[2])"),
+        ("fibre strain without shear", "e[i] = 0.5 * (normal - 1.0) + shear", "e[i] = 0.5 * (normal - 1.0)"),
+        (
+            "symmetric product not symmetric",
+            "0.5 * (A[VOIGT[r, k]] * A[VOIGT[c, m]] + A[VOIGT[r, m]] * A[VOIGT[c, k]])",
+            "A[VOIGT[r, k]] * A[VOIGT[c, m]]",
+        ),
+    ),
+    *_in(
+        "mechanics/assembly.py",
+        BODY,
+        (
+            "wall pressure inwards",
+            "S[e, i] += p[e] * J[e] * Ci[i] + viscous",
+            "S[e, i] += -p[e] * J[e] * Ci[i] + viscous",
+        ),
+        ("matrix not viscous", " + viscous + tension[e]", " + tension[e]"),
+        (
+            "tangent of the pressure dropped",
+            "volumetric = a * Ci[i] * Ci[j] - b * symmetric_product(Ci, i, j)",
+            "volumetric = a * Ci[i] * Ci[j]",
+        ),
+        (
+            "a shear in the wrong row",
+            "P[i, 2] = F[e, i, 0] * S[e, 4] + F[e, i, 1] * S[e, 5]",
+            "P[i, 2] = F[e, i, 0] * S[e, 5] + F[e, i, 1] * S[e, 4]",
+        ),
+        ("no geometric stiffness", "        _add_geometric(S[e], gradients[e], K)\n", ""),
+    ),
+    *_in(
+        "mechanics/elements.py",
+        f"{MECHANICS}/test_elements.py {BODY}",
+        (
+            "no stabilisation",
+            "CONSISTENT_MASS / K + PROJECTION_DEFECT / G",
+            "CONSISTENT_MASS / K + 0.0 * PROJECTION_DEFECT / G",
+        ),
+        ("compressible the wrong way", "value -= compliance[a, b]", "value += compliance[a, b]"),
+        (
+            "pressure rows not coupled",
+            "out[e, 4 * b + 3, 4 * a + i] = coupling",
+            "out[e, 4 * b + 3, 4 * a + i] = 0.0",
+        ),
+    ),
+    *_in(
+        "mechanics/body.py",
+        BODY,
+        ("supports push", "self._support, x[:, :3]) - self._drag", "self._support, x[:, :3]) + self._drag"),
+        (
+            "tangent without the memory of the step",
+            "(1.0 + self.time_step.memory) * self._fibre[1]",
+            "self._fibre[1]",
+        ),
+    ),
+    *_in(
+        "mechanics/time_step.py",
+        TIME,
+        ("first order again", "self.length / (self.length + self.last) if", "0.0 * self.length if"),
+        (
+            "extrapolated backwards",
+            "(1.0 + self.memory) * mean - self.memory * before",
+            "(1.0 + self.memory) * mean + self.memory * before",
+        ),
+    ),
+    *_in(
+        "mechanics/support.py",
+        f"{MECHANICS}/test_support.py",
+        (
+            "the pericardium sticks",
+            "moduli[:, None, None] * unit[:, :, None] * unit[:, None, :]",
+            "moduli[:, None, None] * np.eye(3)",
+        ),
+        ("no stiffer apex", "(1.0 + (self.apical - 1.0) * ramp)", "(1.0 + 0.0 * ramp)"),
+    ),
+    *_in(
+        "mechanics/solver.py",
+        f"{MECHANICS}/test_solver.py",
+        (
+            "children are forgotten",
+            "update[start:end, :end] -= np.dot(",
+            "update[start:end, :end] += np.dot(",
+        ),
+        ("no substitution downwards", "            x -= np.dot(gathered, coupling)\n", ""),
+        ("scaled once only", "result[i, j] *= scale[i] * scale[j]", "result[i, j] *= scale[i]"),
+    ),
+    *_in(
+        "mechanics/unloading.py",
+        f"{MECHANICS}/test_statics_unloading.py::test_the_tangent_at_fixed_loaded_positions_is_exact_but_for_the_supports",
+        (
+            "loaded positions move",
+            'np.einsum("eai,ebj->eaibj", forces, slopes)',
+            '0.0 * np.einsum("eai,ebj->eaibj", forces, slopes)',
+        ),
+        ("not pulled back", 'np.einsum("eaibk,ekj->eaibj", blocks[..., :3], F)', "blocks[..., :3]"),
+    ),
+    *_in(
+        "mechanics/sphere.py",
+        SPHERE,
+        ("fibres without leverage", "viscous + stretch * self._tension()[0]", "viscous + self._tension()[0]"),
+        ("radial viscosity's sign", "plane * stretch - 2.0 * radial", "plane * stretch + 2.0 * radial"),
+        ("wall does not thin", "slope *= 1.0 + 2.0 * ratio * stretch**-3", "slope *= 1.0"),
+    ),
+    *_in(
+        "geometry/cavity.py",
+        CAVITY,
+        ("volume's sign", "return six_volumes / 6.0", "return -six_volumes / 6.0"),
+        (
+            "lids carry no pressure",
+            "gradient[rim[i], axis] += gradient[-1 - opening, axis] / size",
+            "gradient[rim[i], axis] += 0.0",
+        ),
+        ("gradient doubled", "gradient[a, i] -= cross / 6.0", "gradient[a, i] -= cross / 3.0"),
+    ),
+    *_in(
+        "electrophysiology/eikonal.py",
+        EIKONAL,
+        ("speed across not squared", "(np.eye(3) - along) / ratio**2", "(np.eye(3) - along) / ratio"),
+        ("the earlier root", "(b + np.sqrt(discriminant)) / a", "(b - np.sqrt(discriminant)) / a"),
+        (
+            "rays from outside",
+            "        return np.inf\n    return arrival",
+            "        return arrival\n    return arrival",
+        ),
+    ),
+    *_in(
+        "circulation/windkessel.py",
+        f"{CIRCULATION}/test_windkessel.py",
+        ("no run-off", "/ (1.0 + dt / tau), (q_L", ", (q_L"),
+        ("venous pressure dropped", "(inflow + P_ve / R_p)", "inflow"),
+        ("no inertance", " - Z_c * q_L / (1.0 + theta)", ""),
+    ),
+    *_in(
+        "branch.py",
+        f"{CIRCULATION}/test_valves.py",
+        ("valves open backwards", "way = 0 if drop > 0.0 else 2", "way = 0 if drop < 0.0 else 2"),
+        (
+            "slope of the orifice",
+            "(0.5 * drop * drop + SMOOTHING * SMOOTHING) / smooth",
+            "(drop * drop + SMOOTHING * SMOOTHING) / smooth",
+        ),
+        ("blood weighs half", "np.sqrt(2.0 / BLOOD_DENSITY)", "np.sqrt(4.0 / BLOOD_DENSITY)"),
+    ),
+    *_in(
+        "circulation/circuit.py",
+        f"{CIRCULATION}/test_circuit.py",
+        ("compliance forgotten", "gap += stored * (p[j] - system[j, ABOUT])", "gap += 0.0"),
+        ("the full step in any case", "            share *= 0.5\n", ""),
+    ),
+    *_in(
+        "calibration/unscented.py",
+        UNSCENTED,
+        ("points too near", "np.sqrt(scaling.spread(n)) *", "1.0 *"),
+        ("no extra weight of the centre", "covariance[0] += 1 - self.a**2 + self.b", "covariance[0] += 0.0"),
+        (
+            "a lost point repeats its partner",
+            "up[~has_up] = 2.0 * filled[0] - down[~has_up]",
+            "up[~has_up] = down[~has_up]",
+        ),
+    ),
+    *_in(
+        "calibration/update.py",
+        UPDATE,
+        ("the step backwards", "shift = gain @ (z - moments.mean)", "shift = gain @ (moments.mean - z)"),
+        (
+            "nothing is learnt",
+            "covariance = prior.covariance - (gain",
+            "covariance = prior.covariance - 0.0 * (gain",
+        ),
+    ),
+)

@@ -1,0 +1,135 @@
+"""Apply each mutant to a copy of the sources and see whether its tests fail."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from tests.mutations.mutants import MUTANTS, Mutant
+
+ROOT = Path(__file__).parents[2]
+PARTS = ("src", "tests", "config", "docs", "resources", "pyproject.toml")
+PASSED, FAILED = 0, 1
+TIMEOUT = 900.0  # s
+PAGE = ROOT / "docs" / "mutations.md"
+
+HEADER = """# Mutations
+
+Each row is one change to a kernel, made in a copy of the sources, and the first test that fails of it. One that
+survived would be a test that is missing. This page is written by `python3 study.py mutations`, half an hour; a test
+asserts that every mutant of the list is in it and was caught, and that the text it changes still stands in the sources.
+
+| mutant | of | instead of | caught by |
+|---|---|---|---|
+"""
+
+
+class MutationError(RuntimeError):
+    """The tests do not even pass without a mutant, or a mutant cannot be made."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What became of a mutant: the first test that failed of it, nothing if it survived."""
+
+    mutant: Mutant
+    caught_by: str
+
+
+class Copy:
+    """The project in a folder of its own."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        for part in PARTS:
+            source, target = ROOT / part, folder / part
+            if source.is_dir():
+                shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__"))
+            else:
+                shutil.copy(source, target)
+
+    @contextmanager
+    def mutated(self, mutant: Mutant) -> Iterator[None]:
+        """The copy with the mutant in it, and whole again afterwards."""
+        file = self.folder / "src" / "heartfit" / mutant.file
+        text = file.read_text()
+        if text.count(mutant.old) != 1:
+            raise MutationError(
+                f"{mutant.file} has {text.count(mutant.old)} times {mutant.old!r}; expected one"
+            )
+        file.write_text(text.replace(mutant.old, mutant.new))
+        try:
+            yield
+        finally:
+            file.write_text(text)
+
+    def first_failure(self, tests: str) -> str:
+        """Run the tests until one fails; its name, or nothing if all pass.
+
+        Kernels are compiled anew: numba would not see that what a kernel calls has changed in another file.
+        """
+        with TemporaryDirectory() as kernels:
+            run = subprocess.run(
+                [
+                    sys.executable,
+                    "-m",
+                    "pytest",
+                    "-x",
+                    "-q",
+                    "-n",
+                    "0",
+                    "-p",
+                    "no:cacheprovider",
+                    *tests.split(),
+                ],
+                cwd=self.folder,
+                env=os.environ
+                | {"PYTHONPATH": f"{self.folder / 'src'}:{self.folder}", "NUMBA_CACHE_DIR": kernels},
+                text=True,
+                capture_output=True,
+                timeout=TIMEOUT,
+            )
+        if run.returncode not in (PASSED, FAILED):
+            raise MutationError(f"{tests} cannot be run:\n{run.stdout}{run.stderr}")
+        failed = re.search(r"^(?:FAILED|ERROR) tests/(\S+)", run.stdout, re.MULTILINE)
+        return failed[1] if failed else ""
+
+
+def verdicts(mutants: tuple[Mutant, ...] = MUTANTS) -> Iterator[Verdict]:
+    """What became of each; raises MutationError if tests fail without any."""
+    with TemporaryDirectory() as folder:
+        copy = Copy(Path(folder) / "project")
+        for tests in dict.fromkeys(mutant.tests for mutant in mutants):
+            if failure := copy.first_failure(tests):
+                raise MutationError(f"{failure} fails without a mutant")
+        for mutant in mutants:
+            with copy.mutated(mutant):
+                yield Verdict(mutant, copy.first_failure(mutant.tests))
+
+
+def row(verdict: Verdict) -> str:
+    """Of the page."""
+    mutant, caught = verdict.mutant, f"`{verdict.caught_by}`" if verdict.caught_by else "**nobody**"
+    old, new = (
+        f"`{' '.join(text.split())}`" if text.strip() else "nothing" for text in (mutant.old, mutant.new)
+    )
+    return f"| {mutant.what} | `{mutant.file}`: {new} | {old} | {caught} |\n"
+
+
+def main(names: list[str]) -> int:
+    """Write the page, or print the rows of the named mutants; 1 if one survives."""
+    chosen = tuple(mutant for mutant in MUTANTS if not names or mutant.what in names)
+    rows, survived = [], 0
+    for verdict in verdicts(chosen):
+        rows.append(row(verdict))
+        survived += not verdict.caught_by
+        sys.stderr.write(rows[-1])
+    if not names:
+        PAGE.write_text(HEADER + "".join(rows))
+    return int(survived > 0)
