@@ -20,7 +20,7 @@ reference is found for the parameters that beat ("own"), frozen at the standard 
 standard deviations, or taken to be the end-diastolic mesh itself. EDV is the largest volume of the beat, less the
 measured one. The 2 % that are wanted are missed by the left ventricle here: the reference gives the volume back under
 the pressure that was assumed, but the beat fills to it only as far as its atrium does. The measured heart fills to
-179 mL on its limit cycle, 1.3 % above the largest volume that was measured; its mesh, at the R wave, is smaller (172 mL).
+179 mL on its limit cycle, 1.3 % above the largest measured volume; its mesh, at the R wave, is smaller (172 mL).
 `heartfit reference MESH` prints the table of another mesh, on its limit cycle.
 
 """
