@@ -50,7 +50,7 @@ class Body(Protocol):
 class Tolerances:
     """When a step has converged, and when the factorisation is renewed."""
 
-    force: float = 2e-2  # N
+    force: float = 4e-2  # N
     volume: float = 1e-10  # m^3
     pressure: float = 1.0  # Pa, of the arteries
     iterations: int = 25
