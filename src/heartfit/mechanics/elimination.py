@@ -173,18 +173,10 @@ def _structure(
         if filled + room > len(rows):
             rows = np.concatenate((rows, np.empty(max(len(rows), room), dtype=np.int64)))
         for j in range(starts[s], end):
-            for i in above[above_starts[j] : above_starts[j + 1]]:
-                if i >= end and seen[i] != s:
-                    seen[i] = s
-                    rows[filled] = i
-                    filled += 1
+            filled = _join(rows, filled, above[above_starts[j] : above_starts[j + 1]], end, seen, s)
         child = head[s]
         while child != -1:
-            for i in rows[row_starts[child] : row_starts[child + 1]]:
-                if i >= end and seen[i] != s:
-                    seen[i] = s
-                    rows[filled] = i
-                    filled += 1
+            filled = _join(rows, filled, rows[row_starts[child] : row_starts[child + 1]], end, seen, s)
             child = following[child]
         rows[row_starts[s] : filled].sort()
         row_starts[s + 1] = filled
@@ -192,3 +184,14 @@ def _structure(
             parents[s] = home[rows[row_starts[s]]]
             following[s], head[parents[s]] = head[parents[s]], s
     return rows[: row_starts[k]].copy(), row_starts, parents
+
+
+@njit(cache=True)
+def _join(rows: Integers, filled: int, new: Integers, end: int, seen: Integers, s: int) -> int:
+    """Append to ``rows`` what of ``new`` front s has not seen and does not eliminate; how many are filled then."""
+    for i in new:
+        if i >= end and seen[i] != s:
+            seen[i] = s
+            rows[filled] = i
+            filled += 1
+    return filled
