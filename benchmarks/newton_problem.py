@@ -9,7 +9,7 @@ with U of the element (see heartfit.mechanics.elements), tangent, factors and so
 strains of some 10 % that is not an equilibrium.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -58,8 +58,9 @@ def state(mesh: VentricularMesh, dofs: int) -> np.ndarray:
 
 
 def step_of(mesh: VentricularMesh, element: str) -> tuple[Step, np.ndarray]:
-    """The step of the wall and the state at which it is asked."""
+    """The step of the wall, with one fibre in each tetrahedron, and the state at which it is asked."""
     active = ConstantTension(tension_of_fibres=TENSION)
+    mesh = replace(mesh, orientation=None)
     body = FiniteElementBody(mesh, Tissue(MooneyRivlin(), active, support=HeldBase(), element=element))
     return body.endless_step(body.rest()), state(mesh, body.element.dofs)
 
