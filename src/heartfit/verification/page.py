@@ -8,6 +8,8 @@ from heartfit.verification.audit_page import audit_section
 from heartfit.verification.block_checks import HARD, SIZES, SOFT, USUAL, block_checks, block_error
 from heartfit.verification.check import Check
 from heartfit.verification.land_checks import coarse_land_checks, fine_land_checks, land_table
+from heartfit.verification.physioblocks_checks import SECTION as PHYSIOBLOCKS
+from heartfit.verification.physioblocks_checks import physioblocks_checks
 from heartfit.verification.reference_checks import reference_checks, reference_section
 from heartfit.verification.slab import CHASTE_CORNER, SIZE, exact
 from heartfit.verification.slab_checks import slab_checks
@@ -81,6 +83,7 @@ def all_checks() -> list[Check]:
     return (
         block_checks()
         + time_order_checks()
+        + physioblocks_checks()
         + slab_checks()
         + arostica_checks()
         + coarse_land_checks()
@@ -103,6 +106,7 @@ def verification_page() -> str:
         + BLOCK
         + _errors()
         + time_order_section()
+        + PHYSIOBLOCKS
         + SLAB.format(**_arrivals())
         + LAND
         + land_table()
