@@ -86,7 +86,7 @@ def solve_circuit(ends, laws, moving, atria, t, system, p, room, jacobian):  # t
     """Move p (2 v,) to the balance of the circuit; the norm of the residual where p was.
 
     Branches as in :func:`~heartfit.circulation.network.net_outflow`, ``system`` (2 v, 3 + 2 v) as the module's
-    columns say; ``room`` (2 v, 3) and ``jacobian`` (2 v, 2 v) are overwritten.
+    columns say; ``room`` (3, 2 v), whose rows the module names, and ``jacobian`` (2 v, 2 v) are overwritten.
     """
     size = first = circuit_residual(ends, laws, moving, atria, t, system, p, room, jacobian)
     for _ in range(ITERATIONS):
