@@ -13,7 +13,7 @@ HEIGHTS = (
     ("errors",),
     ("parameter",),
     ("geometry",),
-    ("branch",),
+    ("branch", "imaging"),
     ("electrophysiology",),
     ("mechanism",),
     ("mechanics",),
@@ -42,6 +42,7 @@ HEIGHT = {layer: height for height, layers in enumerate(HEIGHTS) for layer in la
 PHYSICS = {"geometry", "electrophysiology", "mechanics", "mechanism", "mechanisms", "circulation", "heart"}
 PHYSICS |= {
     "branch",
+    "imaging",
     "simulation",
     "sphere",
     "limit_cycle",

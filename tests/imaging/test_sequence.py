@@ -1,0 +1,83 @@
+"""Image sequences: where voxels lie, and which sequences are refused."""
+
+import numpy as np
+import pytest
+
+from heartfit.errors import InputError
+from heartfit.imaging.grid import Grid
+from heartfit.imaging.sequence import ImageSequence
+
+FRAMES = 8
+TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+
+
+@pytest.fixture
+def grid() -> Grid:
+    return Grid((4, 3, 2), np.array([1e-3, 2e-3, 8e-3]), np.array([0.1, -0.2, 0.3]), TURN)
+
+
+@pytest.fixture
+def content(grid):
+    voxels = np.random.default_rng(0).random((FRAMES, *grid.shape)).astype(np.float32)
+    return {"grid": grid, "voxels": voxels, "times": 0.1 * np.arange(FRAMES), "period": 0.8}
+
+
+def test_the_axis_i_points_where_the_first_column_says(grid):
+    np.testing.assert_allclose(grid.points(np.array([1.0, 0.0, 0.0])), [0.1, -0.199, 0.3])
+    np.testing.assert_allclose(grid.points(np.array([0.0, 0.0, 1.0])), [0.1, -0.2, 0.308])
+
+
+def test_index_undoes_points(grid):
+    index = np.random.default_rng(1).random((5, 3))
+    np.testing.assert_allclose(grid.index(grid.points(index)), index, atol=1e-12)
+    np.testing.assert_allclose(grid.vectors(index), grid.points(index) - grid.origin)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"spacing": np.array([1e-3, 0.0, 1e-3])}, "spacing"),
+        ({"direction": np.ones((3, 3))}, "orthonormal"),
+        ({"size": (4, 0, 2)}, "size"),
+    ],
+)
+def test_a_grid_that_cannot_be_is_refused(grid, change, said):
+    with pytest.raises(InputError, match=said):
+        Grid(
+            **{"size": grid.size, "spacing": grid.spacing, "origin": grid.origin, "direction": TURN} | change
+        )
+
+
+def test_end_diastole_comes_first_and_time_goes_on(content):
+    turned = ImageSequence(**content).starting_at(6)
+    np.testing.assert_array_equal(turned.voxels[:3], content["voxels"][[6, 7, 0]])
+    np.testing.assert_allclose(turned.times, content["times"], atol=1e-12)
+
+
+@pytest.mark.parametrize("frame", [-1, FRAMES])
+def test_an_end_diastole_out_of_range_is_refused(content, frame):
+    with pytest.raises(InputError, match=rf"frame {frame}; expected 0 to 7"):
+        ImageSequence(**content).starting_at(frame)
+
+
+def spoilt(content, **change):
+    return ImageSequence(**content | change)
+
+
+def test_what_is_no_sequence_is_refused_with_the_frame_named(content):
+    hole, flat = content["voxels"].copy(), content["voxels"].copy()
+    hole[5, 1, 2, 3], flat[3] = np.nan, 7.0
+    late = content["times"].copy()
+    late[4] = late[3]
+    with pytest.raises(InputError, match=r"frame 5 holds 1 voxels that are not finite, first \(3, 2, 1\)"):
+        spoilt(content, voxels=hole)
+    with pytest.raises(InputError, match="frame 3 is 7 everywhere"):
+        spoilt(content, voxels=flat)
+    with pytest.raises(InputError, match="frame 4 is at"):
+        spoilt(content, times=late)
+    with pytest.raises(InputError, match="at least 8"):
+        spoilt(content, voxels=content["voxels"][:7], times=content["times"][:7])
+    with pytest.raises(InputError, match=r"expected \(8, 2, 3, 4\)"):
+        spoilt(content, voxels=content["voxels"].transpose(0, 3, 2, 1))
+    with pytest.raises(InputError, match="within"):
+        spoilt(content, period=0.65)
