@@ -45,10 +45,10 @@ def test_contours_are_closed_to_the_bit_and_lie_in_the_plane() -> None:
     points = rng.standard_normal((300, 3))
     points /= np.linalg.norm(points, axis=1, keepdims=True)
     triangles = hull(points)
-    for normal, node in zip(np.eye(3), points, strict=False):
-        segments = cut(points, triangles, node, normal)  # a node lies in the plane
+    for normal in np.eye(3):
+        node = points[np.abs(points @ normal).argmin()]  # lies in the plane, which is nearly the equator's
+        segments = cut(points, triangles, node, normal)
         starts, ends = (Counter(map(tuple, segments[:, side])) for side in (0, 1))
         assert starts == ends
         assert np.abs((segments - node) @ normal).max() < 1e-14
-        radius = np.sqrt(1.0 - (node @ normal) ** 2)
-        assert 0.9 * np.pi * radius**2 < area(segments, normal) < np.pi * radius**2
+        assert 0.95 * np.pi < area(segments, normal) < np.pi
