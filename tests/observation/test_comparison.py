@@ -1,0 +1,163 @@
+"""Two motions that a formula gives: each error is what the formula says, and no other moves."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.errors import InputError
+from heartfit.geometry.coordinates import LeftVentricularAxes
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.geometry.motion import Motion
+from heartfit.observation.comparison import Comparison, compare_motions
+from heartfit.observation.curve import Curve
+from heartfit.observation.operator import PressureFeatures, VolumeFeatures
+from heartfit.observation.strain import DIRECTIONS, cylinder_directions, segment_strain
+
+PERIOD = 0.8
+TIMES = np.arange(12) * PERIOD / 12
+SHARE = np.sin(np.pi * np.arange(12) / 12) ** 2  # 0 in phase 0, 1 in phase 6
+FEATURES = {"lv_volume": VolumeFeatures(frames=12)}
+
+
+def affine(mesh: VentricularMesh, matrix: np.ndarray, shift: np.ndarray | None = None) -> Motion:
+    """Every phase the share SHARE of an affine map about the apex, given in septal, anterior, axial components."""
+    axes = LeftVentricularAxes.of(mesh)
+    frame = np.array([axes.septal, axes.anterior, axes.axis])
+    local = (mesh.points - axes.apex) @ frame.T
+    moved = [local + share * (local @ (matrix - np.eye(3)).T) for share in SHARE]
+    offset = np.zeros(3) if shift is None else shift
+    return Motion(
+        TIMES, PERIOD, np.array([(x + s * offset) @ frame for x, s in zip(moved, SHARE, strict=True)])
+    )
+
+
+def contraction(mesh: VentricularMesh, across: float, along: float) -> Motion:
+    return affine(mesh, np.diag([across, across, along]))
+
+
+@pytest.fixture
+def compared(ventricle: VentricularMesh) -> Callable[[Motion, Motion], Comparison]:
+    return lambda true, registered: compare_motions(ventricle, true, registered, FEATURES)
+
+
+def test_a_motion_is_itself(ventricle: VentricularMesh, compared: Callable) -> None:
+    motion = contraction(ventricle, 0.8, 0.85)
+    found = compared(motion, motion)
+    assert found.observation_errors() == dict.fromkeys(("V_min", "q_max", "q_min"), 0.0)
+    assert not found.point_error.any()
+    assert not found.strain_error_of_beat().any()
+    assert not found.folded.any()
+    assert found.end_systole == 6
+
+
+def test_a_rigid_shift_is_a_point_error_of_its_length_and_nothing_else(
+    ventricle: VentricularMesh, compared: Callable
+) -> None:
+    matrix = np.diag([0.8, 0.8, 0.85])
+    shift = np.array([2e-3, -1e-3, 2e-3])  # 3 mm long
+    found = compared(affine(ventricle, matrix), affine(ventricle, matrix, shift))
+    assert found.point_error == pytest.approx(np.outer(3e-3 * SHARE, [1.0, 1.0]), abs=1e-15)
+    assert found.point_error_of_beat[0] == pytest.approx(3e-3 * SHARE[1:].mean())
+    assert found.strain_error_of_beat() == pytest.approx(np.zeros((3, 16)), abs=1e-13)
+    assert list(found.observation_errors().values()) == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
+
+
+def test_a_rigid_turn_strains_nothing(ventricle: VentricularMesh) -> None:
+    cosine, sine = np.cos(0.4), np.sin(0.4)
+    turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    motion = affine(ventricle, turn)
+    at_end = replace(motion, positions=motion.positions[[0, 6] * 6])
+    assert segment_strain(ventricle, at_end) == pytest.approx(np.zeros((12, 3, 16)), abs=1e-13)
+
+
+def test_an_even_dilation_gives_the_strain_and_volume_of_its_scale(
+    ventricle: VentricularMesh, compared: Callable
+) -> None:
+    found = compared(contraction(ventricle, 0.8, 0.8), contraction(ventricle, 0.9, 0.9))
+    assert found.true_strain[6] == pytest.approx(np.full((3, 16), 0.5 * (0.8**2 - 1.0)))
+    assert found.registered_strain[6] == pytest.approx(np.full((3, 16), 0.5 * (0.9**2 - 1.0)))
+    assert found.strain_error_at_end_systole() == pytest.approx(np.full((3, 16), 0.5 * (0.9**2 - 0.8**2)))
+    assert found.observation_errors()["V_min"] == pytest.approx((0.9 / 0.8) ** 3 - 1.0)
+    expected = 0.5 * ((1.0 - 0.1 * SHARE) ** 2 - (1.0 - 0.2 * SHARE) ** 2)
+    assert found.strain_error_of_beat() == pytest.approx(np.full((3, 16), np.sqrt((expected**2).mean())))
+
+
+def test_each_direction_sees_its_own_stretch(ventricle: VentricularMesh) -> None:
+    """A stretch along the axis and one across it: circumference and radius change alike in an affine map."""
+    strain = segment_strain(ventricle, contraction(ventricle, 0.9, 0.7))[6]
+    expected = {"circumferential": 0.9, "longitudinal": 0.7, "radial": 0.9}
+    for row, direction in zip(strain, DIRECTIONS, strict=True):
+        assert row == pytest.approx(np.full(16, 0.5 * (expected[direction] ** 2 - 1.0)))
+
+
+def test_circumference_and_radius_are_told_apart(ventricle: VentricularMesh) -> None:
+    """A stretch in one direction across the axis: radial where the segment faces it, circumferential beside it.
+
+    Of segments 7 to 12, the septal and lateral ones face it. E_nn = (s^2 - 1)/2 (n.e)^2 in each tetrahedron.
+    """
+    strain = segment_strain(ventricle, affine(ventricle, np.diag([1.2, 1.0, 1.0])))[6]
+    whole = 0.5 * (1.2**2 - 1.0)
+    assert strain[0] + strain[2] == pytest.approx(np.full(16, whole))
+    assert strain[1] == pytest.approx(np.zeros(16), abs=1e-13)
+    # AHA 8, 9 share the septum and 11, 12 the free wall: within 60 degrees of the stretch; 7, 10 across it
+    assert (strain[2, [7, 8, 10, 11]] > 0.5 * whole).all()
+    assert (strain[2, [6, 9]] < 0.5 * whole).all()
+
+
+def test_directions_are_orthonormal_and_right_handed(ventricle: VentricularMesh) -> None:
+    frames = cylinder_directions(ventricle)
+    assert frames @ frames.swapaxes(1, 2) == pytest.approx(np.tile(np.eye(3), (len(frames), 1, 1)), abs=1e-12)
+    assert np.linalg.det(frames) == pytest.approx(np.ones(len(frames)))
+
+
+def test_a_segment_is_the_mean_over_its_volume(ventricle: VentricularMesh) -> None:
+    """Of a motion that no formula gives, tetrahedron by tetrahedron: F from the edges, E = (F'F - 1)/2."""
+    random, start = np.random.default_rng(1), ventricle.points
+    positions = np.array([start + share * 2e-4 * random.standard_normal(start.shape) for share in SHARE])
+    found = segment_strain(ventricle, Motion(TIMES, PERIOD, positions))
+    inside = ventricle.tets[ventricle.segments == 14]
+    before, after = ((x[inside[:, 1:]] - x[inside[:, :1]]).swapaxes(1, 2) for x in (start, positions[5]))
+    F = after @ np.linalg.inv(before)
+    E = 0.5 * (F.swapaxes(1, 2) @ F - np.eye(3))
+    axis = LeftVentricularAxes.of(ventricle).axis
+    expected = np.average(axis @ E @ axis, weights=np.linalg.det(before))
+    assert found[5, DIRECTIONS.index("longitudinal"), 13] == pytest.approx(expected)
+
+
+def test_a_fold_is_counted_where_it_is(ventricle: VentricularMesh, compared: Callable) -> None:
+    true = contraction(ventricle, 0.9, 0.9)
+    positions = true.positions.copy()
+    a, b, c, d = positions[3, ventricle.tets[100]]
+    positions[3, ventricle.tets[100][0]] += 2.0 * ((b + c + d) / 3.0 - a)
+    found = compared(true, replace(true, positions=positions))
+    assert found.folded[3] >= 1
+    assert not np.delete(found.folded, 3).any()
+
+
+def test_a_catheter_adds_the_observations_of_pressure(ventricle: VentricularMesh) -> None:
+    motion = contraction(ventricle, 0.8, 0.8)
+    times = np.arange(200) * PERIOD / 200
+    true = Curve(times, 8e3 - 7e3 * np.cos(2 * np.pi * times / PERIOD), PERIOD)
+    recorded = replace(true, values=1.1 * true.values)
+    features = FEATURES | {"lv_pressure": PressureFeatures()}
+    errors = compare_motions(ventricle, motion, motion, features, (true, recorded)).observation_errors()
+    found = [errors[name] for name in ("P_max", "dPdt_max", "dPdt_min")]
+    assert found == pytest.approx([0.1, 0.1, -0.1])
+    assert errors["V_min"] == 0.0
+
+
+def test_motions_that_cannot_be_compared_are_refused(ventricle: VentricularMesh, compared: Callable) -> None:
+    motion = contraction(ventricle, 0.8, 0.8)
+    with pytest.raises(InputError, match="the registered motion has 5 nodes"):
+        compared(motion, replace(motion, positions=motion.positions[:, :5]))
+    with pytest.raises(InputError, match="12 true and 11 registered frames"):
+        compared(motion, Motion(TIMES[:11], PERIOD, motion.positions[:11]))
+    with pytest.raises(InputError, match=r"up to 0\.01 s apart"):
+        compared(motion, replace(motion, times=TIMES + 0.01))
+    with pytest.raises(InputError, match="no AHA segments"):
+        segment_strain(replace(ventricle, segments=None), motion)
+    without = replace(ventricle, segments=np.where(ventricle.segments == 5, 6, ventricle.segments))
+    with pytest.raises(InputError, match="no tetrahedron lies in segment 5"):
+        segment_strain(without, motion)
