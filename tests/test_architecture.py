@@ -13,7 +13,7 @@ HEIGHTS = (
     ("errors",),
     ("parameter",),
     ("geometry",),
-    ("branch", "imaging"),
+    ("branch", "imaging", "periodic"),
     ("electrophysiology",),
     ("mechanism",),
     ("mechanics",),
@@ -43,6 +43,7 @@ PHYSICS = {"geometry", "electrophysiology", "mechanics", "mechanism", "mechanism
 PHYSICS |= {
     "branch",
     "imaging",
+    "periodic",
     "simulation",
     "sphere",
     "limit_cycle",

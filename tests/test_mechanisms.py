@@ -10,7 +10,7 @@ from heartfit.branch import BLOOD_DENSITY
 from heartfit.heart import Heart
 from heartfit.mechanics.body import FiniteElementBody
 from heartfit.mechanics.sphere import SphericalBody
-from heartfit.mechanism import COMPARTMENTS, Flow, Mechanism, Pressure, mechanism, registered
+from heartfit.mechanism import COMPARTMENTS, Flow, Mechanism, Pressure, Sensor, mechanism, registered
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.parameter import parameter, parameters_of
 from heartfit.simulation import Numerics, simulate
@@ -20,6 +20,7 @@ ONE_BEAT = Numerics(time_step=0.01, max_beats=1)
 KINDS = registered()
 FLOWS = {name: kind for name, kind in KINDS.items() if issubclass(kind, Flow)}
 PRESSURES = {name: kind for name, kind in KINDS.items() if issubclass(kind, Pressure)}
+SENSORS = {name: kind for name, kind in KINDS.items() if issubclass(kind, Sensor)}
 
 
 def each(kinds: dict[str, type[Mechanism]]) -> pytest.MarkDecorator:
@@ -27,8 +28,8 @@ def each(kinds: dict[str, type[Mechanism]]) -> pytest.MarkDecorator:
 
 
 def test_the_folder_is_the_registry() -> None:
-    assert {"AtrialKick", "MitralRegurgitation"} <= KINDS.keys()
-    assert KINDS.keys() == FLOWS.keys() | PRESSURES.keys()
+    assert {"AtrialKick", "MitralRegurgitation", "ImageShrinkage"} <= KINDS.keys()
+    assert KINDS.keys() == FLOWS.keys() | PRESSURES.keys() | SENSORS.keys()
 
 
 @each(KINDS)
@@ -39,7 +40,7 @@ def test_one_switch_turns_it_off(kind: type[Mechanism]) -> None:
     assert kind().turned_off() != kind()
 
 
-@each(KINDS)
+@each(FLOWS | PRESSURES)
 def test_switched_off_it_leaves_no_trace(
     kind: type[Mechanism], spherical_heart: Heart, spheres: SphericalBody
 ) -> None:
@@ -106,6 +107,43 @@ def test_blood_is_conserved_with_another_branch(
         assert 1.5 * V[2:] - 2.0 * V[1:-1] + 0.5 * V[:-2] == pytest.approx(dt * inflow[2:], abs=1e-9)
 
 
+@pytest.fixture(scope="module")
+def sampled() -> tuple[np.ndarray, np.ndarray]:
+    """Any curve at the times of a beat, the trigger inside a step."""
+    return np.arange(166) * PERIOD / 166 - 0.1733, 1e-4 * (1.0 + np.random.default_rng(5).random(166))
+
+
+@each(SENSORS)
+def test_a_sensor_that_is_off_shows_what_is_there(
+    kind: type[Sensor], sampled: tuple[np.ndarray, np.ndarray]
+) -> None:
+    times, values = sampled
+    assert (kind().turned_off().distort(times, values, PERIOD) == values).all()
+    assert abs(kind().distort(times, values, PERIOD) - values).max() > 1e-2 * np.ptp(values)
+
+
+@each(SENSORS)
+def test_a_sensor_has_no_other_zero_than_its_curve(
+    kind: type[Sensor], sampled: tuple[np.ndarray, np.ndarray]
+) -> None:
+    """Instruments are linear but for a constant: what is added to the whole curve is added to what they show."""
+    times, values = sampled
+    shown, raised = (kind().distort(times, curve, PERIOD) for curve in (values, values + 3e-5))
+    assert raised - shown == pytest.approx(np.full(166, 3e-5), rel=1e-9)
+
+
+def test_the_heart_does_not_feel_its_sensors(spherical_heart: Heart, spheres: SphericalBody) -> None:
+    observed = replace(
+        spherical_heart, mechanisms=(*spherical_heart.mechanisms, *(k() for k in SENSORS.values()))
+    )
+    plain, measured = (simulate(heart, spheres, ONE_BEAT) for heart in (spherical_heart, observed))
+    assert [type(sensor) for sensor in observed.sensors] == list(SENSORS.values())
+    assert spherical_heart.sensors == ()
+    for name, values in plain.signals().items():
+        assert (measured.signals()[name] == values).all(), name
+    assert {name for kind in SENSORS.values() for name in kind.measures} <= plain.signals().keys()
+
+
 def test_they_work_in_three_dimensions(coarse_body: FiniteElementBody) -> None:
     """Mitral regurgitation takes from the forward stroke volume what it gives back to the atrium."""
     healthy, leaking = (
@@ -130,7 +168,9 @@ def test_the_mitral_leak_is_an_orifice_between_left_ventricle_and_left_atrium(
 
 
 def test_a_mechanism_without_role_or_with_a_taken_name_is_refused() -> None:
-    with pytest.raises(TypeError, match=r"Stray plays no role: derive it from one of \['Flow', 'Pressure'\]"):
+    with pytest.raises(
+        TypeError, match=r"Stray plays no role: derive it from one of \['Flow', 'Pressure', 'Sensor'\]"
+    ):
 
         @mechanism
         class Stray(Mechanism):

@@ -7,7 +7,7 @@ from typing import Any
 
 from heartfit.circulation.network import Circulation
 from heartfit.mechanics.body import Tissue
-from heartfit.mechanism import Mechanism
+from heartfit.mechanism import Mechanism, Sensor
 from heartfit.mechanisms.atrial_kick import AtrialKick
 from heartfit.parameter import parameters_of
 
@@ -37,6 +37,11 @@ class Heart:
     def trigger(self) -> float:
         """Simulated time of the ECG trigger, s."""
         return self.tissue.control.onset + self.tissue.control.trigger_delay
+
+    @property
+    def sensors(self) -> tuple[Sensor, ...]:
+        """The mechanisms that distort what is measured of the heart, in the order in which they act."""
+        return tuple(m for m in self.mechanisms if isinstance(m, Sensor))
 
     def parameters(self) -> dict[str, float]:
         """All parameters by dotted path below the heart; see :meth:`with_parameters` for short names."""

@@ -61,7 +61,21 @@ class Pressure(Mechanism):
         """Pressure added to ``compartment`` at ``time`` (any shape), Pa; periodic in ``period``."""
 
 
-ROLES: tuple[type[Mechanism], ...] = (Flow, Pressure)
+class Sensor(Mechanism):
+    """What an instrument makes of a curve: it enters the measurement, and the heart does not feel it.
+
+    Several sensors act one after the other, in the order in which they were added to the heart.
+    """
+
+    measures: ClassVar[tuple[str, ...]]
+    """Names of the curves that it measures, as :meth:`heartfit.beat.Beat.signals` gives them."""
+
+    @abstractmethod
+    def distort(self, times: Floats, values: Floats, period: float) -> Floats:
+        """What it shows (t,) of the periodic curve ``values`` (t,), SI, at ``times`` (t,), s after the trigger."""
+
+
+ROLES: tuple[type[Mechanism], ...] = (Flow, Pressure, Sensor)
 
 M = TypeVar("M", bound=type[Mechanism])
 

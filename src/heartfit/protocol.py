@@ -7,6 +7,7 @@ import numpy as np
 
 from heartfit.beat import Beat, failed_beat
 from heartfit.calibration.gaussian import Gaussian
+from heartfit.calibration.unscented import SigmaPoint
 from heartfit.calibration.update import Posterior, calibrate
 from heartfit.configuration.setting import Setting
 from heartfit.configuration.study import Operator, Pressures, TimeScheme, Transform
@@ -45,15 +46,18 @@ def run_beat(
 
 
 def estimate(
+    setting: Setting,
     prior: Gaussian,
+    points: Sequence[SigmaPoint],
     beats: Iterable[Beat],
     measured: Mapping[str, Curve],
     observations: Sequence[Observation],
     operator: Operator,
     transform: Transform,
 ) -> Posterior:
-    """The posterior from the beats of all sigma points, in their order."""
+    """The posterior from the beats of all sigma points, in their order, each seen through its own sensors."""
+    sensors = [setting.sensors(point.parameters) for point in points]
     noise = np.diag([each.noise**2 for each in observations]) if transform.noise else None
     observed = {each.name: each.value for each in observations}
-    outcomes = observe_beats(beats, operator.features(measured))
+    outcomes = observe_beats(beats, operator.features(measured), sensors)
     return calibrate(prior, outcomes, observed, noise, transform.scaling())

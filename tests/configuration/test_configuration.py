@@ -11,6 +11,8 @@ from heartfit.configuration.strict import validated
 from heartfit.configuration.study import Study
 from heartfit.errors import InputError
 from heartfit.io.configuration import plan_study, read_cases, read_configuration, schema
+from heartfit.mechanisms.image_shrinkage import ImageShrinkage
+from heartfit.mechanisms.image_smoothing import ImageSmoothing
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -93,6 +95,26 @@ def test_a_parameter_is_not_both_estimated_and_fixed(content):
 def test_a_parameter_without_prior_is_not_estimated(content):
     content["settings"]["paper"]["estimate"] = ["k_b"]
     assert "k_b is estimated and has no prior" in complaint(Study, content)
+
+
+def test_a_parameter_of_either_sign_is_not_estimated(content):
+    content["settings"]["paper"] |= {"mechanisms": ["ImageShrinkage"], "estimate": ["shrinkage"]}
+    content["settings"]["paper"]["prior"] = {"shrinkage": {"sd": 0.3}}
+    message = complaint(Study, content)
+    assert (
+        "shrinkage is estimated and may be negative, but priors are log-normal; fix it under heart" in message
+    )
+
+
+def test_the_sensors_of_a_setting_have_the_parameters_of_the_beat_they_look_at(content):
+    content["settings"]["physical"] |= {
+        "mechanisms": ["ImageSmoothing", "MitralRegurgitation", "ImageShrinkage"],
+        "estimate": ["smoothing", "sigma_0"],
+        "heart": {"shrinkage": -0.05},
+    }
+    setting = validated(Study, content, "config.yaml").setting("physical")
+    seen = setting.sensors({"smoothing": 0.04, "sigma_0": 2e5})
+    assert seen == (ImageSmoothing(0.04), ImageShrinkage(-0.05))
 
 
 def test_the_prior_of_a_setting_stands_over_the_study_s_over_the_declared_one(content):

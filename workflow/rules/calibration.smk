@@ -58,6 +58,8 @@ rule update_parameters:
         mem_mb=500,
         runtime=5,
     params:
+        setting=setting_of,
+        mechanisms=mechanisms_of,
         operator=STUDY.observation,
         transform=STUDY.unscented,
         code=code("update_parameters.py"),

@@ -41,6 +41,8 @@ rule plot_case:
         mem_mb=500,
         runtime=5,
     params:
+        setting=setting_of,
+        mechanisms=mechanisms_of,
         operator=STUDY.observation,
         code=code("plot_case.py"),
     script:

@@ -43,6 +43,7 @@ rule compare_case:
         runtime=5,
     params:
         setting=setting_of,
+        mechanisms=mechanisms_of,
         operator=STUDY.observation,
         code=code("compare_case.py"),
     script:

@@ -13,12 +13,13 @@ record(snakemake.log[0])
 files, setting = snakemake.input, snakemake.params.setting
 identity = {**dict(snakemake.wildcards.items()), "fingerprint": read_fingerprint(Path(files.calibrated))}
 calibrated = read_beat(Path(files.calibrated))
+posterior = read_posterior(Path(files.posterior))
+sensors = setting.sensors(posterior.prior.physical()), setting.sensors(posterior.estimate.physical())
 curves = {
     "measured": read_curves(Path(files.measured)),
-    "reference": beat_curves(read_beat(Path(files.reference))),
-    "calibrated": beat_curves(calibrated),
+    "reference": beat_curves(read_beat(Path(files.reference)), sensors[0]),
+    "calibrated": beat_curves(calibrated, sensors[1]),
 }
-posterior = read_posterior(Path(files.posterior))
 observations = read_observations(Path(files.observations))
 features = snakemake.params.operator.features(curves["measured"])
 result = summarise(

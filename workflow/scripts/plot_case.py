@@ -13,10 +13,11 @@ from heartfit.tables.figures import plot_case
 
 record(snakemake.log[0])
 files, result = snakemake.input, read_case(Path(snakemake.input.errors))
+setting = snakemake.params.setting
 curves = {
     "measured": read_curves(Path(files.measured)),
-    "reference": beat_curves(read_beat(Path(files.reference))),
-    "calibrated": beat_curves(read_beat(Path(files.calibrated))),
+    "reference": beat_curves(read_beat(Path(files.reference)), setting.sensors(result.prior)),
+    "calibrated": beat_curves(read_beat(Path(files.calibrated)), setting.sensors(result.estimate)),
 }
 operator = snakemake.params.operator.features(curves["measured"])["lv_volume"]
 title = f"{result.case}, {result.setting} setting"

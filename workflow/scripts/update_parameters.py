@@ -9,10 +9,11 @@ from heartfit.io.results import read_observations, read_sigma_points, write_post
 from heartfit.protocol import estimate
 
 record(snakemake.log[0])
-prior, _ = read_sigma_points(Path(snakemake.input.points))
+prior, points = read_sigma_points(Path(snakemake.input.points))
 observations = read_observations(Path(snakemake.input.observations))
 beats = map(read_beat, map(Path, snakemake.input.beats))
 measured = read_curves(Path(snakemake.input.measured))
 given = snakemake.params
-posterior = estimate(prior, beats, measured, observations, given.operator, given.transform)
+arguments = (given.setting, prior, points, beats, measured, observations)
+posterior = estimate(*arguments, given.operator, given.transform)
 write_posterior(Path(snakemake.output[0]), posterior, given.code)

@@ -10,6 +10,7 @@ from heartfit.catalogue import composed, declared
 from heartfit.configuration.strict import Strict
 from heartfit.heart import Heart
 from heartfit.mechanics.body import Tissue
+from heartfit.mechanism import Sensor
 from heartfit.parameter import Parameter
 
 
@@ -51,6 +52,11 @@ class Setting(Strict):
 
     def with_prior(self, table: Mapping[str, Prior]) -> "Setting":
         """The setting with the prior complete: its own, over the study's, over the declared one."""
+        signed = [name for name in self.estimate if declared(name).low < 0.0]
+        if signed:
+            raise ValueError(
+                f"{signed[0]} is estimated and may be negative, but priors are log-normal; fix it under heart"
+            )
         merged = {
             name: self.prior.get(name, Prior()).over(table.get(name, Prior())).over(declared(name))
             for name in self.estimate
@@ -69,6 +75,10 @@ class Setting(Strict):
         """The heart at the mean of the prior."""
         heart = composed(self.mechanisms, Heart(tissue=Tissue(element=self.element), period=period))
         return heart.with_parameters({**self.heart, **self.gaussian().physical()})
+
+    def sensors(self, parameters: Mapping[str, float]) -> tuple[Sensor, ...]:
+        """The sensors through which a beat with these parameters is observed; `parameters` by name, SI."""
+        return composed(self.mechanisms).with_parameters({**self.heart, **parameters}).sensors
 
     def units(self) -> dict[str, str]:
         """SI unit of each estimated parameter."""

@@ -12,19 +12,23 @@ def root_mean_square(measured: Curve, simulated: Curve, shift: float = 0.0) -> f
     return float(np.sqrt(np.mean((measured.values - simulated(measured.times + shift)) ** 2)))
 
 
-def fit_shift(measured: Curve, simulated: Curve, limit: float | None = None) -> float:
-    """The shift s in seconds, |s| <= limit (half a period if None), at which x(t + s) fits y(t) best.
-
-    A scan finds the basin, a bounded Brent search the minimum in it. Raises ValueError if the periods differ
-    by more than a tenth: such beats have no common phase.
-    """
-    from scipy.optimize import minimize_scalar
-
+def require_common_phase(measured: Curve, simulated: Curve) -> None:
+    """Raise ValueError if the periods differ by more than a tenth: such beats have no common phase."""
     if abs(measured.period / simulated.period - 1) > 0.1:
         raise ValueError(
             f"alignment: periods of {measured.period:g} s and {simulated.period:g} s; "
             "expected the same heart rate: simulate at the measured period"
         )
+
+
+def fit_shift(measured: Curve, simulated: Curve, limit: float | None = None) -> float:
+    """The shift s in seconds, |s| <= limit (half a period if None), at which x(t + s) fits y(t) best.
+
+    A scan finds the basin, a bounded Brent search the minimum in it. Raises as `require_common_phase` does.
+    """
+    from scipy.optimize import minimize_scalar
+
+    require_common_phase(measured, simulated)
     reach = simulated.period / 2 if limit is None else limit
     scan, step = np.linspace(-reach, reach, 101, retstep=True)
     start = min(scan, key=lambda shift: root_mean_square(measured, simulated, shift))

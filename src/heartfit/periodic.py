@@ -1,0 +1,38 @@
+"""Linear filters of a periodic curve, applied to its harmonics."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heartfit.errors import InputError
+from heartfit.geometry.arrays import Floats
+
+Response = Callable[[Floats], NDArray]
+EVEN = 1e-6
+"""Deviation of a sampling step from the others, over the period, that is rounding."""
+
+
+def filtered(times: Floats, values: Floats, period: float, response: Response) -> Floats:
+    r"""The curve ``values`` (t,) at equidistant ``times`` (t,), s, after a filter.
+
+    .. math:: y'_k = H(k / T)\, y_k, \qquad y(t) = \sum_k y_k e^{2 \pi i k t / T},
+
+    where ``response`` H maps frequencies, Hz, to complex gains, with H(0) real. Only the change
+    :math:`(H - 1) y_k` is transformed, so that H = 1 returns the values bit for bit. Raises InputError
+    for samples that are not equidistant over the whole period, s.
+    """
+    _require_equidistant(times, period)
+    frequency: Floats = np.fft.rfftfreq(values.size, period / values.size).astype(np.float64)
+    change = (response(frequency) - 1.0) * np.fft.rfft(values)
+    shown: Floats = values + np.fft.irfft(change, values.size)
+    return shown
+
+
+def _require_equidistant(times: Floats, period: float) -> None:
+    steps = np.diff(times, append=times[0] + period)
+    if np.ptp(steps) > EVEN * period:
+        raise InputError(
+            f"curve: steps of {steps.min():g} to {steps.max():g} s; expected equidistant samples over the whole "
+            f"period of {period:g} s to filter it: resample the curve"
+        )
