@@ -1,0 +1,28 @@
+"""A noise model survives its file to the last bit."""
+
+from pathlib import Path
+
+import numpy as np
+
+from heartfit.io.noise_models import read_noise_model, write_noise_model
+from heartfit.io.results import read_fingerprint
+from heartfit.observation.noise_model import NoiseModel
+from heartfit.observation.scatter import Scatter
+
+
+def test_a_noise_model_there_and_back(tmp_path: Path) -> None:
+    sample = np.random.default_rng(0).standard_normal((24, 25))
+    protocol = {"snr": 30.0, "slices": 9, "method": "demons", "breath_hold": True}
+    model = NoiseModel(
+        protocol,
+        Scatter.of(("V_min", "q_max", "q_min"), 0.1 * sample[:, :3]),
+        Scatter.of([f"phase {k} of 25" for k in range(25)], sample, shrunk=True),
+    )
+    write_noise_model(tmp_path / "model.json", model, "abc")
+    found = read_noise_model(tmp_path / "model.json")
+    assert found.protocol == protocol
+    for one, other in ((found.observations, model.observations), (found.curve, model.curve)):
+        assert (one.names, one.count) == (other.names, other.count)
+        assert np.array_equal(one.mean, other.mean)
+        assert np.array_equal(one.covariance, other.covariance)
+    assert read_fingerprint(tmp_path / "model.json") == "abc"
