@@ -4,10 +4,16 @@ from pathlib import Path
 
 import numpy as np
 
-from heartfit.io.noise_models import read_noise_model, write_noise_model
+from heartfit.io.noise_models import read_noise_model, read_sensors, write_noise_model, write_sensors
 from heartfit.io.results import read_fingerprint
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.scatter import Scatter
+
+
+def require_same(one: Scatter, other: Scatter) -> None:
+    assert (one.names, one.count) == (other.names, other.count)
+    assert np.array_equal(one.mean, other.mean)
+    assert np.array_equal(one.covariance, other.covariance)
 
 
 def test_a_noise_model_there_and_back(tmp_path: Path) -> None:
@@ -21,8 +27,13 @@ def test_a_noise_model_there_and_back(tmp_path: Path) -> None:
     write_noise_model(tmp_path / "model.json", model, "abc")
     found = read_noise_model(tmp_path / "model.json")
     assert found.protocol == protocol
-    for one, other in ((found.observations, model.observations), (found.curve, model.curve)):
-        assert (one.names, one.count) == (other.names, other.count)
-        assert np.array_equal(one.mean, other.mean)
-        assert np.array_equal(one.covariance, other.covariance)
+    require_same(found.observations, model.observations)
+    require_same(found.curve, model.curve)
     assert read_fingerprint(tmp_path / "model.json") == "abc"
+
+
+def test_the_sensors_there_and_back(tmp_path: Path) -> None:
+    sample = np.random.default_rng(0).standard_normal((24, 3))
+    sensors = Scatter.of(("shrinkage", "smoothing", "delay"), sample)
+    write_sensors(tmp_path / "sensors.json", sensors, "abc")
+    require_same(read_sensors(tmp_path / "sensors.json"), sensors)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from heartfit.cohort.hidden_heart import draw_heart
+from heartfit.errors import InputError
 from heartfit.mechanics.sphere import Sphere
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.coverage import coverage
@@ -14,6 +15,7 @@ from heartfit.observation.curve import Curve
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.operator import VolumeFeatures
 from heartfit.observation.pair import Pair, Reading
+from heartfit.observation.sensor_scatter import sensor_scatter
 from heartfit.simulation import Numerics
 from heartfit.sphere.simulation import simulate_spheres
 
@@ -60,3 +62,16 @@ def test_the_bias_taken_off_brings_fresh_beats_nearer_to_the_truth(volumes: list
             for pair in pairs[24:]
         ]
         assert np.sqrt(np.mean(np.square(left))) < 0.6 * np.sqrt(np.mean(np.square(raw))), name
+
+
+def test_the_sensors_of_the_images_are_found_with_their_scatter(volumes: list[Curve]) -> None:
+    rng = np.random.default_rng(2)
+    found = sensor_scatter([imaged(volume, rng) for volume in volumes])
+    assert (found.names, found.count) == (("shrinkage", "smoothing", "delay"), 48)
+    shrinkage, smoothing, delay = found.mean
+    assert shrinkage == pytest.approx(0.15, abs=3.0 * 0.04 / np.sqrt(48))
+    assert delay == pytest.approx(0.005, abs=3.0 * 0.004 / np.sqrt(48))
+    assert smoothing < 0.01  # none was planted
+    assert found.sd[[0, 2]] == pytest.approx([0.04, 0.004], rel=3.0 / np.sqrt(2 * 48))
+    with pytest.raises(InputError, match="1 sequences; expected two or more"):
+        sensor_scatter([imaged(volumes[0], rng)])

@@ -1,4 +1,4 @@
-"""Noise models as JSON, read back exactly."""
+"""Noise models, and what sequences of known truth tell of the sensors, as JSON; read back exactly."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -21,6 +21,16 @@ def read_noise_model(path: Path) -> NoiseModel:
     """Reads what write_noise_model wrote; raises InputError for a missing or broken file."""
     content = read_result(path)["noise_model"]
     return NoiseModel(content["protocol"], *(_scatter(content[name]) for name in ("observations", "curve")))
+
+
+def write_sensors(path: Path, sensors: Scatter, fingerprint: str) -> None:
+    """Writes the scatter of the image sensors' parameters."""
+    write_result(path, {"sensors": sensors}, fingerprint, {"sensors": "SI"})
+
+
+def read_sensors(path: Path) -> Scatter:
+    """Reads what write_sensors wrote; raises InputError for a missing or broken file."""
+    return _scatter(read_result(path)["sensors"])
 
 
 def _scatter(content: Mapping[str, Any]) -> Scatter:
