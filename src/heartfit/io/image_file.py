@@ -1,0 +1,120 @@
+"""One image file in any format that SimpleITK knows, refused in one line when it is damaged."""
+
+import gzip
+import os
+import re
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import SimpleITK as sitk
+
+from heartfit.errors import InputError
+from heartfit.geometry.arrays import Floats
+from heartfit.imaging.grid import Grid
+
+SUFFIXES = (".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd")
+MILLIMETRE = 1e-3
+BLOCK = 1 << 20
+LARGEST_TILT = 1e-6
+
+
+def is_image(path: Path) -> bool:
+    return path.name.endswith(SUFFIXES)
+
+
+def stem(path: Path) -> str:
+    """The name without its suffix, ".nii.gz" being one."""
+    suffix = next((suffix for suffix in SUFFIXES if path.name.endswith(suffix)), "")
+    return path.name.removesuffix(suffix)
+
+
+def load(path: Path) -> sitk.Image:
+    """The image; raises InputError if it is missing, damaged, cut off, or a NIfTI that says not where it lies."""
+    if not path.is_file():
+        raise InputError(f"{path}: no such file; expected an image ({', '.join(SUFFIXES)})")
+    try:
+        with quiet():
+            image = sitk.ReadImage(str(path))
+    except RuntimeError as failure:
+        raise InputError(f"{path}: cannot be read as an image: {reason(failure)}; export it again") from None
+    if path.name.endswith((".nii", ".nii.gz")):
+        _require_whole(path, image)
+        if {image.GetMetaData("qform_code"), image.GetMetaData("sform_code")} == {"0"}:
+            raise InputError(
+                f"{path}: neither qform nor sform is set; expected one, to know left from right; export it again"
+            )
+    return image
+
+
+def numbers(image: sitk.Image) -> Floats:
+    """The voxels as float32, the last axis of the image first."""
+    voxels: Floats = sitk.GetArrayFromImage(image).astype(np.float32, copy=False)
+    return voxels
+
+
+def grid_of(image: sitk.Image, where: Path) -> Grid:
+    """Where the voxels lie; raises InputError naming the file, also if a fourth axis is not apart from them."""
+    dimension = image.GetDimension()
+    direction = np.array(image.GetDirection()).reshape(dimension, dimension)
+    if (
+        max(np.abs(direction[3:, :3]).max(initial=0.0), np.abs(direction[:3, 3:]).max(initial=0.0))
+        > LARGEST_TILT
+    ):
+        raise InputError(
+            f"{where}: its direction mixes space and time; expected time alone on the fourth axis"
+        )
+    i, j, k = image.GetSize()[:3]
+    spacing, origin = (
+        MILLIMETRE * np.array(of_axis[:3]) for of_axis in (image.GetSpacing(), image.GetOrigin())
+    )
+    try:
+        return Grid((i, j, k), spacing, origin, direction[:3, :3])
+    except InputError as fault:
+        raise InputError(f"{where}: {fault}") from None
+
+
+def reason(failure: RuntimeError) -> str:
+    """The last line in which SimpleITK says what went wrong, without the place in its source."""
+    lines = [line for line in str(failure).splitlines() if line.strip()]
+    return re.sub(r"^.*(ERROR|Reason): |\w+\(0x[0-9a-f]+\): ", "", lines[-1]).strip().rstrip(".")
+
+
+def _require_whole(path: Path, image: sitk.Image) -> None:
+    """SimpleITK fills up a NIfTI that is cut off; so its bytes are counted here."""
+    voxels = np.prod([int(image.GetMetaData(f"dim[{axis}]")) for axis in range(1, image.GetDimension() + 1)])
+    expected = (
+        int(float(image.GetMetaData("vox_offset"))) + int(voxels) * int(image.GetMetaData("bitpix")) // 8
+    )
+    try:
+        found = _length(path)
+    except (EOFError, zlib.error, gzip.BadGzipFile):
+        raise InputError(
+            f"{path}: the compressed data are cut off or damaged; export or copy it again"
+        ) from None
+    if found < expected:
+        raise InputError(
+            f"{path}: {found} bytes, expected {expected}; it is cut off: export or copy it again"
+        )
+
+
+def _length(path: Path) -> int:
+    if path.suffix != ".gz":
+        return path.stat().st_size
+    with gzip.open(path) as content:
+        return sum(map(len, iter(lambda: content.read(BLOCK), b"")))
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Keeps the libraries below SimpleITK, which write to the file descriptor, off the standard error."""
+    saved, sink = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(sink, 2)
+    try:
+        yield
+    finally:
+        os.dup2(saved, 2)
+        os.close(sink)
+        os.close(saved)
