@@ -110,7 +110,7 @@ def test_blood_is_conserved_with_another_branch(
 @pytest.fixture(scope="module")
 def sampled() -> tuple[np.ndarray, np.ndarray]:
     """Any curve at the times of a beat, the trigger inside a step."""
-    return np.arange(166) * PERIOD / 166 - 0.1733, 1e-4 * (1.0 + np.random.default_rng(5).random(166))
+    return np.arange(166) * PERIOD / 166 - 0.1733, 1e4 * (1.0 + np.random.default_rng(5).random(166))
 
 
 @each(SENSORS)
@@ -128,8 +128,8 @@ def test_a_sensor_has_no_other_zero_than_its_curve(
 ) -> None:
     """Instruments are linear but for a constant: what is added to the whole curve is added to what they show."""
     times, values = sampled
-    shown, raised = (kind().distort(times, curve, PERIOD) for curve in (values, values + 3e-5))
-    assert raised - shown == pytest.approx(np.full(166, 3e-5), rel=1e-9)
+    shown, raised = (kind().distort(times, curve, PERIOD) for curve in (values, values + 3e3))
+    assert raised - shown == pytest.approx(np.full(166, 3e3), rel=1e-9)
 
 
 def test_the_heart_does_not_feel_its_sensors(spherical_heart: Heart, spheres: SphericalBody) -> None:
