@@ -7,14 +7,17 @@ import pytest
 
 from heartfit.beat import Beat
 from heartfit.calibration.unscented import sigma_points
+from heartfit.calibration.update import Posterior
 from heartfit.configuration.setting import Prior, Setting
 from heartfit.configuration.study import Operator, Transform
 from heartfit.mechanisms.image_smoothing import ImageSmoothing
 from heartfit.observation.beat import beat_curves
-from heartfit.observation.vector import observe_measured
+from heartfit.observation.measurement import Measurement, observe_measured
+from heartfit.observation.noise import Observation
 from heartfit.protocol import estimate
 
 PERIOD, TRIGGER, FRAMES = 0.8, 0.18, 25
+SENSORS = {"smoothing": 0.02, "delay": 0.01, "shrinkage": 0.1}
 
 
 def beat() -> Beat:
@@ -35,9 +38,46 @@ def test_a_sigma_point_is_seen_through_the_sensors_of_its_own_parameters(smoothi
     )
     operator = Operator(frames=FRAMES, window=3, order=2, period_uncertainty=0.0)
     measured = {"lv_volume": beat_curves(beat(), [ImageSmoothing(smoothing)])["lv_volume"].resampled(FRAMES)}
-    noiseless = observe_measured(measured, operator.features(measured), 0.0)
-    observations = [replace(each, noise=1e-4 * abs(each.value)) for each in noiseless]
+    noiseless = observe_measured(measured, operator.features(measured), 0.0).observations
+    exact = Measurement.independent([replace(each, noise=1e-4 * abs(each.value)) for each in noiseless])
     points, beats = sigma_points(setting.gaussian()), [beat()] * 3
-    given = (setting.gaussian(), points, beats, measured, observations, operator, Transform(noise=True))
+    given = (setting.gaussian(), points, beats, measured, exact, operator, Transform(noise=True))
     found = estimate(setting, *given).estimate.physical()["smoothing"]
     assert found == pytest.approx(smoothing, rel=0.01)  # by one linear step from 15 ms
+
+
+def estimated(measurement: Measurement, noise: bool) -> Posterior:
+    """The posterior of three sensors, which each point sees the same beat through."""
+    prior = {name: Prior(mean=mean, sd=0.3) for name, mean in SENSORS.items()}
+    setting = Setting(
+        element="sphere",
+        mechanisms=("ImageSmoothing", "ImageTriggerDelay", "ImageShrinkage"),
+        estimate=tuple(prior),
+        prior=prior,
+    )
+    operator = Operator(frames=FRAMES, window=3, order=2, period_uncertainty=0.0)
+    measured = {"lv_volume": beat_curves(beat())["lv_volume"].resampled(FRAMES)}
+    points = sigma_points(setting.gaussian())
+    given = points, [beat()] * len(points), measured, measurement, operator
+    return estimate(setting, setting.gaussian(), *given, Transform(noise=noise))
+
+
+def test_noise_takes_off_the_bias_and_weighs_by_the_whole_covariance_and_the_paper_does_neither() -> None:
+    observations = [
+        Observation("V_min", 6.0e-5, "m^3", 2e-6, 3e-6),
+        Observation("q_max", 4.5e-4, "m^3/s", 3e-5, -4e-5),
+        Observation("q_min", -4.2e-4, "m^3/s", 2e-5, 2e-5),
+    ]
+    independent = Measurement.independent(observations)
+    sd = np.array([each.noise for each in observations])
+    correlation = np.array([[1.0, -0.3, 0.2], [-0.3, 1.0, -0.8], [0.2, -0.8, 1.0]])
+    together = Measurement(observations, correlation * np.outer(sd, sd))
+    paper = estimated(independent, noise=False)
+    assert paper.observed.tolist() == [6.0e-5, 4.5e-4, -4.2e-4]
+    assert np.array_equal(estimated(together, noise=False).estimate.mean, paper.estimate.mean)
+    found = estimated(together, noise=True)
+    assert found.observed == pytest.approx([5.7e-5, 4.9e-4, -4.4e-4])
+    total = found.cov_zz + together.covariance
+    expected = found.cov_xz @ np.linalg.solve(total, found.observed - found.predicted)
+    assert found.estimate.mean - found.prior.mean == pytest.approx(expected)
+    assert estimated(independent, noise=True).estimate.mean != pytest.approx(found.estimate.mean, rel=1e-3)

@@ -15,7 +15,7 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics.body import StepFailed
 from heartfit.observation.beat import observe_beats
 from heartfit.observation.curve import Curve
-from heartfit.observation.noise import Observation
+from heartfit.observation.measurement import Measurement
 from heartfit.simulation import Progress, simulate
 from heartfit.ventricles import ventricles
 
@@ -51,13 +51,17 @@ def estimate(
     points: Sequence[SigmaPoint],
     beats: Iterable[Beat],
     measured: Mapping[str, Curve],
-    observations: Sequence[Observation],
+    measurement: Measurement,
     operator: Operator,
     transform: Transform,
 ) -> Posterior:
-    """The posterior from the beats of all sigma points, in their order, each seen through its own sensors."""
+    """The posterior from the beats of all sigma points, in their order, each seen through its own sensors.
+
+    Without the transform's noise the numbers are met as they were measured, as the paper does; with it, those without
+    bias under their covariance.
+    """
     sensors = [setting.sensors(point.parameters) for point in points]
-    noise = np.diag([each.noise**2 for each in observations]) if transform.noise else None
-    observed = {each.name: each.value for each in observations}
+    noise = measurement.covariance if transform.noise else None
+    observed = measurement.corrected if transform.noise else measurement.values
     outcomes = observe_beats(beats, operator.features(measured), sensors)
     return calibrate(prior, outcomes, observed, noise, transform.scaling())

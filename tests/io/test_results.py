@@ -25,6 +25,7 @@ from heartfit.io.results import (
     write_result,
     write_sigma_points,
 )
+from heartfit.observation.measurement import Measurement
 from heartfit.observation.noise import Observation
 from heartfit.tables.case import CaseResult
 
@@ -56,6 +57,7 @@ def test_posterior_there_and_back(tmp_path: Path) -> None:
     assert found.estimate.physical() == pytest.approx(posterior().estimate.physical(), rel=1e-14)
     assert found.gain == pytest.approx(posterior().gain, rel=1e-14)
     assert found.observations == ("V_min",)
+    assert found.observed == pytest.approx(posterior().observed, rel=1e-14)
     assert read_fingerprint(tmp_path / "p.json") == "abc"
     assert read_result(tmp_path / "p.json")["summary"]["estimate"] == posterior().estimate.physical()
 
@@ -70,9 +72,15 @@ def test_sigma_points_there_and_back(tmp_path: Path) -> None:
 
 
 def test_observations_there_and_back(tmp_path: Path) -> None:
-    observations = [Observation("V_min", 72e-6, "m^3", 1.3e-6)]
-    write_observations(tmp_path / "o.json", observations, "abc")
-    assert read_observations(tmp_path / "o.json") == observations
+    observations = [
+        Observation("V_min", 72e-6, "m^3", 1.3e-6, 2e-6),
+        Observation("q_max", 4e-4, "m^3/s", 3e-5),
+    ]
+    measurement = Measurement(observations, np.array([[1.69e-12, -1e-11], [-1e-11, 9e-10]]) / 3.0)
+    write_observations(tmp_path / "o.json", measurement, "abc")
+    found = read_observations(tmp_path / "o.json")
+    assert found.observations == observations
+    assert np.array_equal(found.covariance, measurement.covariance)
 
 
 def test_beat_there_and_back(tmp_path: Path) -> None:

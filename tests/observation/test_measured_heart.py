@@ -6,9 +6,10 @@ import pandas as pd
 import pytest
 
 from heartfit.observation.curve import Curve
+from heartfit.observation.measurement import observe_measured
 from heartfit.observation.noise import frame_noise
 from heartfit.observation.operator import VolumeFeatures
-from heartfit.observation.vector import observe_measured, operators
+from heartfit.observation.vector import operators
 
 
 @pytest.fixture
@@ -19,7 +20,7 @@ def left_volume(measured_heart_folder: Path) -> dict[str, Curve]:
 
 @pytest.mark.measured
 def test_the_default_operator_is_the_raw_one(left_volume: dict[str, Curve]) -> None:
-    found = observe_measured(left_volume, operators(left_volume))
+    found = observe_measured(left_volume, operators(left_volume)).observations
     values = [1e6 * observation.value for observation in found]
     assert values == pytest.approx([72.0, 473.6, -520.2], abs=0.5)
     noise = [observation.noise / abs(observation.value) for observation in found]

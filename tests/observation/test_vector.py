@@ -1,14 +1,25 @@
 """The observation vector from measured curves and from beats, simulated and failed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from heartfit.beat import Beat, failed_beat
+from heartfit.errors import InputError
 from heartfit.observation.beat import beat_curves, observe_beats
 from heartfit.observation.curve import Curve
-from heartfit.observation.vector import cavity_indices, observe, observe_measured, operators
+from heartfit.observation.measurement import observe_measured
+from heartfit.observation.noise_model import NoiseModel
+from heartfit.observation.scatter import Scatter
+from heartfit.observation.vector import cavity_indices, observe, operators
 
 PERIOD, TRIGGER = 0.8, 0.18
+BIAS = np.array([0.05, -0.2, -0.1])
+SPREAD = np.array([[2.0, -1.0, -1.0], [-1.0, 8.0, 4.0], [-1.0, 4.0, 6.0]]) * 1e-3
+MODEL = NoiseModel(
+    {}, Scatter(("V_min", "q_max", "q_min"), 24, BIAS, SPREAD), Scatter(("0",), 24, np.zeros(1), np.eye(1))
+)
 
 
 def beat() -> Beat:
@@ -36,8 +47,39 @@ def test_pressure_is_observed_where_it_was_measured() -> None:
     found = observe(curves, operators(curves))
     assert list(found) == ["V_min", "q_max", "q_min", "P_max", "dPdt_max", "dPdt_min"]
     noisy = observe_measured(curves, operators(curves))
-    assert [o.unit for o in noisy] == ["m^3", "m^3/s", "m^3/s", "Pa", "Pa/s", "Pa/s"]
-    assert [o.value for o in noisy] == list(found.values())
+    assert [o.unit for o in noisy.observations] == ["m^3", "m^3/s", "m^3/s", "Pa", "Pa/s", "Pa/s"]
+    assert noisy.values == noisy.corrected == found
+    assert np.array_equal(noisy.covariance, np.diag([o.noise**2 for o in noisy.observations]))
+
+
+def test_a_noise_model_gives_bias_and_covariance() -> None:
+    features = operators(measured())
+    found = observe_measured(measured(), features, 0.0, MODEL)
+    assert found.values == observe(measured(), features)
+    y = np.array(list(found.values.values())) * np.exp(-BIAS)
+    assert list(found.corrected.values()) == pytest.approx(y)
+    assert found.covariance == pytest.approx(np.outer(y, y) * SPREAD * 25 / 24, rel=1e-12, abs=0.0)
+    assert [o.noise**2 for o in found.observations] == pytest.approx(np.diag(found.covariance), abs=0.0)
+
+
+def test_an_uncertain_period_adds_what_a_stretched_curve_shows() -> None:
+    features = operators(measured())
+    plain, uncertain = (observe_measured(measured(), features, p, MODEL) for p in (0.0, 0.05))
+    curve = measured()["lv_volume"]
+    longer, shorter = (
+        np.array(list(observe({"lv_volume": each}, features).values()))
+        for each in (replace(curve, times=curve.times * s, period=PERIOD * s) for s in (1.0001, 0.9999))
+    )
+    slope = np.exp(-BIAS) * (longer - shorter) / 2e-4
+    added = uncertain.covariance - plain.covariance
+    assert added == pytest.approx(0.05**2 * np.outer(slope, slope), rel=1e-6, abs=1e-22)
+    assert uncertain.corrected == plain.corrected
+
+
+def test_a_noise_model_refuses_what_it_never_saw() -> None:
+    curves = measured() | {"lv_pressure": beat_curves(beat())["lv_pressure"]}
+    with pytest.raises(InputError, match="knows nothing of P_max, dPdt_max, dPdt_min"):
+        observe_measured(curves, operators(curves), noise_model=MODEL)
 
 
 def test_time_zero_is_the_trigger() -> None:

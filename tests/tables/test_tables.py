@@ -10,7 +10,8 @@ from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import calibrate
 from heartfit.observation.curve import Curve
-from heartfit.observation.vector import observe_measured, operators
+from heartfit.observation.measurement import observe_measured
+from heartfit.observation.vector import operators
 from heartfit.tables.case import CaseResult, summarise
 from heartfit.tables.errors_table import PAPER, error_table
 from heartfit.tables.fingerprints import FingerprintMismatchError
@@ -123,11 +124,11 @@ def wave(late: float = 0.0, size: float = 50e-6) -> dict[str, Curve]:
 
 def record(calibrated: dict[str, Curve]) -> CaseResult:
     features = operators(wave(), frames=25)
-    observations = observe_measured(wave(), features)
+    measurement = observe_measured(wave(), features)
     prior = Gaussian.of_relative(
         {"sigma_0": 240e3, "mu": 7e3, "R_p": 1.14e8}, {"sigma_0": 0.2, "mu": 0.2, "R_p": 0.1}
     )
-    observed = {o.name: o.value for o in observations}
+    observed = measurement.values
     outcomes = [
         {
             name: value * float(np.exp(point.z[i] - prior.mean[i]))
@@ -139,7 +140,7 @@ def record(calibrated: dict[str, Curve]) -> CaseResult:
     return summarise(
         {"case": "real", "setting": "physical", "fingerprint": "abc"},
         posterior,
-        observations,
+        measurement,
         {"measured": wave(), "reference": wave(size=40e-6), "calibrated": calibrated},
         features,
         {"sigma_0": "Pa", "mu": "Pa.s", "R_p": "Pa.s/m^3"},

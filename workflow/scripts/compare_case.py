@@ -20,9 +20,9 @@ curves = {
     "reference": beat_curves(read_beat(Path(files.reference)), sensors[0]),
     "calibrated": beat_curves(calibrated, sensors[1]),
 }
-observations = read_observations(Path(files.observations))
+measurement = read_observations(Path(files.observations))
 features = snakemake.params.operator.features(curves["measured"])
 result = summarise(
-    identity, posterior, observations, curves, features, setting.units(), calibrated.diagnostics
+    identity, posterior, measurement, curves, features, setting.units(), calibrated.diagnostics
 )
 write_case(Path(snakemake.output[0]), result)

@@ -10,10 +10,10 @@ from heartfit.protocol import estimate
 
 record(snakemake.log[0])
 prior, points = read_sigma_points(Path(snakemake.input.points))
-observations = read_observations(Path(snakemake.input.observations))
+measurement = read_observations(Path(snakemake.input.observations))
 beats = map(read_beat, map(Path, snakemake.input.beats))
 measured = read_curves(Path(snakemake.input.measured))
 given = snakemake.params
-arguments = (given.setting, prior, points, beats, measured, observations)
+arguments = (given.setting, prior, points, beats, measured, measurement)
 posterior = estimate(*arguments, given.operator, given.transform)
 write_posterior(Path(snakemake.output[0]), posterior, given.code)

@@ -38,15 +38,16 @@ NEGATIVE = (
 class Posterior:
     """The estimate and everything needed to judge it; logarithms of parameters throughout.
 
-    prior, estimate: mean and covariance before and after; predicted (m,) Zbar; gain (n, m); cov_xz (n, m);
-    cov_zz (m, m) without R; step (n,) in prior standard deviations; sensitivity (n, m) is Cov(X, Z) with rows
-    divided by sd_X and columns by sd_Z, singular_values those of it: the paper's tool to choose parameters;
-    failed names the sigma points without a beat, each with the reason.
+    prior, estimate: mean and covariance before and after; observed (m,) Z_obs; predicted (m,) Zbar; gain (n, m);
+    cov_xz (n, m); cov_zz (m, m) without R; step (n,) in prior standard deviations; sensitivity (n, m) is
+    Cov(X, Z) with rows divided by sd_X and columns by sd_Z, singular_values those of it: the paper's tool to
+    choose parameters; failed names the sigma points without a beat, each with the reason.
     """
 
     prior: Gaussian
     estimate: Gaussian
     observations: tuple[str, ...]
+    observed: np.ndarray
     predicted: np.ndarray
     gain: np.ndarray
     cov_xz: np.ndarray
@@ -107,6 +108,7 @@ def update(
         prior,
         Gaussian(prior.names, prior.mean + shift, _positive(covariance, prior.covariance)),
         names,
+        z,
         moments.mean,
         gain,
         moments.cov_xz,

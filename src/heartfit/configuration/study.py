@@ -49,7 +49,7 @@ class Operator(Strict):
 
 
 class Transform(Strict):
-    """The numbers of the unscented transform, and whether the observations' noise is used (R > 0)."""
+    """The numbers of the unscented transform, and whether bias and noise of the observations are used (R > 0)."""
 
     a: PositiveFloat = 1.0
     b: float = 2.0

@@ -13,6 +13,7 @@ from heartfit.calibration.unscented import SigmaPoint
 from heartfit.calibration.update import Posterior
 from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
+from heartfit.observation.measurement import Measurement
 from heartfit.observation.noise import Observation
 from heartfit.tables.case import CaseResult
 
@@ -45,13 +46,15 @@ def read_sigma_points(path: Path) -> tuple[Gaussian, list[SigmaPoint]]:
     return _gaussian(content["prior"]), points
 
 
-def write_observations(path: Path, observations: list[Observation], fingerprint: str) -> None:
-    units = {observation.name: observation.unit for observation in observations}
-    write_result(path, {"observations": observations}, fingerprint, units)
+def write_observations(path: Path, measurement: Measurement, fingerprint: str) -> None:
+    units = {observation.name: observation.unit for observation in measurement.observations}
+    write_result(path, _shallow(measurement), fingerprint, units)
 
 
-def read_observations(path: Path) -> list[Observation]:
-    return [Observation(**observation) for observation in read_result(path)["observations"]]
+def read_observations(path: Path) -> Measurement:
+    content = read_result(path)
+    observations = [Observation(**observation) for observation in content["observations"]]
+    return Measurement(observations, np.array(content["covariance"]))
 
 
 def write_posterior(path: Path, posterior: Posterior, fingerprint: str) -> None:
@@ -69,7 +72,7 @@ def write_posterior(path: Path, posterior: Posterior, fingerprint: str) -> None:
 
 def read_posterior(path: Path) -> Posterior:
     content = read_result(path)["posterior"]
-    arrays = ("predicted", "gain", "cov_xz", "cov_zz", "step", "sensitivity", "singular_values")
+    arrays = ("observed", "predicted", "gain", "cov_xz", "cov_zz", "step", "sensitivity", "singular_values")
     return Posterior(
         prior=_gaussian(content["prior"]),
         estimate=_gaussian(content["estimate"]),

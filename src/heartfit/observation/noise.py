@@ -10,12 +10,13 @@ from heartfit.observation.operator import CurveFeatures
 
 @dataclass(frozen=True)
 class Observation:
-    """One measured number: SI value, its unit and the standard deviation of its noise."""
+    """One measured number: SI value, its unit, the standard deviation of its noise and the bias, value less truth."""
 
     name: str
     value: float
     unit: str
     noise: float
+    bias: float = 0.0
 
 
 def frame_noise(curve: Curve) -> float:

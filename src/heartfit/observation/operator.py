@@ -44,6 +44,11 @@ class CurveFeatures(ABC):
             )
 
     @property
+    def rates(self) -> tuple[str, str]:
+        """Names of the observations that go with one over the period."""
+        return self.names[1:]
+
+    @property
     def units(self) -> tuple[str, str, str]:
         return (self.unit, f"{self.unit}/s", f"{self.unit}/s")
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Mapping
 
 from heartfit.observation.curve import Curve
-from heartfit.observation.noise import Observation, measure
 from heartfit.observation.operator import CurveFeatures, PressureFeatures, VolumeFeatures
 
 
@@ -13,7 +12,7 @@ def operators(
     """Operators by curve: on the LV's volume, at the measured number of frames if None is given, and on its
     pressure where there is one.
     """
-    _require(measured, ["lv_volume"])
+    require_curves(measured, ["lv_volume"])
     count = measured["lv_volume"].times.size if frames is None else frames
     chosen: dict[str, CurveFeatures] = {"lv_volume": VolumeFeatures(count, window, order)}
     if "lv_pressure" in measured:
@@ -23,34 +22,23 @@ def operators(
 
 def observe(curves: Mapping[str, Curve], features: Mapping[str, CurveFeatures]) -> dict[str, float]:
     """The observations by name, SI; raises ValueError for a curve that is not there."""
-    _require(curves, features)
+    require_curves(curves, features)
     return {
         key: value for curve, operator in features.items() for key, value in operator(curves[curve]).items()
     }
 
 
-def observe_measured(
-    curves: Mapping[str, Curve], features: Mapping[str, CurveFeatures], period_uncertainty: float = 0.05
-) -> list[Observation]:
-    """The same with the noise `heartfit.observation.noise.measure` finds for each number."""
-    _require(curves, features)
-    return [
-        observation
-        for curve, operator in features.items()
-        for observation in measure(operator, curves[curve], period_uncertainty=period_uncertainty)
-    ]
-
-
 def cavity_indices(curves: Mapping[str, Curve], side: str = "lv") -> dict[str, float]:
     """EDV (largest volume), ESV (least volume), stroke volume in m^3, and ejection fraction of a cavity."""
-    _require(curves, [f"{side}_volume"])
+    require_curves(curves, [f"{side}_volume"])
     volume = curves[f"{side}_volume"]
     end_diastolic, end_systolic = float(volume.values.max()), float(volume.values.min())
     stroke = end_diastolic - end_systolic
     return {"EDV": end_diastolic, "ESV": end_systolic, "SV": stroke, "EF": stroke / end_diastolic}
 
 
-def _require(curves: Mapping[str, Curve], names: Iterable[str]) -> None:
+def require_curves(curves: Mapping[str, Curve], names: Iterable[str]) -> None:
+    """Raises ValueError, saying which curves there are, when one is not."""
     missing = sorted(set(names) - set(curves))
     if missing:
         there = ", ".join(sorted(curves)) or "none: did the beat fail?"

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from heartfit.calibration.update import Posterior
 from heartfit.observation.alignment import fit_curves
 from heartfit.observation.curve import Curve
-from heartfit.observation.noise import Observation
+from heartfit.observation.measurement import Measurement
 from heartfit.observation.operator import CurveFeatures
 from heartfit.observation.vector import cavity_indices, observe
 
@@ -16,8 +16,8 @@ from heartfit.observation.vector import cavity_indices, observe
 class CaseResult:
     """Numbers by name, SI.
 
-    observed, noise (standard deviation), reference (Z at the prior X0), calibrated (Z at X_new):
-    observations; prior, estimate: parameters, prior_sd and estimate_sd relative; units of the parameters;
+    observed (what the update aimed at), noise (standard deviation), reference (Z at the prior X0), calibrated (Z at
+    X_new): observations; prior, estimate: parameters, prior_sd and estimate_sd relative; units of the parameters;
     root_mean_square of each curve at the fitted time shift; guards: what was not observed and must still hold
     (EDV, wall volume loss, ...).
     """
@@ -63,7 +63,7 @@ def relative_errors(found: Mapping[str, float], true: Mapping[str, float]) -> di
 def summarise(
     identity: Mapping[str, str],
     posterior: Posterior,
-    observations: Sequence[Observation],
+    measurement: Measurement,
     curves: Mapping[str, Mapping[str, Curve]],
     features: Mapping[str, CurveFeatures],
     units: Mapping[str, str],
@@ -80,8 +80,8 @@ def summarise(
     fit = {name: _fit(curves["measured"], curves[name], shift_limit) for name in ("reference", "calibrated")}
     return CaseResult(
         **identity,
-        observed={o.name: o.value for o in observations},
-        noise={o.name: o.noise for o in observations},
+        observed=dict(zip(posterior.observations, posterior.observed.tolist(), strict=True)),
+        noise={each.name: each.noise for each in measurement.observations},
         reference=_observe(curves["reference"], features),
         calibrated=_observe(curves["calibrated"], features),
         prior=posterior.prior.physical(),
