@@ -50,9 +50,9 @@ class Comparison:
         return int(self.pair.true.curves["lv_volume"].values.argmin())
 
     def observation_errors(self) -> dict[str, float]:
-        """Signed error of each observation over its true size, (registered - true) / |true|."""
+        """Error of each observation, registered / true - 1: negative where its size is underestimated."""
         true, registered = self.pair.true.observations, self.pair.measured.observations
-        return {name: (registered[name] - value) / abs(value) for name, value in true.items()}
+        return {name: registered[name] / value - 1.0 for name, value in true.items()}
 
     def strain_error_at_end_systole(self) -> Floats:
         """Registered less true strain (3, 16) at end systole."""

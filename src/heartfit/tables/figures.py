@@ -67,7 +67,7 @@ def plot_sensitivity(posterior: Posterior, title: str) -> Figure:
             posterior.sensitivity[index],
             0.75 / count,
             label=symbol(name),
-            color=_colour(index),
+            color=colour(index),
         )
     axes.axhline(0, color="black", linewidth=0.8)
     axes.set_xticks(places, [symbol(name) for name in posterior.observations])
@@ -75,7 +75,7 @@ def plot_sensitivity(posterior: Posterior, title: str) -> Figure:
     values = ", ".join(f"{value:.2f}" for value in posterior.singular_values)
     axes.set_title(f"{title}; singular values {values}", fontsize=10)
     axes.legend(frameon=False, ncols=count, fontsize=9)
-    _clean(axes)
+    clean(axes)
     return figure
 
 
@@ -134,12 +134,14 @@ def _label(axes: Axes, x: str, y: str, title: str) -> None:
     axes.set_xlabel(x)
     axes.set_ylabel(y)
     axes.set_title(title, fontsize=9)
-    _clean(axes)
+    clean(axes)
 
 
-def _clean(axes: Axes) -> None:
+def clean(axes: Axes) -> None:
+    """Leaves two of the four spines."""
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def _colour(index: int) -> str:
+def colour(index: int) -> str:
+    """Okabe and Ito's colours, in an order that suits lines."""
     return ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")[index % 7]
