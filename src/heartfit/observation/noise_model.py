@@ -55,7 +55,7 @@ class NoiseModel:
         _require_enough(len(pairs))
         names = tuple(pairs[0].true.observations)
         errors = np.array([_logarithms(number, pair, names) for number, pair in enumerate(pairs)])
-        curves = np.array([_curve_error(pair, phases) for pair in pairs])
+        curves = np.array([curve_error(pair, phases) for pair in pairs])
         labels = [f"phase {phase} of {phases}" for phase in range(phases)]
         return cls(protocol, Scatter.of(names, errors), Scatter.of(labels, curves, shrunk=True))
 
@@ -160,8 +160,8 @@ def _logarithms(number: int, pair: Pair, names: Sequence[str]) -> Floats:
     return np.log(ratios)
 
 
-def _curve_error(pair: Pair, phases: int) -> Floats:
-    """(V_measured - V_true) / SV_measured (k,) of one pair."""
+def curve_error(pair: Pair, phases: int) -> Floats:
+    """(V_measured - V_true) / SV_measured (k,) of the LV volume of one pair, at equidistant phases."""
     true, measured = (reading.curves["lv_volume"].resampled(phases) for reading in (pair.true, pair.measured))
     error: Floats = (measured.values - true.values) / np.ptp(measured.values)
     return error
