@@ -47,6 +47,10 @@ class Cavity:
         start = np.cumsum([0, *map(len, loops)])
         return cls(np.vstack([surface, *lids]).astype(np.int64), np.concatenate(loops), start)
 
+    def corners(self, x: Floats) -> Floats:
+        """The nodes x (n,3) and after them the lids' apices, which the last entries of ``triangles`` mean."""
+        return _with_lid_apices(x, self.rim, self.rim_start)
+
     def volume(self, x: Floats) -> float:
         """Volume in m^3 at nodal positions x (n,3)."""
         return float(_volume(x, self.triangles, self.rim, self.rim_start))
