@@ -10,6 +10,7 @@ from heartfit.errors import InputError
 from heartfit.observation.coverage import Share, coverage
 from heartfit.observation.curve import Curve
 from heartfit.observation.noise_model import NoiseModel
+from heartfit.observation.operator import VolumeFeatures
 from heartfit.observation.pair import Pair, Reading
 
 NAMES = ("V_min", "q_max", "q_min")
@@ -25,17 +26,23 @@ def planted_curve(rng: np.random.Generator) -> np.ndarray:
     return wave * (0.03 + 0.02 * rng.standard_normal() + 0.005 * rng.standard_normal(FRAMES))
 
 
+def truth(measured: Reading, errors: np.ndarray) -> dict[str, float]:
+    """What was measured with these errors: of V_min over the stroke volume, of the rates in logarithms."""
+    y, stroke = measured.observations, np.ptp(measured.curves["lv_volume"].values)
+    rates = {name: y[name] * np.exp(-error) for name, error in zip(NAMES[1:], errors[1:], strict=True)}
+    return {"V_min": y["V_min"] - stroke * errors[0], **rates}
+
+
 def pair(seed: int) -> Pair:
-    """A beat of any size and its measurement, distorted in logarithms and in volume as planted."""
+    """A measured beat of any size and the truth behind it, errors as planted."""
     rng = np.random.default_rng(seed)
     size, stroke = np.exp(0.2 * rng.standard_normal(2))
-    true = dict(zip(NAMES, size * np.array([60e-6, 350e-6, -400e-6]), strict=True))
-    factors = np.exp(rng.multivariate_normal(BIAS, SPREAD))
-    measured = {name: value * factor for (name, value), factor in zip(true.items(), factors, strict=True)}
     times = 0.8 / FRAMES * np.arange(FRAMES)
-    seen = (120.0 + 35.0 * stroke * np.cos(2.0 * np.pi * times / 0.8)) * 1e-6
-    volume = {"lv_volume": Curve(times, seen - np.ptp(seen) * planted_curve(rng), 0.8)}
-    return Pair(Reading(volume, true), Reading({"lv_volume": Curve(times, seen, 0.8)}, measured))
+    values = (120.0 + 35.0 * stroke * np.cos(2.0 * np.pi * times / 0.8)) * 1e-6
+    observed = dict(zip(NAMES, size * np.array([60e-6, 350e-6, -400e-6]), strict=True))
+    seen = Reading({"lv_volume": Curve(times, values, 0.8)}, observed)
+    behind = {"lv_volume": Curve(times, values - np.ptp(values) * planted_curve(rng), 0.8)}
+    return Pair(Reading(behind, truth(seen, rng.multivariate_normal(BIAS, SPREAD))), seen)
 
 
 def model(sequences: int, first: int = 0) -> NoiseModel:
@@ -58,58 +65,86 @@ def test_planted_bias_and_covariance_are_found_within_their_sampling_error() -> 
 
 def test_what_is_known_of_the_error_is_taken_off_exactly() -> None:
     """Sequences that all err alike: the corrected observations and curve are the truth, whatever its size."""
-    factor, share = np.exp(BIAS), 0.1 * np.sin(np.pi * np.arange(FRAMES) / FRAMES)
+    share = 0.1 * np.sin(np.pi * np.arange(FRAMES) / FRAMES)
 
     def alike(seed: int) -> Pair:
         each = pair(seed)
         seen = each.measured.curves["lv_volume"]
-        true = {
-            name: value / f
-            for (name, value), f in zip(each.measured.observations.items(), factor, strict=True)
-        }
         volume = {"lv_volume": replace(seen, values=seen.values - np.ptp(seen.values) * share)}
-        return Pair(Reading(volume, true), each.measured)
+        return Pair(Reading(volume, truth(each.measured, BIAS)), each.measured)
 
     known = NoiseModel.of([alike(seed) for seed in range(20)], PROTOCOL, FRAMES)
     fresh = alike(77)
-    assert known.corrected(fresh.measured.observations) == pytest.approx(fresh.true.observations)
+    assert known.corrected(fresh.measured) == pytest.approx(fresh.true.observations)
     found = known.corrected_curve(fresh.measured.curves["lv_volume"])
     assert found.values == pytest.approx(fresh.true.curves["lv_volume"].values)
-    for name, (low, high) in known.interval(fresh.measured.observations).items():
+    for name, (low, high) in known.interval(fresh.measured).items():
         assert low == pytest.approx(fresh.true.observations[name])
         assert high == pytest.approx(fresh.true.observations[name])
 
 
+def test_a_shrunken_motion_has_one_error_whatever_the_heart() -> None:
+    """V' = V_0 - (1 - s)(V_0 - V): all errors are s / (1 - s) of the stroke at end systole, ln(1 - s) of the rates."""
+    features, s = {"lv_volume": VolumeFeatures(FRAMES)}, 0.2
+
+    def shrunken(seed: int) -> Pair:
+        true = pair(seed).true.curves["lv_volume"]
+        seen = replace(true, values=true.values[0] - (1.0 - s) * (true.values[0] - true.values))
+        return Pair(*(Reading.of({"lv_volume": curve}, features) for curve in (true, seen)))
+
+    found = NoiseModel.of([shrunken(seed) for seed in range(20)], PROTOCOL, FRAMES)
+    strokes = [np.ptp(pair(seed).true.curves["lv_volume"].values) for seed in range(20)]
+    assert max(strokes) > 1.5 * min(strokes)
+    assert found.observations.mean == pytest.approx(
+        [s / (1.0 - s), np.log(1.0 - s), np.log(1.0 - s)], rel=0.03
+    )
+    assert found.observations.sd == pytest.approx(np.zeros(3), abs=0.02)
+
+
 def test_the_covariance_is_that_of_the_truth_and_in_the_order_asked_for() -> None:
-    known = model(1000)
-    observed = {"q_min": -300e-6, "V_min": 70e-6}
-    found = known.covariance(observed)
-    y = np.array(list(known.corrected(observed).values()))
-    assert y == pytest.approx([-300e-6 * np.exp(0.15), 70e-6 * np.exp(-0.04)], rel=0.02)
-    expected = np.outer(y, y) * SPREAD[np.ix_([2, 0], [2, 0])]
-    assert np.diag(found) == pytest.approx(np.diag(expected), rel=0.15)
-    assert np.sign(found[0, 1]) == 1.0  # the logarithms go apart, but q_min is negative
+    known, seen = model(1000), pair(3).measured
+    asked = replace(seen, observations={"q_min": -300e-6, "V_min": 70e-6})
+    found, stroke = known.covariance(asked), np.ptp(seen.curves["lv_volume"].values)
     rng = np.random.default_rng(5)
-    errors = rng.multivariate_normal(BIAS, SPREAD, 20000)[:, [2, 0]]
-    truths = np.array(list(observed.values())) * np.exp(-errors)
-    assert np.diag(found) == pytest.approx(truths.var(axis=0), rel=0.15)
+    errors = rng.multivariate_normal(BIAS, SPREAD, 20000)
+    truths = np.array([-300e-6 * np.exp(-errors[:, 2]), 70e-6 - stroke * errors[:, 0]])
+    assert np.sqrt(np.diag(found)) == pytest.approx(truths.std(axis=1), rel=0.08)
+    size = np.outer(np.sqrt(np.diag(found)), np.sqrt(np.diag(found)))
+    assert found / size == pytest.approx(np.corrcoef(truths), abs=0.08)
+    assert list(known.corrected(asked).values()) == pytest.approx(np.median(truths, axis=1), rel=0.01)
 
 
 def test_few_sequences_widen_everything_as_their_number_says() -> None:
-    few = model(20)
-    plain = (
-        np.outer([60e-6], [60e-6])
-        * few.observations.covariance[:1, :1]
-        * np.exp(-2 * few.observations.mean[0])
-    )
-    assert few.covariance({"V_min": 60e-6}) == pytest.approx(plain * 21 / 20)
-    low, high = few.interval({"q_min": -400e-6})["q_min"]
-    assert low < -400e-6 * np.exp(-few.observations.mean[2]) < high < 0.0
-    assert np.log(low / high) == pytest.approx(2.0 * few.observations.reach()[2])
-    seen = pair(99).measured.curves["lv_volume"]
-    low_curve, high_curve = few.curve_interval(seen)
-    assert high_curve - low_curve == pytest.approx(2.0 * np.ptp(seen.values) * few.curve.reach(), abs=1e-12)
-    assert few.curve_covariance(seen) == pytest.approx(np.ptp(seen.values) ** 2 * few.curve.predictive)
+    few, seen = model(20), pair(99).measured
+    volume = seen.curves["lv_volume"]
+    stroke, scatter = np.ptp(volume.values), few.observations
+    plain = stroke**2 * scatter.covariance[0, 0]
+    assert few.covariance(seen)[0, 0] == pytest.approx(plain * 21 / 20, rel=1e-12, abs=0.0)
+    low, high = few.interval(seen)["q_min"]
+    assert low < few.corrected(seen)["q_min"] < high < 0.0
+    assert np.log(low / high) == pytest.approx(2.0 * scatter.reach()[2])
+    low, high = few.interval(seen)["V_min"]
+    assert (low + high) / 2.0 == pytest.approx(few.corrected(seen)["V_min"])
+    assert high - low == pytest.approx(2.0 * stroke * scatter.reach()[0], rel=1e-12, abs=0.0)
+    low_curve, high_curve = few.curve_interval(volume)
+    assert high_curve - low_curve == pytest.approx(2.0 * stroke * few.curve.reach(), abs=1e-12)
+    assert few.curve_covariance(volume) == pytest.approx(stroke**2 * few.curve.predictive, rel=1e-12, abs=0.0)
+
+
+def test_a_peak_pressure_is_compared_with_the_range_of_the_pressure() -> None:
+    def recorded(seed: int) -> Pair:
+        each, times = pair(seed), 0.8 / 200 * np.arange(200)
+        wave = Curve(times, (8e3 + 50.0 * seed) * (1.0 - np.cos(2.0 * np.pi * times / 0.8)), 0.8)
+        range_ = np.ptp(wave.values)
+        observed = each.measured.observations | {"P_max": wave.values.max()}
+        true = each.true.observations | {"P_max": wave.values.max() - 0.03 * range_}
+        curves = each.measured.curves | {"lv_pressure": wave}
+        return Pair(replace(each.true, observations=true), Reading(curves, observed))
+
+    known = NoiseModel.of([recorded(seed) for seed in range(20)], PROTOCOL, FRAMES)
+    assert known.observations.mean[3] == pytest.approx(0.03)
+    fresh = recorded(40)
+    assert known.corrected(fresh.measured)["P_max"] == pytest.approx(fresh.true.observations["P_max"])
 
 
 def test_intervals_hold_the_truth_of_fresh_sequences_as_often_as_they_say() -> None:
@@ -156,7 +191,7 @@ def test_what_the_model_cannot_know_is_refused() -> None:
     with pytest.raises(InputError, match="19 sequences; expected at least 20"):
         replace(known, observations=replace(known.observations, count=19))
     with pytest.raises(InputError, match="knows nothing of P_max; expected V_min, q_max, q_min"):
-        known.covariance({"V_min": 60e-6, "P_max": 16e3})
+        known.covariance(replace(pair(0).measured, observations={"V_min": 60e-6, "P_max": 16e3}))
     with pytest.raises(InputError, match=r"snr is 10\.0, the model was made for 30\.0"):
         known.require_protocol(PROTOCOL | {"snr": 10.0})
     with pytest.raises(InputError, match="phases is None, the model was made for 25"):

@@ -56,10 +56,15 @@ def test_a_noise_model_gives_bias_and_covariance() -> None:
     features = operators(measured())
     found = observe_measured(measured(), features, 0.0, MODEL)
     assert found.values == observe(measured(), features)
-    y = np.array(list(found.values.values())) * np.exp(-BIAS)
-    assert list(found.corrected.values()) == pytest.approx(y)
-    assert found.covariance == pytest.approx(np.outer(y, y) * SPREAD * 25 / 24, rel=1e-12, abs=0.0)
-    assert [o.noise**2 for o in found.observations] == pytest.approx(np.diag(found.covariance), abs=0.0)
+    stroke = np.ptp(measured()["lv_volume"].values)
+    v_min, q_max, q_min = found.values.values()
+    truths = [v_min - stroke * BIAS[0], q_max * np.exp(-BIAS[1]), q_min * np.exp(-BIAS[2])]
+    assert list(found.corrected.values()) == pytest.approx(truths)
+    sizes = np.array([stroke, *truths[1:]])
+    assert found.covariance == pytest.approx(np.outer(sizes, sizes) * SPREAD * 25 / 24, rel=1e-12, abs=0.0)
+    assert [o.noise**2 for o in found.observations] == pytest.approx(
+        np.diag(found.covariance), rel=1e-12, abs=0.0
+    )
 
 
 def test_an_uncertain_period_adds_what_a_stretched_curve_shows() -> None:

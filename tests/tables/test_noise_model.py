@@ -19,7 +19,7 @@ WAVE = np.sin(np.pi * np.arange(PHASES) / PHASES)
 LABELS = tuple(f"phase {phase} of {PHASES}" for phase in range(PHASES))
 MODEL = NoiseModel(
     {},
-    Scatter(("V_min", "q_max"), 24, np.log([1.2, 0.8]), np.diag([0.05**2, 0.1**2])),
+    Scatter(("V_min", "q_max"), 24, np.array([0.2, np.log(0.8)]), np.diag([0.05**2, 0.1**2])),
     Scatter(LABELS, 24, 0.1 * WAVE, np.diag((0.04 * WAVE) ** 2)),
 )
 
@@ -62,13 +62,12 @@ def test_sensors_stand_in_percent_and_milliseconds() -> None:
 def test_fresh_sequences_are_drawn_in_the_intervals_of_the_model(tmp_path: Path) -> None:
     figure = plot_noise_model(MODEL, [pair(0.1), pair(0.2)])
     observations, errors, volume = figure.axes
-    bar = observations.patches[0]
-    assert np.log(bar.get_y()) == pytest.approx(np.log(1.2) - MODEL.observations.reach()[0])
-    assert np.log(bar.get_y() + bar.get_height()) == pytest.approx(
-        np.log(1.2) + MODEL.observations.reach()[0]
-    )
-    ratios = observations.get_lines()[1].get_ydata()
-    assert ratios == pytest.approx([0.9, 0.8])
+    bar, reach = observations.patches[0], MODEL.observations.reach()[0]
+    assert bar.get_y() == pytest.approx(100.0 * (0.2 - reach))
+    assert bar.get_height() == pytest.approx(200.0 * reach)
+    v_min, q_max = (line.get_ydata() for line in observations.get_lines()[:2])
+    assert v_min == pytest.approx([100.0 * 0.1 / 0.9, 100.0 * 0.2 / 0.8])
+    assert q_max == pytest.approx(100.0 * np.log([0.9, 0.8]))
     lines = {line.get_label(): line.get_ydata() for line in errors.get_lines()}
     assert lines["bias"] == pytest.approx(10.0 * WAVE)
     assert lines["fresh sequences"] == pytest.approx(100.0 * (0.1 / 0.9) * WAVE)

@@ -10,7 +10,10 @@ from heartfit.io.results import read_result, write_result
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.scatter import Scatter
 
-UNITS = {"observations": "ln(measured / true)", "curve": "(measured - true) / measured stroke volume"}
+UNITS = {
+    "observations": "V_min, P_max: (measured - true) / measured range; rates: ln(measured / true)",
+    "curve": "(measured - true) / measured stroke volume",
+}
 
 
 def write_noise_model(path: Path, model: NoiseModel, fingerprint: str) -> None:

@@ -49,7 +49,7 @@ def coverage(model: NoiseModel, pairs: Sequence[Pair], level: float = 0.95) -> d
 def _held(model: NoiseModel, pair: Pair, level: float) -> dict[str, float]:
     """1 or 0 for each observation, for the volume the share of the phases."""
     true = pair.true.observations
-    intervals = model.interval(pair.measured.observations, level)
+    intervals = model.interval(pair.measured, level)
     held = {name: float(low <= true[name] <= high) for name, (low, high) in intervals.items()}
     return held | {"lv_volume": float(np.mean(_phases_held(model, pair, level)))}
 

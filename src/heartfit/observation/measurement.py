@@ -10,7 +10,8 @@ from heartfit.observation.curve import Curve
 from heartfit.observation.noise import Observation, measure
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.operator import CurveFeatures
-from heartfit.observation.vector import observe, require_curves
+from heartfit.observation.pair import Reading
+from heartfit.observation.vector import require_curves
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,10 +73,10 @@ def observe_by_model(
 
         R = R_model + p^2 g g^T,   g_i = -y_i for a rate, 0 for a volume or pressure.
     """
-    measured = observe(curves, features)
-    corrected = model.corrected(measured)
+    reading = Reading.of(curves, features)
+    measured, corrected = reading.observations, model.corrected(reading)
     stretched = period_uncertainty * _per_period(corrected, features)
-    covariance = model.covariance(measured) + np.outer(stretched, stretched)
+    covariance = model.covariance(reading) + np.outer(stretched, stretched)
     noise = np.sqrt(np.diag(covariance)).tolist()
     units = [unit for operator in features.values() for unit in operator.units]
     observations = [

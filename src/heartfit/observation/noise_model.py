@@ -1,16 +1,18 @@
 r"""What a scanner with its registration makes of a beat, learnt from sequences whose truth is known.
 
-An observation is scaled by the measurement, never turned round: its error is the logarithm of a ratio,
+Registration starts from the end-diastolic mesh, so its error grows with the motion that it follows. It is therefore
+compared with a scale of the motion that the measurement itself has. For the volume at a phase of the beat, and for the
+extremum of a curve, that is the range of the measured curve, the stroke volume for V_min; for a rate it is the rate,
 
-.. math:: e_i = \ln(y_i^{measured} / y_i^{true}), \quad y_i^{true} = y_i^{measured} e^{-e_i} ,
+.. math::
+    e(\varphi) = \frac{V^{measured}(\varphi) - V^{true}(\varphi)}{SV^{measured}}, \quad
+    e_{extremum} = \frac{y^{measured} - y^{true}}{range^{measured}}, \quad
+    e_{rate} = \ln \frac{y^{measured}}{y^{true}} .
 
-which is as large for twice as for half the true value and is inverted exactly, for the truth is what is not known.
-The error of the left ventricle's volume is compared with a scale that the measurement itself has, its stroke volume,
-
-.. math:: e(\varphi) = (V^{measured}(\varphi) - V^{true}(\varphi)) / SV^{measured} ,
-
-at equidistant phases of the beat from the trigger on. Bias and covariance of both over N >= 20 sequences are the model;
-see :mod:`heartfit.observation.scatter` for what N sequences say of the next one.
+Both are inverted exactly for the truth, which is what is not known. A motion that is shrunk by s has e = s / (1 - s)
+at end systole whatever the heart, where an error relative to V_min would depend on the ejection fraction; a logarithm
+is as large for twice as for half the true rate. Bias and covariance of the errors over N >= 20 sequences are the
+model; see :mod:`heartfit.observation.scatter` for what N sequences say of the next one.
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,11 +23,14 @@ import numpy as np
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats, Integers
 from heartfit.observation.curve import Curve
-from heartfit.observation.pair import Pair
+from heartfit.observation.operator import PressureFeatures, VolumeFeatures
+from heartfit.observation.pair import Pair, Reading
 from heartfit.observation.scatter import Scatter
 
 FEWEST_SEQUENCES = 20
 PHASES = 25
+EXTREMA = {VolumeFeatures.names[0]: "lv_volume", PressureFeatures.names[0]: "lv_pressure"}
+"""Observations that are compared with the range of a curve, and which; the others are rates."""
 Setting = float | int | str | bool
 
 
@@ -33,9 +38,9 @@ Setting = float | int | str | bool
 class NoiseModel:
     """Bias and covariance of what is measured by one protocol.
 
-    protocol: the settings of scanner and registration the model was made for; observations: scatter of ln(measured /
-    true) by name; curve: scatter of the volume's error over the measured stroke volume, one component for each phase,
-    with shrunken correlations. Raises InputError for fewer than 20 sequences.
+    protocol: the settings of scanner and registration the model was made for; observations: scatter of their errors by
+    name; curve: scatter of the error of the volume, one component for each phase, with shrunken correlations. Raises
+    InputError for fewer than 20 sequences.
     """
 
     protocol: Mapping[str, Setting]
@@ -54,7 +59,7 @@ class NoiseModel:
         """
         _require_enough(len(pairs))
         names = tuple(pairs[0].true.observations)
-        errors = np.array([_logarithms(number, pair, names) for number, pair in enumerate(pairs)])
+        errors = np.array([observation_errors(pair, names, number) for number, pair in enumerate(pairs)])
         curves = np.array([curve_error(pair, phases) for pair in pairs])
         labels = [f"phase {phase} of {phases}" for phase in range(phases)]
         return cls(protocol, Scatter.of(names, errors), Scatter.of(labels, curves, shrunk=True))
@@ -75,30 +80,28 @@ class NoiseModel:
                     "expected images of its protocol: make a model of theirs"
                 )
 
-    def corrected(self, observed: Mapping[str, float]) -> dict[str, float]:
-        """The observations, SI, without the bias: y exp(-b)."""
-        factors = np.exp(-self.observations.mean[self._places(observed)])
-        return {
-            name: value * float(factor)
-            for (name, value), factor in zip(observed.items(), factors, strict=True)
-        }
+    def corrected(self, measured: Reading) -> dict[str, float]:
+        """The observations, SI, without the bias."""
+        bias = self.observations.mean[self._places(measured.observations)]
+        return dict(zip(measured.observations, _truths(measured, bias).tolist(), strict=True))
 
-    def covariance(self, observed: Mapping[str, float]) -> Floats:
+    def covariance(self, measured: Reading) -> Floats:
         """Covariance (m, m) of the truth about the corrected observations, in their order and SI.
 
-        R = diag(y) S (1 + 1/N) diag(y) with the corrected y: of first order in the logarithms.
+        R = diag(d) S (1 + 1/N) diag(d) with d the range of the curve for an extremum and the corrected value for a
+        rate, whose logarithm is taken to first order.
         """
-        places = self._places(observed)
-        values = np.array(list(self.corrected(observed).values()))
-        return np.outer(values, values) * self.observations.predictive[np.ix_(places, places)]
+        places = self._places(measured.observations)
+        scales = _scales(measured)
+        sizes = np.where(np.isnan(scales), list(self.corrected(measured).values()), scales)
+        return np.outer(sizes, sizes) * self.observations.predictive[np.ix_(places, places)]
 
-    def interval(self, observed: Mapping[str, float], level: float = 0.95) -> dict[str, tuple[float, float]]:
+    def interval(self, measured: Reading, level: float = 0.95) -> dict[str, tuple[float, float]]:
         """Where the true values lie with probability ``level`` each: least and largest, SI."""
-        stretch = np.exp(self.observations.reach(level)[self._places(observed)])
-        return {
-            name: (min(value / factor, value * factor), max(value / factor, value * factor))
-            for (name, value), factor in zip(self.corrected(observed).items(), stretch.tolist(), strict=True)
-        }
+        places = self._places(measured.observations)
+        bias, reach = self.observations.mean[places], self.observations.reach(level)[places]
+        ends = np.sort([_truths(measured, bias - reach), _truths(measured, bias + reach)], axis=0)
+        return dict(zip(measured.observations, map(tuple, ends.T.tolist()), strict=True))
 
     def corrected_curve(self, volume: Curve) -> Curve:
         """A measured LV volume at the model's phases, m^3, without the bias."""
@@ -142,22 +145,46 @@ def _require_enough(sequences: int) -> None:
         )
 
 
-def _logarithms(number: int, pair: Pair, names: Sequence[str]) -> Floats:
-    """ln(measured / true) (m,) of one pair."""
+def observation_errors(pair: Pair, names: Sequence[str], number: int = 0) -> Floats:
+    """Errors (m,) of the observations of a pair, by name; ``number`` tells its sequence.
+
+    Raises InputError for other observations than these, and for a rate of another sign than the true one.
+    """
     true, measured = pair.true.observations, pair.measured.observations
     if not set(true) == set(measured) == set(names):
         raise InputError(
             f"noise model: sequence {number} has the observations {', '.join(true)} (true) and "
             f"{', '.join(measured)} (measured); expected {', '.join(names)}: observe all sequences alike"
         )
-    ratios = np.array([measured[name] / true[name] for name in names])
-    if not (ratios > 0.0).all():
-        name = names[int(np.argmin(ratios > 0.0))]
+    return np.array([_error(pair, name, number) for name in names])
+
+
+def _error(pair: Pair, name: str, number: int) -> float:
+    true, measured = pair.true.observations[name], pair.measured.observations[name]
+    if name in EXTREMA:
+        return (measured - true) / _range(pair.measured, name)
+    if not measured / true > 0.0:
         raise InputError(
-            f"noise model: sequence {number} has {name} = {measured[name]:g} for a true {true[name]:g}; "
+            f"noise model: sequence {number} has {name} = {measured:g} for a true {true:g}; "
             "expected the same sign: look at its registration"
         )
-    return np.log(ratios)
+    return float(np.log(measured / true))
+
+
+def _truths(measured: Reading, errors: Floats) -> Floats:
+    """True values (m,) of what was measured with these errors."""
+    values, scales = np.array(list(measured.observations.values())), _scales(measured)
+    truths: Floats = np.where(np.isnan(scales), values * np.exp(-errors), values - scales * errors)
+    return truths
+
+
+def _scales(measured: Reading) -> Floats:
+    """Range (m,) of the curve of each extremum, NaN for a rate."""
+    return np.array([_range(measured, name) if name in EXTREMA else np.nan for name in measured.observations])
+
+
+def _range(measured: Reading, name: str) -> float:
+    return float(np.ptp(measured.curves[EXTREMA[name]].values))
 
 
 def curve_error(pair: Pair, phases: int) -> Floats:

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from heartfit.observation.noise_model import NoiseModel, curve_error
+from heartfit.observation.noise_model import EXTREMA, NoiseModel, curve_error, observation_errors
 from heartfit.observation.pair import Pair
 from heartfit.tables.figures import CALIBRATED, MEASURED, clean
 from heartfit.tables.text import symbol
@@ -29,23 +29,24 @@ def plot_noise_model(model: NoiseModel, fresh: Sequence[Pair]) -> Figure:
 
 
 def _observations(axes: Axes, model: NoiseModel, fresh: Sequence[Pair]) -> None:
+    """Errors as the model has them, each fresh sequence a point."""
     scatter, places = model.observations, np.arange(len(model.observations.names))
-    ratios = np.array(
-        [
-            [pair.measured.observations[name] / pair.true.observations[name] for name in scatter.names]
-            for pair in fresh
-        ]
-    )
-    low, high = (np.exp(scatter.mean + sign * scatter.reach(LEVEL)) for sign in (-1.0, 1.0))
-    axes.bar(places, high - low, 0.5, bottom=low, label=f"{100 * LEVEL:g} % interval", **BAND)
-    axes.hlines(np.exp(scatter.mean), places - 0.25, places + 0.25, color=CALIBRATED, label="bias")
+    errors = 100.0 * np.array([observation_errors(pair, scatter.names) for pair in fresh])
+    mean, reach = 100.0 * scatter.mean, 100.0 * scatter.reach(LEVEL)
+    axes.bar(places, 2.0 * reach, 0.5, bottom=mean - reach, label=f"{100 * LEVEL:g} % interval", **BAND)
+    axes.hlines(mean, places - 0.25, places + 0.25, color=CALIBRATED, label="bias")
     spread = np.linspace(-0.2, 0.2, len(fresh)) if len(fresh) > 1 else np.zeros(1)
-    for place, column in zip(places, ratios.T, strict=True):
+    for place, column in zip(places, errors.T, strict=True):
         axes.plot(place + spread, column, ".", color=MEASURED, markersize=4)
-    axes.axhline(1.0, color="black", linewidth=0.6)
-    axes.set_xticks(places, [symbol(name) for name in scatter.names])
-    axes.set_ylabel("measured / true")
+    axes.axhline(0.0, color="black", linewidth=0.6)
+    axes.set_xticks(places, [symbol(name) + _scale(name) for name in scatter.names], fontsize=9)
+    axes.set_ylabel("error (%)")
     axes.legend(frameon=False, fontsize=8)
+
+
+def _scale(name: str) -> str:
+    """What an error is compared with, for the axis."""
+    return f"\n/ range of {EXTREMA[name][3:]}" if name in EXTREMA else "\nln(measured / true)"
 
 
 def _errors(axes: Axes, model: NoiseModel, fresh: Sequence[Pair]) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from heartfit.observation.coverage import Share
-from heartfit.observation.noise_model import NoiseModel
+from heartfit.observation.noise_model import EXTREMA, NoiseModel
 from heartfit.observation.scatter import Scatter
 
 SENSORS = {
@@ -21,15 +21,17 @@ SENSORS = {
 def noise_model_table(model: NoiseModel, shares: Mapping[str, Share]) -> pd.DataFrame:
     """One row per observation, one for the LV volume: bias and deviation, and how often the intervals are right.
 
-    bias (median) and deviation in percent of the truth, or of the measured stroke volume for the volume, whose row is
-    the phase of the largest deviation, though its cover is that of all; "covered": fresh sequences whose truth lies in
+    bias (median) and deviation in percent: of a rate over its true value, of V_min and the volume over the measured
+    stroke volume, as the model has them (P_max: over the range of pressure). The volume's row is the phase of the
+    largest deviation, though its cover is that of all; "covered": fresh sequences whose truth lies in
     the 95 % interval, with the exact interval of that share (`heartfit.observation.coverage`).
     """
     worst = int(model.curve.sd.argmax())
     scatter = model.observations
+    bias = np.where([name in EXTREMA for name in scatter.names], scatter.mean, np.expm1(scatter.mean))
     rows = [
-        _row(name, bias, sd, shares[name])
-        for name, bias, sd in zip(scatter.names, np.expm1(scatter.mean), scatter.sd, strict=True)
+        _row(name, mean, sd, shares[name])
+        for name, mean, sd in zip(scatter.names, bias, scatter.sd, strict=True)
     ]
     volume = f"LV volume, {model.curve.names[worst]}"
     rows.append(_row(volume, model.curve.mean[worst], model.curve.sd[worst], shares["lv_volume"]))
