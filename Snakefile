@@ -24,6 +24,7 @@ rule all:
             about=("", "_sensitivity", "_shape"),
             kind=("png", "pdf"),
         ),
+        expand("<results>/figures/{case}_cine_{about}.png", case=IMAGED, about=("outlines", "volume")),
         # asked for by name, or Snakemake would not miss a beat that was deleted
         [beats_of(CASES, setting) for setting in SETTINGS],
 

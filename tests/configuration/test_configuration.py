@@ -173,6 +173,26 @@ def test_without_the_measured_heart_virtual_cases_remain_and_one_line_says_so(co
 
 
 @pytest.mark.measured
+def test_without_its_images_the_measured_heart_remains_and_one_line_says_so(
+    content, tmp_path, measured_heart_folder
+):
+    for part in ("control_points", "template"):
+        (tmp_path / part).symlink_to((measured_heart_folder / part).resolve())
+    (tmp_path / "cine").mkdir()
+    timing = measured_heart_folder / "cine" / "timing.json"
+    (tmp_path / "cine" / "timing.json").write_text(timing.read_text())
+    content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": [str(tmp_path)]}
+    plan = plan_study(content)
+    assert "patient1" in plan.cases
+    assert plan.images is None
+    assert plan.left_out == f"registration of images left out: no short-axis cine {tmp_path}/cine/sax*"
+    (tmp_path / "cine" / "sax.nii.gz").touch()
+    plan = plan_study(content)
+    assert plan.images == tmp_path / "cine" / "sax.nii.gz"
+    assert plan.left_out == ""
+
+
+@pytest.mark.measured
 def test_a_period_that_is_not_the_measured_one_is_refused(content, tmp_path, measured_heart_folder):
     table = tmp_path / "cases.tsv"
     content |= {"cases": str(table), "measured_heart": [str(measured_heart_folder)]}

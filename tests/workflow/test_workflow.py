@@ -53,6 +53,9 @@ def test_the_measured_heart_is_one_more_case(workflow, measured_heart_folder):
     counts = job_counts(run.stdout)
     assert run.returncode == 0, run.stdout
     assert counts["build_measured_mesh"] == counts["register_measured"] == 1
+    imaged = len(list((measured_heart_folder / "cine").glob("sax*")))
+    assert counts.get("register_cine", 0) == counts.get("compare_cine", 0) == min(imaged, 1)
+    assert ("registration of images left out" in run.stdout) == (imaged == 0)
     assert counts["simulate_point"] == 3 * 2 * 9
 
 

@@ -23,6 +23,7 @@ if PLAN.left_out:
 STUDY, CASES, HEART = PLAN.study, PLAN.cases, PLAN.measured_heart
 SETTINGS = list(STUDY.settings)
 MEASURED = [name for name, case in CASES.items() if case.kind == "measured"]
+IMAGED = MEASURED if PLAN.images else []
 VIRTUAL = [name for name, case in CASES.items() if case.kind == "virtual"]
 
 

@@ -40,3 +40,52 @@ rule register_volunteer:
         code=code("register_volunteer.py"),
     script:
         "../scripts/register_volunteer.py"
+
+
+rule register_cine:
+    input:
+        files=measured_files,
+        images=PLAN.images or [],
+    output:
+        "<results>/{case}/registration/cine.npz",
+    log:
+        "<logs>/{case}/register_cine.log",
+    benchmark:
+        "<benchmarks>/{case}/register_cine.tsv"
+    wildcard_constraints:
+        case=one_of(IMAGED),
+    resources:
+        mem_mb=1500,
+        runtime=10,
+    params:
+        folder=str(HEART),
+        code=code("register_cine.py"),
+    script:
+        "../scripts/register_cine.py"
+
+
+rule compare_cine:
+    input:
+        files=measured_files,
+        images=PLAN.images or [],
+        motion="<results>/{case}/registration/cine.npz",
+    output:
+        outlines=expand("<results>/tables/{{case}}_cine_outlines.{suffix}", suffix=("csv", "md", "tex")),
+        wall=expand("<results>/tables/{{case}}_cine_wall.{suffix}", suffix=("csv", "md", "tex")),
+        volume=expand("<results>/tables/{{case}}_cine_volume.{suffix}", suffix=("csv", "md", "tex")),
+        outlines_figure=expand("<results>/figures/{{case}}_cine_outlines.{suffix}", suffix=("png", "pdf")),
+        volume_figure=expand("<results>/figures/{{case}}_cine_volume.{suffix}", suffix=("png", "pdf")),
+    log:
+        "<logs>/{case}/compare_cine.log",
+    benchmark:
+        "<benchmarks>/{case}/compare_cine.tsv"
+    wildcard_constraints:
+        case=one_of(IMAGED),
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        folder=str(HEART),
+        code=code("compare_cine.py"),
+    script:
+        "../scripts/compare_cine.py"

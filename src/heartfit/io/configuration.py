@@ -14,7 +14,7 @@ from heartfit.configuration.case import Case
 from heartfit.configuration.strict import validated
 from heartfit.configuration.study import Study
 from heartfit.errors import InputError
-from heartfit.io.measured_heart import read_measured_heart
+from heartfit.io.measured_heart import read_measured_heart, short_axis_images
 
 LARGEST_PERIOD_DIFFERENCE = 0.02
 UNITS = {"_s": 1.0, "_ml": 1e-6, "_mm": 1e-3}
@@ -22,11 +22,15 @@ UNITS = {"_s": 1.0, "_ml": 1e-6, "_mm": 1e-3}
 
 @dataclass(frozen=True)
 class Plan:
-    """A study with the cases that can be run, by name, and in one line what is left out, if anything."""
+    """A study with the cases that can be run, by name, and in one line what is left out, if anything.
+
+    measured_heart: the folder of the measured heart; images: its short-axis cine; None where there is none.
+    """
 
     study: Study
     cases: Mapping[str, Case]
     measured_heart: Path | None
+    images: Path | None
     left_out: str
 
 
@@ -40,7 +44,12 @@ def plan_study(content: Mapping[str, Any], where: str = "configuration") -> Plan
     measured = [case for case in kept.values() if case.kind == "measured"]
     if folder is not None and measured:
         _require_sound(folder, measured)
-    return Plan(study, kept, folder, _left_out(absent, study) if absent else "")
+    left_out, images = _left_out(absent, study) if absent else "", None
+    if folder is not None and measured:
+        images = short_axis_images(folder)
+        if images is None:
+            left_out = f"registration of images left out: no short-axis cine {folder / 'cine' / 'sax*'}"
+    return Plan(study, kept, folder, images, left_out)
 
 
 def _require_sound(folder: Path, cases: Sequence[Case]) -> None:

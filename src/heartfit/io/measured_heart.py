@@ -77,6 +77,14 @@ def read_measured_heart(folder: Path) -> MeasuredHeart:
     return MeasuredHeart(LabelledSurface(positions[0], triangles, labels), positions, times, period)
 
 
+def short_axis_images(folder: Path) -> Path | None:
+    """The short-axis cine that the surfaces were fitted to, one frame for each phase; None if it is not there.
+
+    It is not published in a form that can be fetched: `cine/sax*`, a 4-D file or a folder as read_images takes it.
+    """
+    return next(iter(sorted((folder / "cine").glob("sax*"))), None)
+
+
 def _read_control_points(folder: Path) -> Floats:
     files = sorted(_existing(folder).glob("*.txt"))
     require_phases(len(files), str(folder))

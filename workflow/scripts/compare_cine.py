@@ -1,0 +1,26 @@
+"""Compare what registration makes of the real short-axis images with the measured surface cut by the same planes."""
+
+from itertools import repeat
+from pathlib import Path
+
+from heartfit.io.images import read_images
+from heartfit.io.log import record
+from heartfit.io.measured_heart import read_measured_heart
+from heartfit.io.slices import read_slice_motion
+from heartfit.io.tables import write_figure, write_table
+from heartfit.observation.cine import compare_cine
+from heartfit.tables.cine_figures import plot_outlines, plot_volumes
+from heartfit.tables.cine_tables import outline_table, short_axis_volume_table, wall_table
+
+record(snakemake.log[0])
+files, output, case = snakemake.input, snakemake.output, snakemake.wildcards.case
+heart = read_measured_heart(Path(snakemake.params.folder))
+images = read_images(Path(files.images), heart.period, heart.times)
+cine = compare_cine(heart.surface, heart.positions, read_slice_motion(Path(files.motion)))
+list(map(write_table, map(Path, output.outlines), repeat(outline_table(cine))))
+list(map(write_table, map(Path, output.wall), repeat(wall_table(cine))))
+list(map(write_table, map(Path, output.volume), repeat(short_axis_volume_table(cine.volumes))))
+list(map(write_figure, map(Path, output.outlines_figure), repeat(plot_outlines(images, cine, case))))
+list(
+    map(write_figure, map(Path, output.volume_figure), repeat(plot_volumes(images.times, cine.volumes, case)))
+)
