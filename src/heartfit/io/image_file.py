@@ -39,7 +39,9 @@ def load(path: Path) -> sitk.Image:
         with quiet():
             image = sitk.ReadImage(str(path))
     except RuntimeError as failure:
-        raise InputError(f"{path}: cannot be read as an image: {reason(failure)}; export it again") from None
+        raise InputError(
+            f"{path}: cannot be read: {reason(failure)}; cut off, damaged or no image: export it again"
+        ) from None
     if path.name.endswith((".nii", ".nii.gz")):
         _require_whole(path, image)
         if {image.GetMetaData("qform_code"), image.GetMetaData("sform_code")} == {"0"}:
@@ -77,9 +79,12 @@ def grid_of(image: sitk.Image, where: Path) -> Grid:
 
 
 def reason(failure: RuntimeError) -> str:
-    """The last line in which SimpleITK says what went wrong, without the place in its source."""
-    lines = [line for line in str(failure).splitlines() if line.strip()]
-    return re.sub(r"^.*(ERROR|Reason): |\w+\(0x[0-9a-f]+\): ", "", lines[-1]).strip().rstrip(".")
+    """The last line in which SimpleITK says what went wrong, without the place in its source.
+
+    "Reason:" is left out: it is that of whatever the system refused last.
+    """
+    lines = [line for line in str(failure).splitlines() if line.strip() and not line.startswith("Reason:")]
+    return re.sub(r"^.*ERROR: |\w+\(0x[0-9a-f]+\): ", "", lines[-1]).strip().rstrip(".")
 
 
 def _require_whole(path: Path, image: sitk.Image) -> None:

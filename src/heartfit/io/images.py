@@ -70,8 +70,8 @@ def _read_file(path: Path) -> tuple[Grid, Floats, Timing]:
     image = load(path)
     if image.GetDimension() != 4 or image.GetNumberOfComponentsPerPixel() != 1:
         raise InputError(
-            f"{path}: {image.GetDimension()}-D with {image.GetNumberOfComponentsPerPixel()} values per voxel; "
-            "expected a 4-D image of brightness, time last, or a folder with one 3-D image for each frame"
+            f"{path}: {image.GetDimension()}-D, numbers in a voxel {image.GetNumberOfComponentsPerPixel()}; expected "
+            "4-D, time last, one number in a voxel, or a folder with one 3-D image for each frame"
         )
     count, step = image.GetSize()[3], image.GetSpacing()[3]
     said = Timing(count * step, np.arange(count) * step) if _knows_seconds(image) else Timing()
