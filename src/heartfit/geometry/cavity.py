@@ -33,6 +33,11 @@ class Cavity:
     rim: Integers
     rim_start: Integers
 
+    @property
+    def lids(self) -> Integers:
+        """The triangles (l,3) of the fans that close the openings."""
+        return self.triangles[(self.triangles < 0).any(axis=1)]
+
     @classmethod
     def of(cls, mesh: HasSurfaces, name: str) -> "Cavity":
         """The cavity behind the endocardium `name`; raises InputError if it has no or pinched openings."""

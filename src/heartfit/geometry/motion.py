@@ -41,6 +41,16 @@ class Motion:
                 f"expected within [0, {self.period:g}) s"
             )
 
+    def at(self, time: float) -> Floats:
+        """Positions (n,3) m at any time, s, periodic and linear between the phases."""
+        after = int(np.searchsorted(self.times, time % self.period, side="right"))
+        before, span = after - 1, np.append(self.times, self.times[0] + self.period)
+        start = span[before] if after else self.times[-1] - self.period
+        share = (time % self.period - start) / (span[after] - start)
+        later = self.positions[after % len(self.times)]
+        place: Floats = (1.0 - share) * self.positions[before] + share * later
+        return place
+
 
 def require_phases(count: int, where: str) -> None:
     """Raises InputError when there are too few phases to see filling and ejection."""
