@@ -23,7 +23,9 @@ def image_beat(mesh: VentricularMesh, motion: Motion, scanner: Scanner, seed: in
     rng = np.random.default_rng(seed)
     axes = LeftVentricularAxes.of(mesh)
     plan = _Plan.of(mesh, axes, scanner)
-    shift = scanner.breath_hold_shift / scanner.voxel * plan.across * rng.standard_normal((plan.grid.size[2], 2))
+    shift = (
+        scanner.breath_hold_shift / scanner.voxel * plan.across * rng.standard_normal((plan.grid.size[2], 2))
+    )
     scene = Scene.of(mesh, axes.axis, plan.fine, scanner.contrast, np.repeat(shift, plan.pitch, axis=0), seed)
     times = np.arange(scanner.frames) * motion.period / scanner.frames
     frames = [plan.average(scene, motion, instants) for instants in _instants(times, scanner)]
@@ -55,7 +57,9 @@ class _Plan:
         """Short-axis slices that hold the mesh and a margin about it."""
         directions = np.column_stack([axes.septal, axes.anterior, axes.axis])
         along = mesh.points @ directions
-        return cls(along.min(axis=0) - scanner.margin, along.max(axis=0) + scanner.margin, directions, scanner)
+        return cls(
+            along.min(axis=0) - scanner.margin, along.max(axis=0) + scanner.margin, directions, scanner
+        )
 
     def average(self, scene: Scene, motion: Motion, instants: Floats) -> Floats:
         """Brightness (k,j,i) of a frame that is the mean of the scene at some instants."""

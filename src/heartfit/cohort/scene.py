@@ -73,9 +73,7 @@ class Scene:
         paint_wall(image, places, self.mesh.tets, material, self.muscle, self.shift)
         return image
 
-    def _fill(
-        self, image: Floats, bottom: Floats, patch: Integers, top: Floats, brightness: float
-    ) -> None:
+    def _fill(self, image: Floats, bottom: Floats, patch: Integers, top: Floats, brightness: float) -> None:
         """Paints what lies between a patch of triangles and the same patch with its corners elsewhere."""
         self._paint(image, np.vstack([bottom, top]), prism(patch, len(bottom)), brightness)
 
@@ -84,7 +82,7 @@ class Scene:
 
 
 def prism(patch: Integers, above: int) -> Integers:
-    """The closed surface between a patch of triangles (k,3) and its image, whose corners are numbered ``above`` more."""
+    """The closed surface between a patch of triangles (k,3) and its image, its corners numbered ``above`` more."""
     edges = directed_edges(patch)
     present = set(map(tuple, edges.tolist()))
     rim = np.array([(a, b) for a, b in edges.tolist() if (b, a) not in present])
