@@ -186,7 +186,8 @@ def test_without_its_images_the_measured_heart_remains_and_one_line_says_so(
     assert "patient1" in plan.cases
     assert plan.images is None
     assert plan.left_out == f"registration of images left out: no short-axis cine {tmp_path}/cine/sax*"
-    (tmp_path / "cine" / "sax.nii.gz").touch()
+    for name in ("sax.json", "sax.nii.gz"):
+        (tmp_path / "cine" / name).touch()
     plan = plan_study(content)
     assert plan.images == tmp_path / "cine" / "sax.nii.gz"
     assert plan.left_out == ""

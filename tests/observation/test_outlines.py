@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
+from heartfit.errors import InputError
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.nearest import nearest_on_surface
 from heartfit.geometry.surface import LabelledSurface
 from heartfit.imaging.grid import Grid
+from heartfit.observation.cine import compare_cine
 from heartfit.observation.outlines import Outline, outlines
 from heartfit.observation.short_axis_volume import left_volumes, modified_simpson
 from heartfit.observation.wall_points import wall_points
@@ -163,3 +165,17 @@ def test_ends_at_rest_miss_the_descent_of_the_base(surface: LabelledSurface, mot
     areas = [outline.carried_area[-1] for outline in every if outline.surface == "lv_endo"]
     gained = found["registered, ends at rest"][-1] - found["registered"][-1]
     assert gained == pytest.approx(sunk * areas[0] - 2.0 / 3.0 * sunk * areas[-1], rel=1e-6)
+
+
+def test_a_comparison_holds_every_slice_and_refuses_what_does_not_belong_together(
+    surface: LabelledSurface, motion: SliceMotion
+) -> None:
+    positions, times = moved(surface), 0.1 * np.arange(FRAMES)
+    cine = compare_cine(surface, positions, times, 0.8, motion)
+    left = [outline.slice for outline in cine.outlines if outline.surface == "lv_endo"]
+    assert [wall.slice for wall in cine.walls] == left
+    assert cine.end_systole == FRAMES - 1
+    with pytest.raises(InputError, match="8 frames, 7 phases"):
+        compare_cine(surface, positions[1:], times[1:], 0.8, motion)
+    with pytest.raises(InputError, match="no slice cuts the left ventricle"):
+        compare_cine(surface, positions + np.array([0.0, 0.0, 0.5]), times, 0.8, motion)

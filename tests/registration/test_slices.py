@@ -91,3 +91,15 @@ def test_frames_that_fold_are_named() -> None:
     assert folding.least_jacobian()[5, 1] == pytest.approx(-0.2)
     with pytest.raises(InputError, match=r"folds in slice 1 frame 5 \(least Jacobian -0\.2\)"):
         require_unfolded(folding)
+
+
+def test_frames_are_followed_from_neighbour_to_neighbour() -> None:
+    """Stripes 16 pixels apart, which move by 4 a frame: alone, the fourth frame looks as the first."""
+    step = 4.0 * np.minimum(np.arange(FRAMES), FRAMES - np.arange(FRAMES))
+    j, i = np.meshgrid(np.arange(64.0), np.arange(64.0), indexing="ij")
+    stripes = [np.cos(2.0 * np.pi * (i - moved) / 16.0) + np.cos(2.0 * np.pi * j / 16.0) for moved in step]
+    grid = Grid((64, 64, 1), np.array([PIXEL, PIXEL, STEP]), np.zeros(3), np.eye(3))
+    images = ImageSequence(grid, np.array(stripes)[:, None], np.arange(FRAMES) / FRAMES, 1.0)
+    middle = grid.points(np.array([[32.0, 32.0, 0.0]]))
+    carried = grid.index(register_slices(images, middle).carry(middle))[:, 0]
+    assert carried - [32.0, 32.0, 0.0] == pytest.approx(np.outer(step, [1.0, 0.0, 0.0]), abs=0.5)

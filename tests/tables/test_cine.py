@@ -7,6 +7,8 @@ import pytest
 from heartfit.imaging.grid import Grid
 from heartfit.imaging.sequence import ImageSequence
 from heartfit.observation.cine import CineComparison
+from heartfit.observation.curve import Curve
+from heartfit.observation.operator import VolumeFeatures
 from heartfit.observation.outlines import Outline
 from heartfit.observation.wall_points import WallPoints
 from heartfit.tables.cine_figures import plot_outlines, plot_volumes
@@ -35,7 +37,8 @@ def cine() -> CineComparison:
     steps = np.outer(np.arange(FRAMES), [1e-3, 2e-3, 5e-3])[:, None]
     at_rest = np.zeros((FRAMES, 4, 3))
     wall = WallPoints(1, NORMAL, at_rest, at_rest + steps, np.tile([1.0, 0.0, 0.0], (4, 1)))
-    volumes = {"surface": TRUE * 5e-3, "cut": TRUE * 5e-3 + 2e-6, "registered": FOUND * 5e-3}
+    values = {"surface": TRUE * 5e-3, "cut": TRUE * 5e-3 + 2e-6, "registered": FOUND * 5e-3}
+    volumes = {name: Curve.of_volume(0.1 * np.arange(FRAMES), each, 0.8) for name, each in values.items()}
     outlines = [outline("lv_endo", np.ones(FRAMES, bool)), outline("rv_endo", inside)]
     return CineComparison(outlines, [wall], volumes, ES)
 
@@ -64,8 +67,12 @@ def test_points_of_the_wall_are_told_apart_in_and_through_the_plane(cine: CineCo
 
 def test_volumes_are_compared_with_the_surface(cine: CineComparison) -> None:
     table = short_axis_volume_table(cine.volumes).set_index("volume")
-    assert table.loc["surface"].tolist() == pytest.approx([100.0, 60.0, 40.0, 0.0])
-    assert table.loc["cut"].tolist() == pytest.approx([102.0, 62.0, 100.0 * 40.0 / 102.0, 2.0])
+    sizes = ["EDV (mL)", "ESV (mL)", "EF (%)", "RMS (mL)"]
+    assert table.loc["surface", sizes].tolist() == pytest.approx([100.0, 60.0, 40.0, 0.0])
+    assert table.loc["cut", sizes].tolist() == pytest.approx([102.0, 62.0, 100.0 * 40.0 / 102.0, 2.0])
+    rates = VolumeFeatures()(cine.volumes["surface"])
+    assert table.loc["cut", "q_max (mL/s)"] == pytest.approx(1e6 * rates["q_max"])
+    assert table.loc["cut", "q_min (mL/s)"] == pytest.approx(1e6 * rates["q_min"])
     assert table.loc["registered", "RMS (mL)"] == pytest.approx(5.0 / 2.0)
 
 
@@ -84,5 +91,5 @@ def test_the_figures_draw_what_was_compared(cine: CineComparison) -> None:
     assert np.array_equal(systole.images[0].get_array(), voxels[ES, 1])
     assert areas.get_lines()[0].get_ydata() == pytest.approx(1e4 * np.pi * FOUND**2, rel=1e-3)
     assert pd.isna(areas.get_lines()[3].get_ydata()[2:]).all()
-    curves = plot_volumes(images.times, cine.volumes, "patient").axes[0].get_lines()
+    curves = plot_volumes(cine.volumes, "patient").axes[0].get_lines()
     assert [line.get_ydata()[ES] for line in curves] == pytest.approx([60.0, 62.0, 65.0])

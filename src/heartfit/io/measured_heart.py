@@ -80,9 +80,11 @@ def read_measured_heart(folder: Path) -> MeasuredHeart:
 def short_axis_images(folder: Path) -> Path | None:
     """The short-axis cine that the surfaces were fitted to, one frame for each phase; None if it is not there.
 
-    It is not published in a form that can be fetched: `cine/sax*`, a 4-D file or a folder as read_images takes it.
+    It is not published in a form that can be fetched: `cine/sax*`, a 4-D file or a folder as read_images takes it,
+    perhaps with its times in JSON beside it.
     """
-    return next(iter(sorted((folder / "cine").glob("sax*"))), None)
+    found = sorted(path for path in (folder / "cine").glob("sax*") if path.suffix != ".json")
+    return found[0] if found else None
 
 
 def _read_control_points(folder: Path) -> Floats:

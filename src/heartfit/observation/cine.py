@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
 from heartfit.geometry.surface import LabelledSurface
+from heartfit.observation.curve import Curve
 from heartfit.observation.outlines import Outline, outlines
 from heartfit.observation.short_axis_volume import left_volumes
 from heartfit.observation.wall_points import WallPoints, wall_points
@@ -23,12 +24,17 @@ class CineComparison:
 
     outlines: list[Outline]
     walls: list[WallPoints]
-    volumes: Mapping[str, Floats]
+    volumes: Mapping[str, Curve]
     end_systole: int
 
 
-def compare_cine(surface: LabelledSurface, positions: Floats, motion: SliceMotion) -> CineComparison:
-    """Everything that can be compared; positions (p,n,3) m are the surface's points in the frames of the motion.
+def compare_cine(
+    surface: LabelledSurface, positions: Floats, times: Floats, period: float, motion: SliceMotion
+) -> CineComparison:
+    """Everything that can be compared.
+
+    surface: the measured one in the first frame; positions (p,n,3) m: its points in the frames of the motion; times
+    (p,) s; period s.
 
     Raises InputError for another number of frames, and if no slice cuts the left ventricle below its valves.
     """
@@ -46,4 +52,5 @@ def compare_cine(surface: LabelledSurface, positions: Floats, motion: SliceMotio
         )
     walls = [wall_points(surface, positions, motion, k) for k in slices]
     volumes = left_volumes(surface, positions, motion.grid, found)
-    return CineComparison(found, walls, volumes, int(volumes["surface"].argmin()))
+    curves = {name: Curve.of_volume(times, values, period) for name, values in volumes.items()}
+    return CineComparison(found, walls, curves, int(volumes["surface"].argmin()))

@@ -17,8 +17,8 @@ from heartfit.imaging.sequence import ImageSequence
 from heartfit.registration.demons import Demons, jacobian, register
 
 CINE = Demons(smoothing=3.0)
-"""Chosen on the measured heart, see docs/measured_heart.md: with less smoothing papillary muscles, which join the wall
-in systole, draw the endocardium inwards; with more the wall does not arrive."""
+"""Chosen on the measured heart, see docs/measured_heart.md: with less smoothing the endocardium, beside papillary muscles
+that join the wall in systole, goes too far inwards; with more it does not arrive."""
 MARGIN = 0.02
 OFF_PLANE = 1e-3
 """How many slice distances a point may lie off its plane."""

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from heartfit.geometry.arrays import Floats
 from heartfit.imaging.sequence import ImageSequence
 from heartfit.observation.cine import CineComparison
+from heartfit.observation.curve import Curve
 from heartfit.observation.outlines import Outline
 from heartfit.tables.cine_tables import MILLILITRE, SQUARE_CENTIMETRE
 from heartfit.tables.figures import CALIBRATED, MEASURED, REFERENCE
@@ -66,12 +67,12 @@ def plot_outlines(images: ImageSequence, cine: CineComparison, title: str) -> Fi
     return figure
 
 
-def plot_volumes(times: Floats, volumes: Mapping[str, Floats], title: str) -> Figure:
+def plot_volumes(volumes: Mapping[str, Curve], title: str) -> Figure:
     """The left ventricle's volume, each way to it, over the beat."""
     figure = Figure(figsize=(6.5, 4), layout="constrained")
     axes = figure.subplots()
-    for name, volume in volumes.items():
-        axes.plot(times, volume / MILLILITRE, label=LABELS[name], **LINES[name])
+    for name, curve in volumes.items():
+        axes.plot(curve.times, curve.values / MILLILITRE, label=LABELS[name], **LINES[name])
     axes.set_xlabel("time after trigger (s)")
     axes.set_ylabel("left ventricular volume (mL)")
     axes.set_ylim(bottom=0.0)

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from heartfit.geometry.arrays import Floats
 from heartfit.observation.cine import CineComparison
+from heartfit.observation.curve import Curve
+from heartfit.observation.operator import VolumeFeatures
 from heartfit.observation.outlines import Outline
 from heartfit.observation.wall_points import WallPoints
 
@@ -71,23 +72,24 @@ def _wall_row(wall: WallPoints, end_systole: int) -> dict[str, object]:
     }
 
 
-def short_axis_volume_table(volumes: Mapping[str, Floats]) -> pd.DataFrame:
-    """One row per way to the left ventricle's volume, see heartfit.observation.short_axis_volume, mL.
+def short_axis_volume_table(volumes: Mapping[str, Curve]) -> pd.DataFrame:
+    """One row per way to the left ventricle's volume, see heartfit.observation.short_axis_volume.
 
-    Largest and smallest volume, ejection fraction, and the root mean square over the beat of the difference from the
-    surface's volume.
+    Largest and smallest volume, ejection fraction, the rates that the calibration observes, and the root mean square
+    over the beat of the difference from the surface's volume.
     """
-    rows = []
-    for name, volume in volumes.items():
-        largest, smallest = volume.max() / MILLILITRE, volume.min() / MILLILITRE
-        apart = (volume - volumes["surface"]) / MILLILITRE
-        rows.append(
-            {
-                "volume": name,
-                "EDV (mL)": largest,
-                "ESV (mL)": smallest,
-                "EF (%)": 100.0 * (1.0 - smallest / largest),
-                "RMS (mL)": float(np.sqrt((apart**2).mean())),
-            }
-        )
-    return pd.DataFrame(rows)
+    return pd.DataFrame([_volume_row(name, curve, volumes["surface"]) for name, curve in volumes.items()])
+
+
+def _volume_row(name: str, curve: Curve, surface: Curve) -> dict[str, object]:
+    largest, smallest = curve.values.max() / MILLILITRE, curve.values.min() / MILLILITRE
+    rates = VolumeFeatures()(curve)
+    return {
+        "volume": name,
+        "EDV (mL)": largest,
+        "ESV (mL)": smallest,
+        "EF (%)": 100.0 * (1.0 - smallest / largest),
+        "q_max (mL/s)": rates["q_max"] / MILLILITRE,
+        "q_min (mL/s)": rates["q_min"] / MILLILITRE,
+        "RMS (mL)": float(np.sqrt(((curve.values - surface.values) ** 2).mean()) / MILLILITRE),
+    }
