@@ -18,15 +18,16 @@ def texture(shape: tuple[int, ...], shift: tuple[float, ...]) -> np.ndarray:
 def test_a_shift_is_found_to_a_twentieth_of_a_voxel(shape: tuple[int, ...], shift: tuple[float, ...]) -> None:
     """However strongly it is smoothed: a shift is as smooth as can be."""
     still = (0.0,) * len(shape)
-    found = register(texture(shape, still), texture(shape, shift), method=Demons(smoothing=3.0))
+    found = register(texture(shape, still), texture(shape, shift), Demons(smoothing=3.0))
     inner = tuple(slice(size // 3, 2 * size // 3) for size in shape)
     assert np.abs(found[inner] - shift).max() < 0.05
 
 
 def test_the_same_images_give_the_same_displacement_to_the_bit() -> None:
     fixed, moving = texture((40, 44), (0.0, 0.0)), texture((40, 44), (1.5, 0.7))
-    assert np.array_equal(register(fixed, moving), register(fixed, moving))
-    assert np.abs(register(fixed, fixed)).max() < 1e-3
+    method = Demons(smoothing=1.5)
+    assert np.array_equal(register(fixed, moving, method), register(fixed, moving, method))
+    assert np.abs(register(fixed, fixed, method)).max() < 1e-3
 
 
 @pytest.mark.parametrize("dimension", [2, 3])

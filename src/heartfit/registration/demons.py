@@ -17,25 +17,22 @@ from heartfit.geometry.arrays import Floats
 class Demons:
     """How two images are registered.
 
-    levels: by how much the images are shrunk and how many iterations follow, from coarse to fine; smoothing: standard
-    deviation of the Gaussian that smooths the displacement after every iteration, in voxels of the level; step: the
+    smoothing: standard deviation of the Gaussian that smooths the displacement after every iteration, in voxels of the
+    level; levels: by how much the images are shrunk and how many iterations follow, from coarse to fine; step: the
     longest update, likewise in voxels.
     """
 
+    smoothing: float
     levels: tuple[tuple[int, int], ...] = ((4, 40), (2, 40), (1, 30))
-    smoothing: float = 1.5
     step: float = 2.0
 
 
-def register(
-    fixed: Floats, moving: Floats, start: Floats | None = None, method: Demons | None = None
-) -> Floats:
+def register(fixed: Floats, moving: Floats, method: Demons, start: Floats | None = None) -> Floats:
     """Displacement u (*shape, d) in voxels, components in the order i, j(, k), with fixed(x) = moving(x + u(x)).
 
     So u carries a place of the fixed image to where the moving image shows it. fixed, moving: arrays (k,) j, i of one
     shape, any unit of brightness; start (*shape, d): a first guess. The same input gives the same output to the bit.
     """
-    method = method or Demons()
     target, source = (sitk.GetImageFromArray(image.astype(np.float32)) for image in (fixed, moving))
     begin = np.zeros((*fixed.shape, fixed.ndim)) if start is None else start
     field = sitk.GetImageFromArray(begin, isVector=True)

@@ -17,8 +17,9 @@ from heartfit.imaging.sequence import ImageSequence
 from heartfit.registration.demons import Demons, jacobian, register
 
 CINE = Demons(smoothing=3.0)
-"""Chosen on the measured heart, see docs/measured_heart.md: with less smoothing the endocardium, beside papillary muscles
-that join the wall in systole, goes too far inwards; with more it does not arrive."""
+"""Chosen on the measured heart, see docs/measured_heart.md: with less smoothing the endocardium, beside papillary
+muscles that join the wall in systole, goes too far inwards; with more it does not arrive."""
+
 MARGIN = 0.02
 OFF_PLANE = 1e-3
 """How many slice distances a point may lie off its plane."""
@@ -81,7 +82,7 @@ def register_slices(sequence: ImageSequence, about: Floats, method: Demons = CIN
         neighbours = [0, *order][:-1]
         for frame, neighbour in zip(order, neighbours, strict=True):
             for k in range(slices):
-                field[frame, k] = register(images[0, k], images[frame, k], field[neighbour, k], method)
+                field[frame, k] = register(images[0, k], images[frame, k], method, field[neighbour, k])
     return SliceMotion(sequence.grid, (columns.start, rows.start), field)
 
 
