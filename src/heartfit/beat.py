@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from heartfit.geometry.arrays import Floats
+from heartfit.geometry.motion import Motion
 
 COMPLETED, FAILED = "completed", "failed"
 
@@ -45,3 +46,12 @@ class Beat:
 def failed_beat(reason: str, period: float, trigger: float, diagnostics: Mapping[str, float]) -> Beat:
     """A beat that was not reached, with the reason; it holds no samples."""
     return Beat(np.empty(0), {}, {}, {}, period, trigger, FAILED, reason, diagnostics)
+
+
+def motion_of(beat: Beat) -> Motion:
+    """The nodes of a beat that kept them, from the trigger on; raises ValueError if it did not."""
+    if beat.positions is None:
+        raise ValueError("beat: its nodes were not kept; simulate with keep_positions")
+    times = np.mod(beat.time[:-1] - beat.trigger, beat.period)
+    order = np.argsort(times)
+    return Motion(times[order], beat.period, beat.positions[:-1][order])

@@ -9,8 +9,9 @@ from heartfit.beat import Beat, failed_beat
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import SigmaPoint
 from heartfit.calibration.update import Posterior, calibrate
+from heartfit.configuration.numerics import TimeScheme
 from heartfit.configuration.setting import Setting
-from heartfit.configuration.study import Operator, Pressures, TimeScheme, Transform
+from heartfit.configuration.study import Operator, Pressures, Transform
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics.body import StepFailed
 from heartfit.observation.beat import observe_beats

@@ -5,11 +5,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat
+from heartfit.beat import Beat, motion_of
 from heartfit.geometry.coordinates import LeftVentricularAxes
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
-from heartfit.observation.shape import Shape, motion_of, shape_of
+from heartfit.observation.shape import Shape, shape_of
 
 SHARE = np.linspace(0.0, 1.0, 8)
 

@@ -7,11 +7,9 @@ from heartfit.simulation import Numerics
 
 @dataclass(frozen=True)
 class Protocol:
-    """How volunteers are made: mesh size, tolerance and noise, m; numerics; pressures (lv, rv), Pa; frames."""
+    """How volunteers are made: mesh size and tolerance, m; numerics; pressures (lv, rv) at end diastole, Pa."""
 
     edge_length: float
     tolerance: float
     numerics: Numerics
-    noise: float
     end_diastolic_pressure: tuple[float, float]
-    frames: int = 25

@@ -3,36 +3,17 @@
 from collections.abc import Mapping, Sequence
 from typing import Self
 
-from pydantic import Field, PositiveFloat, PositiveInt, model_validator
+from pydantic import Field, PositiveFloat, model_validator
 
 from heartfit.calibration.unscented import Scaling
 from heartfit.cohort.protocol import Protocol
+from heartfit.configuration.imaging import Acquisition, PressureLine, Registration, RegistrationError, flat
+from heartfit.configuration.numerics import MeshSize, TimeScheme
 from heartfit.configuration.setting import Prior, Setting, require_known
 from heartfit.configuration.strict import Strict
 from heartfit.observation.curve import Curve
-from heartfit.observation.operator import CurveFeatures
+from heartfit.observation.operator import CurveFeatures, PressureFeatures, VolumeFeatures
 from heartfit.observation.vector import operators
-from heartfit.simulation import Numerics
-
-
-class MeshSize(Strict):
-    """Wished edge length and how far the boundary may leave the measured surface."""
-
-    edge_length: float = Field(gt=1e-3, lt=0.05, description="m")
-    tolerance: float = Field(gt=1e-5, lt=5e-3, description="m")
-
-
-class TimeScheme(Strict):
-    """Step of the beat and when the beats count as periodic."""
-
-    time_step: float = Field(gt=1e-5, le=0.02, description="s")
-    second_order: bool = Field(True, description="BDF2 and midpoints of the fibres, or backward Euler")
-    max_beats: PositiveInt
-    drift: float = Field(gt=0, lt=1, description="largest relative change from beat to beat")
-
-    def numerics(self) -> Numerics:
-        """As the simulation takes it."""
-        return Numerics(**self.model_dump())
 
 
 class Operator(Strict):
@@ -46,6 +27,13 @@ class Operator(Strict):
     def features(self, measured: Mapping[str, Curve]) -> dict[str, CurveFeatures]:
         """The operator of each curve that is observed: the LV's volume, and its pressure where measured."""
         return operators(measured, self.frames, self.window, self.order)
+
+    def trial_features(self, frames: int) -> dict[str, CurveFeatures]:
+        """The operators of a trial of the measurement, whose images have this number of frames."""
+        return {
+            "lv_volume": VolumeFeatures(frames, self.window, self.order),
+            "lv_pressure": PressureFeatures(),
+        }
 
 
 class Transform(Strict):
@@ -73,20 +61,14 @@ class Cohort(Strict):
 
     mesh: MeshSize
     numerics: TimeScheme
-    frames: int = Field(25, ge=8)
-    noise: float = Field(ge=0, lt=5e-3, description="m, of the acquired wall in every frame")
+    scanner: Acquisition = Acquisition()
+    catheter: PressureLine = PressureLine()
     heart: dict[str, float] = Field({}, description="parameters about which the hidden hearts scatter")
 
     def protocol(self, pressures: Pressures) -> Protocol:
         """As the generator takes it."""
-        return Protocol(
-            self.mesh.edge_length,
-            self.mesh.tolerance,
-            self.numerics.numerics(),
-            self.noise,
-            (pressures.lv, pressures.rv),
-            self.frames,
-        )
+        size, loads = self.mesh, (pressures.lv, pressures.rv)
+        return Protocol(size.edge_length, size.tolerance, self.numerics.numerics(), loads)
 
 
 class Study(Strict):
@@ -101,6 +83,8 @@ class Study(Strict):
     unscented: Transform = Transform()
     end_diastolic_pressure: Pressures
     cohort: Cohort
+    registration: Registration = Registration()
+    registration_error: RegistrationError
     prior: dict[str, Prior] = Field({}, description="where it differs from the declared one")
     settings: dict[str, Setting] = Field(min_length=1)
 
@@ -114,6 +98,16 @@ class Study(Strict):
     def setting(self, name: str) -> Setting:
         """The setting with its prior complete."""
         return self.settings[name].with_prior(self.prior)
+
+    def protocol(self) -> dict[str, float | int | str | bool]:
+        """What a noise model was made for: every setting of scanner, catheter and registration."""
+        return flat(
+            {
+                "scanner": self.cohort.scanner,
+                "catheter": self.cohort.catheter,
+                "registration": self.registration,
+            }
+        )
 
     def sigma_points(self) -> dict[str, Sequence[int]]:
         """Indices of the 2n+1 sigma points of each setting."""

@@ -51,6 +51,10 @@ class Motion:
         place: Floats = (1.0 - share) * self.positions[before] + share * later
         return place
 
+    def sampled(self, times: Floats) -> "Motion":
+        """The motion at other times (q,), s."""
+        return Motion(times, self.period, np.array([self.at(time) for time in times]))
+
 
 def require_phases(count: int, where: str) -> None:
     """Raises InputError when there are too few phases to see filling and ejection."""

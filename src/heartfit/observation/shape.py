@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.beat import Beat
 from heartfit.geometry.arrays import Floats, Integers
 from heartfit.geometry.coordinates import LeftVentricularAxes
 from heartfit.geometry.mesh import VentricularMesh, element_volumes
@@ -65,15 +64,6 @@ def shape_of(mesh: VentricularMesh, motion: Motion) -> Shape:
         twist=_rotation(start, axes, motion, APICAL) - _rotation(start, axes, motion, BASAL),
         volume=_volume_ratios(mesh, motion),
     )
-
-
-def motion_of(beat: Beat) -> Motion:
-    """The nodes of a beat that kept them, phase 0 at the trigger; raises ValueError if it did not."""
-    if beat.positions is None:
-        raise ValueError("beat: its nodes were not kept; simulate with keep_positions")
-    times = np.mod(beat.time[:-1] - beat.trigger, beat.period)
-    order = np.argsort(times)
-    return Motion(times[order], beat.period, beat.positions[:-1][order])
 
 
 def _mean(motion: Motion, nodes: Integers) -> Floats:

@@ -12,9 +12,9 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from heartfit.beat import Beat
+from heartfit.beat import Beat, motion_of
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.observation.shape import Shape, motion_of, shape_of
+from heartfit.observation.shape import Shape, shape_of
 
 COLUMNS = {  # column of a curve: what one printed unit is in SI
     "shortening (%)": ("shortening", 0.01),
