@@ -24,7 +24,7 @@ rule all:
             about=("", "_sensitivity", "_shape"),
             kind=("png", "pdf"),
         ),
-        expand("<results>/figures/{case}_cine_{about}.png", case=IMAGED, about=("outlines", "volume")),
+        expand("<results>/figures/{about}.png", about=PICTURES),
         # asked for by name, or Snakemake would not miss a beat that was deleted
         [beats_of(CASES, setting) for setting in SETTINGS],
 
@@ -33,6 +33,7 @@ include: "workflow/rules/resources.smk"
 include: "workflow/rules/cohort.smk"
 include: "workflow/rules/geometry.smk"
 include: "workflow/rules/registration.smk"
+include: "workflow/rules/registration_error.smk"
 include: "workflow/rules/curves.smk"
 include: "workflow/rules/calibration.smk"
 include: "workflow/rules/verification.smk"

@@ -9,14 +9,16 @@ from heartfit.beat import Beat, failed_beat
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import SigmaPoint
 from heartfit.calibration.update import Posterior, calibrate
+from heartfit.configuration.generator import Pressures
 from heartfit.configuration.numerics import TimeScheme
 from heartfit.configuration.setting import Setting
-from heartfit.configuration.study import Operator, Pressures, Transform
+from heartfit.configuration.study import Operator, Transform
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics.body import StepFailed
 from heartfit.observation.beat import observe_beats
 from heartfit.observation.curve import Curve
-from heartfit.observation.measurement import Measurement
+from heartfit.observation.measurement import Measurement, observe_measured
+from heartfit.observation.noise_model import NoiseModel
 from heartfit.simulation import Progress, simulate
 from heartfit.ventricles import ventricles
 
@@ -66,3 +68,21 @@ def estimate(
     observed = measurement.corrected if transform.noise else measurement.values
     outcomes = observe_beats(beats, operator.features(measured), sensors)
     return calibrate(prior, outcomes, observed, noise, transform.scaling())
+
+
+def observe_case(
+    measured: Mapping[str, Curve],
+    operator: Operator,
+    models: Sequence[NoiseModel],
+    protocol: Mapping[str, float | int | str | bool],
+) -> Measurement:
+    """What is observed of a case, by the noise model of its images, if there is one.
+
+    The period of synthetic images is known; a measured heart's breath-holds differ in theirs. Raises InputError for a
+    model of another protocol than this.
+    """
+    features = operator.features(measured)
+    for model in models:
+        model.require_protocol(protocol)
+        return observe_measured(measured, features, 0.0, model)
+    return observe_measured(measured, features, operator.period_uncertainty)

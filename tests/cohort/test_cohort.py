@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat
+from heartfit.beat import Beat, motion_of
 from heartfit.circulation.valves import OrificeValve
-from heartfit.cohort.generate import acquire
+from heartfit.cohort.draw_shape import draw_anatomy
 from heartfit.cohort.hidden_heart import draw_heart
 from heartfit.heart import FOURTEEN, Heart
 
@@ -50,25 +50,22 @@ def test_the_hidden_hearts_scatter_about_the_standard() -> None:
     assert drawn.std() == pytest.approx(0.15, rel=0.2)
 
 
-def test_a_clean_acquisition_is_the_beat_from_its_trigger(beat: Beat) -> None:
-    motion = acquire(beat, FRAMES, 0.0, np.random.default_rng(0))
-    assert motion.positions.shape == (FRAMES, 200, 3)
-    assert motion.times == pytest.approx(np.arange(FRAMES) * PERIOD / FRAMES)
-    for frame, time in enumerate(motion.times):
-        sample = round(((time + beat.trigger) % PERIOD) / PERIOD * 800)
-        assert motion.positions[frame] == pytest.approx(np.asarray(beat.positions)[sample], abs=1e-12)
+def test_the_motion_begins_at_the_trigger_and_goes_on_between_the_steps(beat: Beat) -> None:
+    motion = motion_of(beat)
+    steps = np.asarray(beat.positions)
+    for time in np.linspace(0.0, PERIOD, FRAMES, endpoint=False):
+        sample = ((time + beat.trigger) % PERIOD) / PERIOD * 800
+        before, share = int(sample), sample - int(sample)
+        expected = (1.0 - share) * steps[before] + share * steps[before + 1]
+        assert motion.at(time) == pytest.approx(expected, abs=1e-12)
 
 
-def test_noise_is_as_large_as_asked(beat: Beat) -> None:
-    """A shift of each frame along each axis, and a dilation that moves a node at the mean radius as much."""
-    noise, shifts, dilations = 1e-3, [], []
-    clean = acquire(beat, FRAMES, 0.0, np.random.default_rng(0)).positions
-    around = clean - clean.mean(axis=1, keepdims=True)
-    for seed in range(40):
-        noisy = acquire(beat, FRAMES, noise, np.random.default_rng(seed)).positions
-        shifts.append((noisy - clean).mean(axis=1))
-        spread = noisy - noisy.mean(axis=1, keepdims=True)
-        dilations.append((spread * around).sum(axis=(1, 2)) / (around**2).sum(axis=(1, 2)) - 1.0)
-    radius = np.sqrt((around**2).sum(axis=2).mean())
-    assert np.std(shifts) == pytest.approx(noise, rel=0.05)
-    assert np.std(dilations) * radius == pytest.approx(noise, rel=0.08)
+def test_drawn_anatomies_are_those_of_healthy_adults_and_fit_together() -> None:
+    drawn = [draw_anatomy(seed) for seed in range(60)]
+    assert draw_anatomy(3) == drawn[3] != drawn[4]
+    volumes = 1e6 * np.array([each.shape.edv for each in drawn])
+    assert volumes.mean() == pytest.approx(148.0, abs=3.0 * 24.0 / np.sqrt(60))
+    assert ((volumes >= 100.0) & (volumes <= 196.0)).all()
+    assert np.std([each.period for each in drawn]) == pytest.approx(0.07, rel=0.35)
+    for each in drawn[:6]:
+        each.shape.surface()  # the right cavity fits beside the left one

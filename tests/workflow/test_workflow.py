@@ -38,7 +38,11 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert counts["make_tables"] == 1
     assert counts["compile_kernels"] == 1
     assert readers(run.stdout, "truth") == {"make_tables"}
-    beating = {"generate_volunteer", "simulate_point", "simulate_calibrated"}
+    assert readers(run.stdout, "cohort/motion") == readers(run.stdout, "cohort/beat") | {"image_volunteer"}
+    assert readers(run.stdout, "cohort/heart") == {"image_volunteer", "build_volunteer_mesh"}
+    assert readers(run.stdout, "images/cine") == {"register_volunteer", "plot_contours"}
+    assert counts["try_acquisition"] == 24 + 4 + 6 * 3
+    beating = {"generate_volunteer", "draw_volunteer", "simulate_point", "simulate_calibrated"}
     assert readers(run.stdout, "kernels") == beating
     targets = inputs(dict(jobs(run.stdout))["all"])
     assert sum("/beats/" in name for name in targets) == counts["simulate_point"], (
@@ -85,6 +89,14 @@ def test_an_edit_of_the_library_repeats_what_rests_on_it_and_nothing_else(workfl
     assert "Nothing to be done" in workflow.snakemake("-n", POINTS).stdout
     workflow.edit("src/heartfit/calibration/gaussian.py", "# below\n")
     assert job_counts(workflow.snakemake("-n", POINTS).stdout)["draw_sigma_points"] == 1
+
+
+def test_an_edit_of_the_configuration_repeats_what_it_concerns_and_nothing_else(workflow):
+    assert workflow.snakemake("--cores", "1", POINTS).returncode == 0
+    elsewhere, here = "observation: {window: 5}\n", "prior: {sigma_0: {mean: 2.9e+5}}\n"
+    for text, expected in ((elsewhere, "Nothing to be done"), (here, "draw_sigma_points")):
+        (workflow.folder / "config" / "other.yaml").write_text(text)
+        assert expected in workflow.snakemake("-n", "--configfile", "config/other.yaml", "--", POINTS).stdout
 
 
 def test_no_input_is_ancient(workflow):

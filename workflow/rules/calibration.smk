@@ -11,6 +11,7 @@ rule draw_sigma_points:
     params:
         setting=setting_of,
         transform=STUDY.unscented,
+        stated=stated(setting_of, STUDY.unscented),
         code=code("draw_sigma_points.py"),
     script:
         "../scripts/draw_sigma_points.py"
@@ -37,6 +38,7 @@ rule simulate_point:
         pressures=STUDY.end_diastolic_pressure,
         scheme=STUDY.numerics,
         mechanisms=mechanisms_of,
+        stated=stated(case_of, setting_of, STUDY.numerics, STUDY.end_diastolic_pressure),
         code=code("simulate_point.py"),
     script:
         "../scripts/simulate_point.py"
@@ -62,6 +64,7 @@ rule update_parameters:
         mechanisms=mechanisms_of,
         operator=STUDY.observation,
         transform=STUDY.unscented,
+        stated=stated(setting_of, STUDY.unscented, STUDY.observation),
         code=code("update_parameters.py"),
     script:
         "../scripts/update_parameters.py"

@@ -2,8 +2,10 @@ rule generate_volunteer:
     input:
         kernels="<results>/kernels.json",
     output:
-        mesh="<results>/{case}/cohort/acquisition.vtu",
-        motion="<results>/{case}/cohort/acquisition.npz",
+        mesh="<results>/{case}/cohort/heart.vtu",
+        motion="<results>/{case}/cohort/motion.npz",
+        beat="<results>/{case}/cohort/beat.json",
+        curves="<results>/{case}/cohort/beat.csv",
         truth="<results>/{case}/cohort/truth.json",
     log:
         "<logs>/{case}/generate_volunteer.log",
@@ -18,6 +20,32 @@ rule generate_volunteer:
         case=case_of,
         cohort=STUDY.cohort,
         pressures=STUDY.end_diastolic_pressure,
+        stated=stated(case_of, STUDY.cohort, STUDY.end_diastolic_pressure),
         code=code("generate_volunteer.py"),
     script:
         "../scripts/generate_volunteer.py"
+
+
+rule image_volunteer:
+    input:
+        mesh="<results>/{case}/cohort/heart.vtu",
+        motion="<results>/{case}/cohort/motion.npz",
+    output:
+        images="<results>/{case}/images/cine.nrrd",
+        times="<results>/{case}/images/cine.json",
+    log:
+        "<logs>/{case}/image_volunteer.log",
+    benchmark:
+        "<benchmarks>/{case}/image_volunteer.tsv"
+    wildcard_constraints:
+        case=one_of(VIRTUAL),
+    resources:
+        mem_mb=1500,
+        runtime=10,
+    params:
+        case=case_of,
+        scanner=STUDY.scanner(),
+        stated=stated(case_of, STUDY.scanner()),
+        code=code("image_volunteer.py"),
+    script:
+        "../scripts/image_volunteer.py"

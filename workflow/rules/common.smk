@@ -1,5 +1,6 @@
 import inspect
 import os
+import re
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -27,10 +28,28 @@ IMAGED = MEASURED if PLAN.images else []
 VIRTUAL = [name for name, case in CASES.items() if case.kind == "virtual"]
 
 
+ERROR = STUDY.registration_error
+NOISE_MODEL = "<results>/registration_error/noise_model.json"
+TRIED = {
+    "baseline": range(ERROR.sequences),
+    **{acquisition: range(ERROR.varied_sequences) for acquisition in ERROR.acquisitions()},
+}
+TRIALS = [(acquisition, number) for acquisition, numbers in TRIED.items() for number in numbers]
+PICTURES = [
+    "registration",
+    "noise_model",
+    *(f"{case}_contours" for case in VIRTUAL + IMAGED),
+    *(f"{case}_cine_{about}" for case in IMAGED for about in ("outlines", "volume")),
+]
+FRESH = range(ERROR.sequences, ERROR.sequences + ERROR.fresh)
+
+
 wildcard_constraints:
     case="|".join(CASES),
     setting="|".join(SETTINGS),
     point=r"\d+",
+    number=r"\d+",
+    acquisition="|".join(map(re.escape, TRIED)),
 
 
 def code(script):
@@ -41,6 +60,11 @@ def code(script):
 def one_of(cases):
     """A wildcard constraint: one of these cases, or nothing that exists."""
     return "|".join(cases) or "no-such-case"
+
+
+def stated(*parts):
+    """What parts of the configuration say, for a job: Snakemake notices a change of text, but not of an object."""
+    return lambda wildcards: [repr(part(wildcards) if callable(part) else part) for part in parts]
 
 
 def case_of(wildcards):
@@ -76,3 +100,17 @@ def sigma_point_beats(wildcards):
 def measured_files(_):
     """The control points of the measured heart in every phase and the template they refer to."""
     return sorted(str(file) for part in ("control_points", "template") for file in HEART.glob(f"{part}/*"))
+
+
+def images_of(wildcards):
+    """The images of a case."""
+    return "<results>/{case}/images/cine.nrrd" if wildcards.case in VIRTUAL else str(PLAN.images)
+
+
+def noise_of(wildcards):
+    """The noise model of the volunteers' images; none was made for those of a measured heart."""
+    return [NOISE_MODEL] if wildcards.case in VIRTUAL else []
+
+
+def scanner_of(wildcards):
+    return STUDY.scanner(wildcards.acquisition)

@@ -2,6 +2,7 @@ rule extract_curves:
     input:
         mesh="<results>/{case}/geometry/mesh.vtu",
         motion="<results>/{case}/registration/motion.npz",
+        noise=noise_of,
     output:
         curves="<results>/{case}/curves/measured.csv",
         observations="<results>/{case}/curves/observations.json",
@@ -14,6 +15,8 @@ rule extract_curves:
         runtime=10,
     params:
         operator=STUDY.observation,
+        protocol=STUDY.protocol(),
+        stated=stated(STUDY.observation),
         code=code("extract_curves.py"),
     script:
         "../scripts/extract_curves.py"

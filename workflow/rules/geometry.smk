@@ -15,6 +15,7 @@ rule build_measured_mesh:
     params:
         folder=str(HEART),
         size=STUDY.mesh,
+        stated=stated(STUDY.mesh),
         code=code("build_measured_mesh.py"),
     script:
         "../scripts/build_measured_mesh.py"
@@ -22,7 +23,7 @@ rule build_measured_mesh:
 
 rule build_volunteer_mesh:
     input:
-        acquisition="<results>/{case}/cohort/acquisition.vtu",
+        outline="<results>/{case}/cohort/heart.vtu",
     output:
         "<results>/{case}/geometry/mesh.vtu",
     log:
@@ -36,6 +37,7 @@ rule build_volunteer_mesh:
         runtime=20,
     params:
         size=STUDY.mesh,
+        stated=stated(STUDY.mesh),
         code=code("build_volunteer_mesh.py"),
     script:
         "../scripts/build_volunteer_mesh.py"

@@ -23,10 +23,11 @@ rule register_measured:
 rule register_volunteer:
     input:
         mesh="<results>/{case}/geometry/mesh.vtu",
-        acquisition="<results>/{case}/cohort/acquisition.vtu",
-        motion="<results>/{case}/cohort/acquisition.npz",
+        images="<results>/{case}/images/cine.nrrd",
+        times="<results>/{case}/images/cine.json",
     output:
-        "<results>/{case}/registration/motion.npz",
+        motion="<results>/{case}/registration/motion.npz",
+        quality="<results>/{case}/registration/quality.json",
     log:
         "<logs>/{case}/register.log",
     benchmark:
@@ -37,6 +38,9 @@ rule register_volunteer:
         mem_mb=1500,
         runtime=10,
     params:
+        end_diastole=STUDY.registration.end_diastole,
+        registration=STUDY.registration.free_form(),
+        stated=stated(STUDY.registration),
         code=code("register_volunteer.py"),
     script:
         "../scripts/register_volunteer.py"

@@ -44,6 +44,7 @@ rule plot_case:
         setting=setting_of,
         mechanisms=mechanisms_of,
         operator=STUDY.observation,
+        stated=stated(setting_of, STUDY.observation),
         code=code("plot_case.py"),
     script:
         "../scripts/plot_case.py"
@@ -86,3 +87,26 @@ rule compare_shape:
         code=code("compare_shape.py"),
     script:
         "../scripts/compare_shape.py"
+
+
+rule plot_contours:
+    input:
+        mesh="<results>/{case}/geometry/mesh.vtu",
+        motion="<results>/{case}/registration/motion.npz",
+        images=images_of,
+    output:
+        figure=expand("<results>/figures/{{case}}_contours.{suffix}", suffix=("png", "pdf")),
+        animation="<results>/figures/{case}_beat.gif",
+    log:
+        "<logs>/{case}/plot_contours.log",
+    benchmark:
+        "<benchmarks>/{case}/plot_contours.tsv"
+    wildcard_constraints:
+        case=one_of(VIRTUAL + IMAGED),
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code("plot_contours.py"),
+    script:
+        "../scripts/plot_contours.py"

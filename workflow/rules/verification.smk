@@ -20,6 +20,7 @@ rule simulate_calibrated:
         pressures=STUDY.end_diastolic_pressure,
         scheme=STUDY.numerics,
         mechanisms=mechanisms_of,
+        stated=stated(case_of, setting_of, STUDY.numerics, STUDY.end_diastolic_pressure),
         code=code("simulate_calibrated.py"),
     script:
         "../scripts/simulate_calibrated.py"
@@ -45,6 +46,7 @@ rule compare_case:
         setting=setting_of,
         mechanisms=mechanisms_of,
         operator=STUDY.observation,
+        stated=stated(setting_of, STUDY.observation),
         code=code("compare_case.py"),
     script:
         "../scripts/compare_case.py"

@@ -10,7 +10,7 @@ from heartfit.io.meshes import read_mesh, write_mesh
 from heartfit.registration.carry import boundary_surface
 
 record(snakemake.log[0])
-acquired = read_mesh(Path(snakemake.input.acquisition))
+acquired = read_mesh(Path(snakemake.input.outline))
 size = snakemake.params.size
 mesh = fill_wall(boundary_surface(acquired, acquired.points), size.edge_length, size.tolerance)
 write_mesh(Path(snakemake.output[0]), assign_activation(prepare(mesh)))

@@ -1,8 +1,9 @@
-"""Generate a virtual volunteer: what a scanner would see of a hidden heart, and the truth, kept apart."""
+"""Generate a virtual volunteer: the wall and its beat, and the truth, kept apart."""
 
 from pathlib import Path
 
 from heartfit.cohort.generate import generate
+from heartfit.io.beats import write_beat
 from heartfit.io.log import record
 from heartfit.io.meshes import write_mesh, write_motion
 from heartfit.io.results import write_result
@@ -13,4 +14,5 @@ protocol = given.cohort.protocol(given.pressures)
 volunteer = generate(given.case.shape(), given.cohort.heart, given.case.period, given.case.seed, protocol)
 write_mesh(Path(snakemake.output.mesh), volunteer.mesh)
 write_motion(Path(snakemake.output.motion), volunteer.motion)
+write_beat(Path(snakemake.output.beat), volunteer.beat, given.code)
 write_result(Path(snakemake.output.truth), {"parameters": volunteer.truth}, given.code)

@@ -1,14 +1,21 @@
-"""Carry the calibrator's mesh of a volunteer by the acquired motion."""
+"""Carry the mesh of a volunteer through the volunteer's images."""
 
 from pathlib import Path
 
+from heartfit.imaging.checks import require_match
+from heartfit.io.images import read_images
 from heartfit.io.log import record
-from heartfit.io.meshes import read_mesh, read_motion, write_motion
-from heartfit.registration.carry import follow_mesh
+from heartfit.io.meshes import read_mesh, write_motion
+from heartfit.io.results import write_result
+from heartfit.registration.track import track
 
 record(snakemake.log[0])
 mesh = read_mesh(Path(snakemake.input.mesh))
-acquired = read_mesh(Path(snakemake.input.acquisition))
-motion = read_motion(Path(snakemake.input.motion))
-carried = follow_mesh(mesh, acquired.points, acquired.tets, motion.positions, motion.times, motion.period)
-write_motion(Path(snakemake.output[0]), carried)
+images = read_images(Path(snakemake.input.images)).starting_at(snakemake.params.end_diastole)
+require_match(images, mesh)
+tracking = track(images, mesh, snakemake.params.registration)
+write_motion(Path(snakemake.output.motion), tracking.motion)
+quality = {"mismatch": tracking.mismatch, "compression": tracking.compression}
+write_result(
+    Path(snakemake.output.quality), quality, snakemake.params.code, {"mismatch": "1", "compression": "1"}
+)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from heartfit.beat import Beat, motion_of
+from heartfit.cohort.draw_shape import draw_anatomy
 from heartfit.cohort.hidden_heart import draw_heart
 from heartfit.cohort.protocol import Protocol as Protocol
 from heartfit.electrophysiology.onset import assign_activation
@@ -50,3 +51,9 @@ def generate(
     if not beat.completed:
         raise VolunteerError(f"volunteer of seed {seed}: {beat.reason}; choose another seed or shape")
     return Volunteer(prepare(bare.with_points(motion_of(beat).at(0.0))), beat, truth)
+
+
+def draw_volunteer(standard: Mapping[str, float], seed: int, protocol: Protocol) -> Volunteer:
+    """A volunteer whose shape and period are drawn too."""
+    anatomy = draw_anatomy(seed)
+    return generate(anatomy.shape, standard, anatomy.period, seed, protocol)

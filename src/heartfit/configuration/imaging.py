@@ -7,10 +7,13 @@ from pydantic import Field, PositiveInt, model_validator
 
 from heartfit.cohort.catheter import Catheter
 from heartfit.cohort.scanner import Contrast, Scanner
-from heartfit.configuration.numerics import MeshSize, TimeScheme
+from heartfit.configuration.generator import Generator
 from heartfit.configuration.strict import Strict
 from heartfit.observation.noise_model import FEWEST_SEQUENCES
 from heartfit.registration.track import FreeForm
+
+BASELINE = "baseline"
+"""The acquisition by the cohort's own scanner."""
 
 
 class ImageContrast(Strict):
@@ -75,22 +78,24 @@ class Registration(Strict):
         default=FreeForm.levels, min_length=1, description="voxels of a block, most steps"
     )
 
+    end_diastole: int = Field(default=0, ge=0, description="frame of the images")
+
     def free_form(self) -> FreeForm:
         """As the registration takes it."""
-        return FreeForm(**self.model_dump())
+        return FreeForm(**self.model_dump(exclude={"end_diastole"}))
 
 
-class RegistrationError(Strict):
+class RegistrationError(Generator):
     """Which hearts are simulated, imaged and registered to learn what that costs, and by which other protocols.
 
-    mesh, numerics: of these hearts, coarser than the cohort's; varied: by the name of a setting of the scanner its other
-    values, each of which is tried on the first few hearts.
+    mesh, numerics: of these hearts, coarser than the cohort's; varied: by the name of a setting of the scanner its
+    other values, each of which is tried on the first few hearts; fresh: further hearts that the noise model has not
+    seen, to try it on.
     """
 
-    mesh: MeshSize
-    numerics: TimeScheme
     sequences: int = Field(ge=FEWEST_SEQUENCES, description="hearts imaged by the cohort's protocol")
     varied_sequences: PositiveInt = Field(description="hearts imaged by each other protocol")
+    fresh: PositiveInt = Field(description="further hearts imaged by the cohort's protocol")
     seed: int = Field(description="from which on the hearts are drawn")
     varied: dict[str, tuple[float, ...]] = Field({}, description="other values by setting of the scanner")
 

@@ -6,8 +6,16 @@ from typing import Self
 from pydantic import Field, PositiveFloat, model_validator
 
 from heartfit.calibration.unscented import Scaling
-from heartfit.cohort.protocol import Protocol
-from heartfit.configuration.imaging import Acquisition, PressureLine, Registration, RegistrationError, flat
+from heartfit.cohort.scanner import Scanner
+from heartfit.configuration.generator import Generator, Pressures
+from heartfit.configuration.imaging import (
+    BASELINE,
+    Acquisition,
+    PressureLine,
+    Registration,
+    RegistrationError,
+    flat,
+)
 from heartfit.configuration.numerics import MeshSize, TimeScheme
 from heartfit.configuration.setting import Prior, Setting, require_known
 from heartfit.configuration.strict import Strict
@@ -49,26 +57,12 @@ class Transform(Strict):
         return Scaling(self.a, self.b, self.kappa)
 
 
-class Pressures(Strict):
-    """Pressures of the ventricles at end diastole, under which the measured mesh stands."""
+class Cohort(Generator):
+    """How virtual volunteers are made and measured: not with the calibrator's mesh and time step."""
 
-    lv: float = Field(ge=0, lt=5e3, description="Pa")
-    rv: float = Field(ge=0, lt=5e3, description="Pa")
-
-
-class Cohort(Strict):
-    """How virtual volunteers are made: not with the calibrator's mesh and time step."""
-
-    mesh: MeshSize
-    numerics: TimeScheme
     scanner: Acquisition = Acquisition()
     catheter: PressureLine = PressureLine()
     heart: dict[str, float] = Field({}, description="parameters about which the hidden hearts scatter")
-
-    def protocol(self, pressures: Pressures) -> Protocol:
-        """As the generator takes it."""
-        size, loads = self.mesh, (pressures.lv, pressures.rv)
-        return Protocol(size.edge_length, size.tolerance, self.numerics.numerics(), loads)
 
 
 class Study(Strict):
@@ -93,11 +87,29 @@ class Study(Strict):
         for name in (*self.prior, *self.cohort.heart):
             require_known(name)
         self.sigma_points()
+        for name in self.registration_error.acquisitions():
+            self._acquisition(name)
         return self
 
     def setting(self, name: str) -> Setting:
         """The setting with its prior complete."""
         return self.settings[name].with_prior(self.prior)
+
+    def scanner(self, acquisition: str = BASELINE) -> Scanner:
+        """The cohort's scanner, or that of another acquisition on which registration is tried."""
+        return self._acquisition(acquisition).scanner()
+
+    def _acquisition(self, name: str) -> Acquisition:
+        usual = self.cohort.scanner
+        if name == BASELINE:
+            return usual
+        setting, value = self.registration_error.acquisitions()[name]
+        other = type(getattr(usual, setting))(value)
+        return Acquisition.model_validate(usual.model_dump() | {setting: other})
+
+    def varied_settings(self) -> dict[str, float]:
+        """The baseline's value of each setting of the scanner that is varied."""
+        return {name: getattr(self.cohort.scanner, name) for name in self.registration_error.varied}
 
     def protocol(self) -> dict[str, float | int | str | bool]:
         """What a noise model was made for: every setting of scanner, catheter and registration."""

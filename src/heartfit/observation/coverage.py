@@ -1,13 +1,13 @@
 """How often the intervals of a noise model hold the truth of sequences it has not seen."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import betaincinv
 
 from heartfit.geometry.arrays import Floats
-from heartfit.observation.noise_model import NoiseModel
+from heartfit.observation.noise_model import NoiseModel, Setting
 from heartfit.observation.pair import Pair
 
 SILENT = 1e-9
@@ -44,6 +44,17 @@ def coverage(model: NoiseModel, pairs: Sequence[Pair], level: float = 0.95) -> d
     held = [_held(model, pair, level) for pair in pairs]
     names = held[0].keys()
     return {name: Share.of(sum(each[name] for each in held), len(pairs)) for name in names}
+
+
+def coverage_of_left_out(
+    pairs: Sequence[Pair], protocol: Mapping[str, Setting], level: float = 0.95
+) -> dict[str, Share]:
+    """The same where each pair in turn is judged by the model of all others."""
+    held = [
+        _held(NoiseModel.of([*pairs[:index], *pairs[index + 1 :]], protocol), pair, level)
+        for index, pair in enumerate(pairs)
+    ]
+    return {name: Share.of(sum(each[name] for each in held), len(pairs)) for name in held[0]}
 
 
 def _held(model: NoiseModel, pair: Pair, level: float) -> dict[str, float]:

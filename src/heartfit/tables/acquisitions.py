@@ -1,6 +1,6 @@
 """Comparisons of registered with true motions, by how the images were acquired."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,6 +8,16 @@ import numpy as np
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
 from heartfit.observation.comparison import Comparison
+
+HEADINGS = {
+    "signal_to_noise": ("SNR", 1.0),
+    "slice_thickness": ("slice thickness (mm)", 1e3),
+    "slice_gap": ("slice gap (mm)", 1e3),
+    "voxel": ("voxel (mm)", 1e3),
+    "breath_hold_shift": ("breath-hold shift (mm)", 1e3),
+    "window": ("window (ms)", 1e3),
+}
+"""What tables and figures call the settings of the scanner, and the factor from SI."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +45,27 @@ class Acquisitions:
                     f"acquisitions: {label} has no sequences; expected one or more: leave it out"
                 )
 
+    @classmethod
+    def of(
+        cls,
+        settings: Mapping[str, float],
+        tried: Sequence[tuple[str, float] | None],
+        comparisons: Iterable[Comparison],
+    ) -> "Acquisitions":
+        """The comparisons sorted by what was ``tried``: a setting of the scanner and its value, or the baseline (None).
+
+        settings: the baseline's values, SI, by the names that the scanner has for them.
+        """
+        baseline: list[Comparison] = []
+        varied: dict[str, dict[float, list[Comparison]]] = {}
+        for what, comparison in zip(tried, comparisons, strict=True):
+            if what is None:
+                baseline.append(comparison)
+            else:
+                heading, value = _shown(*what)
+                varied.setdefault(heading, {}).setdefault(value, []).append(comparison)
+        return cls(dict(_shown(name, value) for name, value in settings.items()), baseline, varied)
+
     def rows(self) -> dict[str, Sequence[Comparison]]:
         """The comparisons of each protocol, the baseline first."""
         others = {
@@ -47,6 +78,12 @@ class Acquisitions:
     def course(self, heading: str) -> dict[float, Sequence[Comparison]]:
         """The comparisons by the value of one setting, ascending, the baseline among them."""
         return dict(sorted({**self.varied[heading], self.settings[heading]: self.baseline}.items()))
+
+
+def _shown(setting: str, value: float) -> tuple[str, float]:
+    """Heading and value, in the heading's unit, of a setting of the scanner."""
+    heading, factor = HEADINGS.get(setting, (setting.replace("_", " "), 1.0))
+    return heading, round(factor * value, 9)
 
 
 def percent_errors(comparisons: Sequence[Comparison]) -> dict[str, Floats]:

@@ -1,0 +1,76 @@
+"""How imaging and registration are configured."""
+
+from dataclasses import asdict, fields
+from pathlib import Path
+
+import pytest
+
+from heartfit.cohort.catheter import Catheter
+from heartfit.cohort.scanner import Contrast, Scanner
+from heartfit.configuration.imaging import Acquisition, ImageContrast, PressureLine, Registration, flat
+from heartfit.configuration.strict import validated
+from heartfit.configuration.study import Study
+from heartfit.errors import InputError
+from heartfit.io.configuration import read_configuration, read_study
+from heartfit.registration.track import FreeForm
+
+CONFIG = Path(__file__).parents[2] / "config"
+
+
+@pytest.fixture(scope="module")
+def content():
+    return read_configuration([CONFIG / "config.yaml"])
+
+
+@pytest.mark.parametrize(
+    ("table", "made", "kind"),
+    [
+        (Acquisition(), Acquisition().scanner(), Scanner),
+        (PressureLine(), PressureLine().catheter(), Catheter),
+        (Registration(), Registration().free_form(), FreeForm),
+        (ImageContrast(), Contrast(**ImageContrast().model_dump()), Contrast),
+    ],
+)
+def test_every_knob_is_in_the_configuration_with_its_own_default(table, made, kind):
+    assert made == kind()
+    assert {field.name for field in fields(kind)} <= set(type(table).model_fields)
+
+
+def test_other_acquisitions_differ_from_the_cohort_s_in_one_setting():
+    study = read_study([CONFIG / "config.yaml"])
+    usual = asdict(study.scanner())
+    for name, (setting, value) in study.registration_error.acquisitions().items():
+        other = asdict(study.scanner(name))
+        assert other[setting] == value
+        assert {key for key in usual if usual[key] != other[key]} == {setting}
+        assert isinstance(other["frames"], int)
+
+
+@pytest.mark.parametrize(
+    ("table", "change", "said"),
+    [
+        (
+            "registration_error",
+            {"varied": {"snr": [10]}},
+            "varied.snr is no setting of the scanner; known are",
+        ),
+        ("registration_error", {"varied": {"frames": [3]}}, "frames"),
+        ("registration_error", {"sequences": 19}, "sequences"),
+        ("registration_error", {"varied_sequences": 99}, "varied_sequences = 99 is more than sequences"),
+        ("registration", {"knot": 1.0}, "unknown key registration.knot; did you mean knots"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_one_line(content, table, change, said):
+    with pytest.raises(InputError, match=said) as refused:
+        validated(Study, content | {table: content[table] | change}, "config")
+    assert "\n" not in str(refused.value)
+
+
+def test_the_protocol_tells_every_setting_and_changes_with_each(content):
+    study = validated(Study, content, "config")
+    other = validated(Study, content | {"registration": content["registration"] | {"reach": 5e-3}}, "config")
+    assert len(study.protocol()) == len(flat({"": study.cohort.scanner})) + 3 + len(Registration.model_fields)
+    assert set(study.protocol().items()) ^ set(other.protocol().items()) == {
+        ("registration.reach", 4e-3),
+        ("registration.reach", 5e-3),
+    }

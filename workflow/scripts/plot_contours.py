@@ -1,0 +1,18 @@
+"""Draw the contours of the carried mesh over the images, at end diastole and end systole and beating."""
+
+from itertools import repeat
+from pathlib import Path
+
+from heartfit.io.animations import write_animation
+from heartfit.io.images import read_images
+from heartfit.io.log import record
+from heartfit.io.meshes import read_mesh, read_motion
+from heartfit.io.tables import write_figure
+from heartfit.tables.contours import animate_contours, plot_contours
+
+record(snakemake.log[0])
+files, case = snakemake.input, snakemake.wildcards.case
+images, motion = read_images(Path(files.images)), read_motion(Path(files.motion))
+arguments = (images, read_mesh(Path(files.mesh)), motion, case)
+list(map(write_figure, map(Path, snakemake.output.figure), repeat(plot_contours(*arguments))))
+write_animation(Path(snakemake.output.animation), animate_contours(*arguments))
