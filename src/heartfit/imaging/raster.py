@@ -9,6 +9,9 @@ from numba import njit
 
 from heartfit.geometry.arrays import Floats, Integers
 
+TOUCH = 1e-9
+"""How negative a barycentric coordinate may be: a voxel on a face must not fall between two tetrahedra by round-off."""
+
 
 @njit(cache=True)
 def paint_wall(
@@ -20,32 +23,75 @@ def paint_wall(
     through the beat.
     """
     depth, height, width = image.shape
+    slope, carried = np.empty((4, 3)), np.empty((3, 3))
     for t in range(len(tets)):
         corner, seed = points[tets[t]], material[tets[t]]
-        edges = (corner[1:] - corner[0]).T.copy()
-        if np.linalg.det(edges) == 0.0:
+        if not _slopes(corner, slope):
             continue
-        inverse = np.linalg.inv(edges)
-        carried = (seed[1:] - seed[0]).T @ inverse
+        _carry(seed, slope, carried)
         low, high = _range(corner[:, 2], 0.0, depth)
         for k in range(low, high):
             top, bottom = _range(corner[:, 1], shift[k, 1], height)
-            left, right = _range(corner[:, 0], shift[k, 0], width)
-            z = k - corner[0, 2]
+            z, start = k - corner[0, 2], corner[0, 0] - shift[k, 0]
             for j in range(top, bottom):
                 y = j + shift[k, 1] - corner[0, 1]
-                for i in range(left, right):
-                    x = i + shift[k, 0] - corner[0, 0]
-                    a = inverse[0, 0] * x + inverse[0, 1] * y + inverse[0, 2] * z
-                    b = inverse[1, 0] * x + inverse[1, 1] * y + inverse[1, 2] * z
-                    c = inverse[2, 0] * x + inverse[2, 1] * y + inverse[2, 2] * z
-                    if a >= 0.0 and b >= 0.0 and c >= 0.0 and a + b + c <= 1.0:
-                        image[k, j, i] = interpolated(
-                            texture,
-                            seed[0, 0] + carried[0, 0] * x + carried[0, 1] * y + carried[0, 2] * z,
-                            seed[0, 1] + carried[1, 0] * x + carried[1, 1] * y + carried[1, 2] * z,
-                            seed[0, 2] + carried[2, 0] * x + carried[2, 1] * y + carried[2, 2] * z,
-                        )
+                left, right = _row(slope, y, z)
+                first, last = int(np.ceil(max(start + left, 0.0))), min(start + right, width - 1.0)
+                for i in range(first, int(np.floor(last)) + 1):
+                    x = i - start
+                    image[k, j, i] = interpolated(
+                        texture,
+                        seed[0, 0] + carried[0, 0] * x + carried[0, 1] * y + carried[0, 2] * z,
+                        seed[0, 1] + carried[1, 0] * x + carried[1, 1] * y + carried[1, 2] * z,
+                        seed[0, 2] + carried[2, 0] * x + carried[2, 1] * y + carried[2, 2] * z,
+                    )
+
+
+@njit(cache=True)
+def _slopes(corner: Floats, slope: Floats) -> bool:
+    """Writes the gradients (4,3) of a tetrahedron's barycentric coordinates; false if it is flat."""
+    six_volumes = 0.0
+    for axis in range(3):
+        p, q = (axis + 1) % 3, (axis + 2) % 3
+        for n in range(3):
+            b, c = 1 + (n + 1) % 3, 1 + (n + 2) % 3
+            slope[1 + n, axis] = (corner[b, p] - corner[0, p]) * (corner[c, q] - corner[0, q])
+            slope[1 + n, axis] -= (corner[b, q] - corner[0, q]) * (corner[c, p] - corner[0, p])
+        six_volumes += (corner[1, axis] - corner[0, axis]) * slope[1, axis]
+    if six_volumes == 0.0:
+        return False
+    for axis in range(3):
+        for n in range(1, 4):
+            slope[n, axis] /= six_volumes
+        slope[0, axis] = -slope[1, axis] - slope[2, axis] - slope[3, axis]
+    return True
+
+
+@njit(cache=True)
+def _carry(seed: Floats, slope: Floats, carried: Floats) -> None:
+    """Writes the gradient (3,3) of what is seed (4,3) at a tetrahedron's corners and linear between them."""
+    for a in range(3):
+        for b in range(3):
+            carried[a, b] = 0.0
+            for n in range(4):
+                carried[a, b] += seed[n, a] * slope[n, b]
+
+
+@njit(cache=True)
+def _row(slope: Floats, y: float, z: float) -> tuple[float, float]:
+    """From which x to which a row lies in a tetrahedron; x, y, z are counted from its first corner."""
+    left, right = -np.inf, np.inf
+    for n in range(4):
+        inside = slope[n, 1] * y + slope[n, 2] * z + TOUCH
+        if n == 0:
+            inside += 1.0
+        if slope[n, 0] > 0.0:
+            left = max(left, -inside / slope[n, 0])
+        elif slope[n, 0] < 0.0:
+            right = min(right, -inside / slope[n, 0])
+        elif inside < 0.0:
+            return 0.0, -1.0
+    return left, right
 
 
 @njit(cache=True)
@@ -57,30 +103,52 @@ def paint_inside(
     Along each row of voxels every crossing of the surface adds one or takes one away, by the side it is crossed from.
     """
     depth, height, width = image.shape
-    winding = np.zeros((depth, height, width + 1), np.int16)
+    bottom, top = _range(corners[:, 2], 0.0, depth)
+    winding = np.zeros((max(top - bottom, 0), height, width + 1), np.int16)
     for t in range(len(triangles)):
-        a, b, c = corners[triangles[t, 0]], corners[triangles[t, 1]], corners[triangles[t, 2]]
-        area = (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1])
-        if area == 0.0:
-            continue
-        low, high = _range(np.array([a[2], b[2], c[2]]), 0.0, depth)
+        corner = corners[triangles[t]]
+        low, high = _range(corner[:, 2], 0.0, depth)
         for k in range(low, high):
-            top, bottom = _range(np.array([a[1], b[1], c[1]]), shift[k, 1], height)
-            for j in range(top, bottom):
-                y = j + shift[k, 1]
-                u = ((y - a[1]) * (c[2] - a[2]) - (k - a[2]) * (c[1] - a[1])) / area
-                v = ((b[1] - a[1]) * (k - a[2]) - (b[2] - a[2]) * (y - a[1])) / area
-                if u >= 0.0 and v >= 0.0 and u + v <= 1.0:
-                    x = a[0] + u * (b[0] - a[0]) + v * (c[0] - a[0]) - shift[k, 0]
-                    first = min(max(int(np.ceil(x)), 0), width)
-                    winding[k, j, first] += 1 if area > 0.0 else -1
-    for k in range(depth):
+            front, back = _range(corner[:, 1], shift[k, 1], height)
+            for j in range(front, back):
+                x, turn = _crossing(corner, j + shift[k, 1], k)
+                if turn != 0:
+                    first = min(max(int(np.ceil(x - shift[k, 0])), 0), width)
+                    winding[k - bottom, j, first] += turn
+    for k in range(bottom, top):
         for j in range(height):
             turns = 0
             for i in range(width):
-                turns += winding[k, j, i]
+                turns += winding[k - bottom, j, i]
                 if turns != 0:
                     image[k, j, i] = brightness
+
+
+@njit(cache=True)
+def _crossing(corner: Floats, y: float, z: float) -> tuple[float, int]:
+    """Where the row (y, z) crosses a triangle, and from which side: 1 or -1, or 0 if it does not."""
+    a, b, c = corner[0], corner[1], corner[2]
+    left = _is_left(a[1], a[2], b[1], b[2], y, z)
+    if _is_left(b[1], b[2], c[1], c[2], y, z) != left or _is_left(c[1], c[2], a[1], a[2], y, z) != left:
+        return 0.0, 0
+    area = (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1])
+    if area == 0.0:
+        return 0.0, 0
+    u = ((y - a[1]) * (c[2] - a[2]) - (z - a[2]) * (c[1] - a[1])) / area
+    v = ((b[1] - a[1]) * (z - a[2]) - (b[2] - a[2]) * (y - a[1])) / area
+    return a[0] + u * (b[0] - a[0]) + v * (c[0] - a[0]), 1 if left else -1
+
+
+@njit(cache=True)
+def _is_left(ay: float, az: float, by: float, bz: float, y: float, z: float) -> bool:
+    """Whether a row (y, z) passes to the left of the edge from a to b.
+
+    For the edge from b to a the answer is the opposite, round-off or not, so that a row through an edge or a corner
+    crosses just one of the triangles on either side.
+    """
+    if ay < by or (ay == by and az < bz):
+        return (by - ay) * (z - az) - (bz - az) * (y - ay) >= 0.0
+    return (ay - by) * (z - bz) - (az - bz) * (y - by) < 0.0
 
 
 @njit(cache=True)
