@@ -55,3 +55,17 @@ def test_a_closed_endocardium_is_refused() -> None:
     closed = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     with pytest.raises(InputError, match="no opening"):
         Cavity.of(SimpleNamespace(surfaces={"lv_endo": closed}), "lv_endo")
+
+
+def test_the_surface_with_its_lids_is_closed_and_holds_the_cavity(ventricle: VentricularMesh) -> None:
+    """Its normals point inwards, hence the sign; a lid's apex is the mean of its ring."""
+    cavity = Cavity.of(ventricle, "lv_endo")
+    corners = cavity.corners(ventricle.points)
+    triangles = cavity.triangles % len(corners)
+    a, b, c = np.moveaxis(corners[triangles], 1, 0)
+    assert -(a * np.cross(b, c)).sum() / 6.0 == pytest.approx(cavity.volume(ventricle.points), rel=1e-12)
+    assert np.cross(b - a, c - a).sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-15)
+    assert len(cavity.lids) == len(cavity.rim)
+    np.testing.assert_array_equal(np.unique(cavity.lids[cavity.lids >= 0]), np.unique(cavity.rim))
+    ring = cavity.rim[: cavity.rim_start[1]]
+    assert corners[-1] == pytest.approx(ventricle.points[ring].mean(axis=0))

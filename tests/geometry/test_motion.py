@@ -29,3 +29,16 @@ def test_a_motion_that_cannot_be_is_refused(
 ) -> None:
     with pytest.raises(InputError, match=what):
         Motion(times, period, positions)
+
+
+def test_between_phases_a_motion_is_linear_and_it_repeats_itself() -> None:
+    """Also from the last phase to the first of the next beat, and where the first phase is not at zero."""
+    rng = np.random.default_rng(0)
+    positions = rng.random((10, 4, 3))
+    motion = Motion(TIMES + 0.05, 1.0, positions)
+    assert motion.at(0.25) == pytest.approx(positions[2])
+    assert motion.at(0.275) == pytest.approx(0.75 * positions[2] + 0.25 * positions[3])
+    assert motion.at(0.975) == pytest.approx(0.75 * positions[9] + 0.25 * positions[0])
+    assert motion.at(0.025) == pytest.approx(0.25 * positions[9] + 0.75 * positions[0])
+    for beat in (-2.0, -1.0, 3.0):
+        assert motion.at(beat + 0.31) == pytest.approx(motion.at(0.31))

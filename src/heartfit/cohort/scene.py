@@ -25,10 +25,10 @@ ATRIUM, FAT, LEAFLET = 30e-3, 5e-3, 3e-3
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A heart in its surroundings, seen on ``grid``; each slice k of it is displaced by shift[k], in voxels.
+    """A heart in its surroundings, seen on ``grid``; the samples of slice k are displaced by shift[k] (2,), in voxels.
 
-    material (n,3): the mesh's nodes at end diastole, in voxels; up (3,) from apex to base; muscle, lung (k,j,i): their
-    brightness with its texture; atria: corners of each cavity's lids and what they looked like from above.
+    mesh: at end diastole; up (3,) from apex to base; muscle, lung (k,j,i): their brightness with its texture, muscle's
+    where it lay at end diastole.
     """
 
     mesh: VentricularMesh
@@ -41,10 +41,15 @@ class Scene:
 
     @classmethod
     def of(
-        cls, mesh: VentricularMesh, up: Floats, grid: Grid, contrast: Contrast, shift: Floats, seed: int
+        cls,
+        mesh: VentricularMesh,
+        up: Floats,
+        grid: Grid,
+        contrast: Contrast,
+        shift: Floats,
+        rng: np.random.Generator,
     ) -> "Scene":
-        """The scene of a mesh at end diastole, with textures drawn from the seed."""
-        rng = np.random.default_rng(seed)
+        """The scene of a mesh at end diastole, with textures drawn from ``rng``."""
         sigma = contrast.texture_length / grid.spacing[::-1]
         muscle, lung = (
             brightness * (1.0 + amount * _texture(grid.shape, sigma, rng))
