@@ -1,7 +1,8 @@
 """What a displacement should do, as sums of squares over the coefficients of its lattice.
 
 Each term gives its value and, linearised as Gauss and Newton do, its force (minus half the gradient), the product of
-its curvature with a step, and the diagonal of that curvature. All work in single precision, which halves the time.
+its curvature with a step, and roughly the diagonal of that curvature, which conditions the search for the step. All
+work in single precision, which halves the time.
 """
 
 from collections.abc import Callable, Iterable

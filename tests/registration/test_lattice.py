@@ -1,0 +1,139 @@
+"""B-splines: the polynomials that they reproduce, their derivatives, their bending, and that a transpose is one."""
+
+import numpy as np
+import pytest
+
+from heartfit.registration.lattice import Lattice
+
+SHAPES = [(23,), (14, 17), (9, 12, 11)]
+KNOTS = 3.7
+
+
+def monomial(degree: int, count: int) -> np.ndarray:
+    """The coefficients of (x / h)^degree: sum_c B(xi - c) c^m is xi^m and lower powers, B's variance being 1/3."""
+    c = np.arange(count) - 1.0
+    return np.array([np.ones(count), c, c**2 - 1.0 / 3.0, c**3 - c][degree])
+
+
+def coefficients(lattice: Lattice, degrees: tuple[int, ...]) -> np.ndarray:
+    """Of the displacement whose every component is prod_a (x_a / h)^degree_a."""
+    dimension, *counts = lattice.zeros().shape
+    result = np.ones(counts)
+    for axis, (degree, count) in enumerate(zip(degrees, counts, strict=True)):
+        result = result * monomial(degree, count).reshape([-1 if a == axis else 1 for a in range(dimension)])
+    return np.tile(result, (dimension, *[1] * dimension))
+
+
+def random(lattice: Lattice, seed: int) -> np.ndarray:
+    return np.random.default_rng(seed).standard_normal(lattice.zeros().shape)
+
+
+def voxels(shape: tuple[int, ...]) -> list[np.ndarray]:
+    return [np.arange(float(n)) for n in shape]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("degree", range(4))
+def test_polynomials_up_to_cubic_are_reproduced(shape: tuple[int, ...], degree: int) -> None:
+    """Constants too: the B-splines are a partition of unity. Up to the image's very edges."""
+    lattice, last = Lattice(shape, KNOTS), np.array(shape) - 1.0
+    places = np.vstack([np.random.default_rng(0).random((50, len(shape))) * last, 0.0 * last, last])
+    degrees = tuple((degree + axis) % 4 for axis in range(len(shape)))
+    expected = np.prod((places / KNOTS) ** degrees, axis=1)
+    found = lattice.at(coefficients(lattice, degrees), places)
+    assert found == pytest.approx(np.tile(expected[:, None], len(shape)), rel=1e-10, abs=1e-10)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_on_a_grid_it_is_what_it_is_at_scattered_places(shape: tuple[int, ...]) -> None:
+    lattice = Lattice(shape, KNOTS)
+    places = [np.sort(np.random.default_rng(a).random(4 + a)) * (n - 1) for a, n in enumerate(shape)]
+    scattered = np.stack(np.meshgrid(*places, indexing="ij"), axis=-1).reshape(-1, len(shape))
+    found = lattice.on(places).displacement(random(lattice, 1))
+    expected = lattice.at(random(lattice, 1), scattered).T.reshape(found.shape)
+    assert found == pytest.approx(expected, abs=1e-6)
+
+
+def test_beyond_the_image_the_displacement_is_that_of_its_edge() -> None:
+    lattice = Lattice((9, 12, 11), KNOTS)
+    far, edge = np.array([[-4.0, 5.0, 99.0]]), np.array([[0.0, 5.0, 10.0]])
+    assert lattice.at(random(lattice, 0), far) == pytest.approx(lattice.at(random(lattice, 0), edge))
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("knots", [1.0, 3.7, 4.0, 50.0])
+def test_a_displacement_stays_between_its_control_points(shape: tuple[int, ...], knots: float) -> None:
+    """However many of them fit: no B-spline is ever negative, at the image's edges neither, and their sum is one."""
+    lattice = Lattice(shape, knots)
+    ones = np.ones_like(lattice.zeros())
+    for axis, count in enumerate(ones.shape[1:], start=1):
+        for one in range(count):
+            single = np.where((np.arange(count) == one).reshape(-1, *[1] * (len(shape) - axis)), ones, 0.0)
+            assert lattice.on(voxels(shape)).displacement(single).min() > -1e-7
+    assert lattice.on(voxels(shape)).displacement(ones) == pytest.approx(
+        np.ones((len(shape), *shape)), abs=1e-6
+    )
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_derivative_of_a_cubic_is_its_quadratic(shape: tuple[int, ...]) -> None:
+    """d/dx (x/h)^3 = 3 (x/h)^2 / h along the asked axis and nothing else."""
+    lattice = Lattice(shape, KNOTS)
+    for axis in range(len(shape)):
+        degrees = tuple(3 if a == axis else 1 for a in range(len(shape)))
+        found = lattice.on(voxels(shape), axis).displacement(coefficients(lattice, degrees))
+        xi = np.meshgrid(*[places / KNOTS for places in voxels(shape)], indexing="ij")
+        expected = np.prod([3.0 * x**2 / KNOTS if a == axis else x for a, x in enumerate(xi)], axis=0)
+        assert found == pytest.approx(np.broadcast_to(expected, found.shape), rel=1e-5, abs=1e-4)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("along", [None, 0])
+def test_the_transpose_is_the_transpose(shape: tuple[int, ...], along: int | None) -> None:
+    """<A d, f> = <d, A' f>, and the diagonal of A' w A is that of the products with unit coefficients."""
+    lattice = Lattice(shape, KNOTS)
+    sampling, rng = lattice.on([places[::2] for places in voxels(shape)], along), np.random.default_rng(2)
+    moved = sampling.displacement(random(lattice, 3))
+    field = rng.standard_normal(moved.shape)
+    back = sampling.transposed(field)
+    assert back.shape == lattice.zeros().shape
+    assert (moved * field).sum() == pytest.approx((random(lattice, 3) * back).sum(), rel=1e-6)
+    squares = rng.random(moved.shape)
+    diagonal = sampling.diagonal(squares)
+    for _ in range(5):
+        unit, place = lattice.zeros(), tuple(rng.integers(lattice.zeros().shape))
+        unit[place] = 1.0
+        assert diagonal[place] == pytest.approx((squares * sampling.displacement(unit) ** 2).sum(), rel=1e-5)
+
+
+@pytest.mark.parametrize("shape", SHAPES[1:])
+def test_what_is_straight_does_not_bend(shape: tuple[int, ...]) -> None:
+    lattice, rng = Lattice(shape, KNOTS), np.random.default_rng(4)
+    dimension = len(shape)
+    straight = lattice.zeros().astype(float)
+    for degrees in [(0,) * dimension, *map(tuple, np.eye(dimension, dtype=int))]:
+        share = rng.standard_normal((dimension, *[1] * dimension))
+        straight += share * coefficients(lattice, degrees)
+    size = np.abs(lattice.bending(random(lattice, 0))).max()
+    assert lattice.bending(straight) == pytest.approx(np.zeros_like(straight), abs=1e-5 * size)
+
+
+@pytest.mark.parametrize(("degrees", "squares"), [((2, 0, 0), 4.0), ((0, 1, 1), 2.0), ((0, 0, 2), 4.0)])
+def test_bending_is_the_sum_of_squared_second_derivatives(degrees: tuple, squares: float) -> None:
+    """Of x^2: 2^2; of y z: twice 1^2, for the two mixed derivatives; each voxel, component and h^-4."""
+    lattice = Lattice((9, 12, 11), KNOTS)
+    bent = coefficients(lattice, degrees)
+    expected = squares * 3 * 9 * 12 * 11 / KNOTS**4
+    assert (bent * lattice.bending(bent)).sum() == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_bending_is_symmetric_and_its_diagonal_the_diagonal(shape: tuple[int, ...]) -> None:
+    lattice, rng = Lattice(shape, KNOTS), np.random.default_rng(5)
+    a, b = random(lattice, 6), random(lattice, 7)
+    assert (a * lattice.bending(b)).sum() == pytest.approx((b * lattice.bending(a)).sum(), rel=1e-5)
+    for _ in range(5):
+        unit, place = lattice.zeros(), tuple(rng.integers(lattice.zeros().shape))
+        unit[place] = 1.0
+        found = lattice.bending_diagonal[(0, *place[1:])]
+        assert found == pytest.approx(lattice.bending(unit)[place], rel=1e-5)
