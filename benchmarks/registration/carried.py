@@ -1,0 +1,92 @@
+"""A mesh carried by registrations of pairs of images, each frame from where its neighbour's ended, as ours is."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import SimpleITK as sitk
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
+
+from heartfit.geometry.cavity import Cavity
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.geometry.motion import Motion
+from heartfit.imaging.grid import Grid
+from heartfit.imaging.raster import paint_inside
+from heartfit.imaging.resample import cropped, isotropic
+from heartfit.imaging.sequence import ImageSequence
+from heartfit.imaging.wall import wall_voxels
+
+Mask = NDArray[np.bool_]
+
+SURROUNDINGS = 8e-3
+"""How far about the heart images are kept, m: as far as ours keeps them."""
+
+REACH = 4e-3
+"""What counts as near, m: as with ours."""
+
+
+@dataclass(frozen=True, eq=False)
+class Images:
+    """What a matching is given, in voxels: end diastole, a frame, the voxels near the wall at end diastole, and the
+    neighbour's transform, the identity at first."""
+
+    fixed: sitk.Image
+    moving: sitk.Image
+    near: sitk.Image
+    start: sitk.Transform
+
+
+Matching = Callable[[Images], sitk.Transform]
+"""Gives a transform from places of the fixed image to places of the moving one."""
+
+
+def nothing(images: Images) -> sitk.Transform:
+    """The matching that leaves the mesh where it is."""
+    return images.start
+
+
+def carried(
+    sequence: ImageSequence, mesh: VentricularMesh, matching: Matching, blank: bool = False
+) -> Motion:
+    """The mesh carried through a sequence.
+
+    blank: brightness further than REACH from the wall and the cavities of end diastole is replaced by its mean.
+    """
+    sitk.ProcessObject.SetGlobalDefaultNumberOfThreads(1)
+    cubes = isotropic(cropped(sequence, mesh.points, SURROUNDINGS))
+    wall = wall_voxels(cubes.grid, mesh)
+    voxels = cubes.voxels / np.percentile(cubes.voxels[0], 99.0)
+    if blank:
+        far = ~_near(wall | _blood(cubes.grid, mesh), cubes.grid)
+        voxels[:, far] = voxels[0][far].mean()
+    near = sitk.GetImageFromArray(_near(wall, cubes.grid).astype(np.uint8))
+    frames = [sitk.GetImageFromArray(frame.astype(np.float32)) for frame in voxels]
+    found = {0: sitk.Transform(3, sitk.sitkIdentity)}
+    for frame, neighbour in _order(len(frames)):
+        found[frame] = matching(Images(frames[0], frames[frame], near, found[neighbour]))
+    index = cubes.grid.index(mesh.points).tolist()
+    places = [[found[frame].TransformPoint(place) for place in index] for frame in range(len(frames))]
+    return Motion(sequence.times, sequence.period, cubes.grid.points(np.array(places)))
+
+
+def _near(what: Mask, grid: Grid) -> Mask:
+    near: Mask = distance_transform_edt(~what) * grid.spacing[0] <= REACH
+    return near
+
+
+def _blood(grid: Grid, mesh: VentricularMesh) -> Mask:
+    inside = np.zeros(grid.shape)
+    for side in ("lv", "rv"):
+        cavity = Cavity.of(mesh, f"{side}_endo")
+        corners = cavity.corners(mesh.points)
+        triangles = cavity.triangles % len(corners)
+        paint_inside(inside, grid.index(corners), triangles, 1.0, np.zeros((grid.size[2], 2)))
+    return inside > 0.0
+
+
+def _order(count: int) -> Iterator[tuple[int, int]]:
+    """Frames after the first, each with its neighbour on the way from end diastole, forwards and backwards."""
+    middle = count // 2
+    yield from ((frame, frame - 1) for frame in range(1, middle + 1))
+    yield from ((frame, (frame + 1) % count) for frame in range(count - 1, middle, -1))

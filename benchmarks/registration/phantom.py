@@ -1,0 +1,53 @@
+"""Hearts whose motion is known, kept on disk: the mesher cannot be seeded, and a beat takes longer than its images."""
+
+from dataclasses import dataclass, replace
+
+from benchmarks.ventricles import FOLDER, ROOT, SHAPE
+from heartfit.cohort.draw_shape import Anatomy
+from heartfit.cohort.generate import generate
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.geometry.motion import Motion
+from heartfit.geometry.parametric import ParametricVentricles
+from heartfit.io.configuration import read_study
+from heartfit.io.meshes import read_mesh, read_motion, write_mesh, write_motion
+
+EDGE, TOLERANCE = 9e-3, 0.3e-3
+"""Of the mesh, m: 5k to 6k tetrahedra."""
+
+HEARTS = (
+    Anatomy(SHAPE, 0.86),
+    Anatomy(ParametricVentricles(145e-6, 8e-3, 1.9, 150e-6, 3.5e-3), 0.92),
+    Anatomy(ParametricVentricles(120e-6, 9.5e-3, 1.75, 125e-6, 4e-3), 0.80),
+)
+"""The study's two volunteers, and a smaller, thicker and rounder heart with a faster beat."""
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """A mesh at end diastole and its motion at every step of the beat, phase 0 at the trigger."""
+
+    mesh: VentricularMesh
+    motion: Motion
+
+
+def known_heart(number: int) -> Known:
+    """One of the hearts, made now if it is not on disk yet; its number scatters its parameters."""
+    mesh, motion = (FOLDER / "registration" / f"heart{number}.{kind}" for kind in ("vtu", "npz"))
+    if not motion.exists():
+        made = _made(HEARTS[number], seed=number + 1)
+        write_mesh(mesh, made.mesh)
+        write_motion(motion, made.motion)
+    return Known(read_mesh(mesh), read_motion(motion))
+
+
+def _made(anatomy: Anatomy, seed: int) -> Known:
+    """By the study's generator, on a coarser mesh and at the step of its calibrator."""
+    study = read_study([ROOT / "config" / "config.yaml"])
+    protocol = replace(
+        study.cohort.protocol(study.end_diastolic_pressure),
+        edge_length=EDGE,
+        tolerance=TOLERANCE,
+        numerics=study.numerics.numerics(),
+    )
+    volunteer = generate(anatomy.shape, study.cohort.heart, anatomy.period, seed, protocol)
+    return Known(volunteer.mesh, volunteer.motion)
