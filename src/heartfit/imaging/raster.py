@@ -152,6 +152,21 @@ def _is_left(ay: float, az: float, by: float, bz: float, y: float, z: float) -> 
 
 
 @njit(cache=True)
+def sampled(fields: Floats, index: Floats, weight: Floats) -> Floats:
+    """Fields (f,k,j,i) at fractional indices (3,...) in the order k, j, i where a weight is not 0, and 0 elsewhere.
+
+    Linear between voxels, constant beyond the outermost, in the precision of the fields.
+    """
+    values = np.zeros((len(fields), *weight.shape), fields.dtype)
+    for place in np.ndindex(weight.shape):
+        if weight[place] != 0.0:
+            k, j, i = index[0][place], index[1][place], index[2][place]
+            for f in range(len(fields)):
+                values[f][place] = interpolated(fields[f], i, j, k)
+    return values
+
+
+@njit(cache=True)
 def interpolated(field: Floats, i: float, j: float, k: float) -> float:
     """The field (k,j,i) at fractional indices, linear between voxels, constant beyond the outermost."""
     k0, k1, w = _neighbours(k, field.shape[0])

@@ -10,6 +10,7 @@ References
 Rueckert D et al. 1999, doi 10.1109/42.796284.
 """
 
+import math
 from collections.abc import Sequence
 from functools import cached_property
 from itertools import combinations_with_replacement
@@ -105,7 +106,12 @@ class Sampling:
 def product(matrices: Sequence[Floats], array: Floats) -> Floats:
     """Applies a matrix to each axis of the array but the first."""
     for axis, matrix in enumerate(matrices, start=1):
-        array = np.moveaxis(np.tensordot(matrix, array, (1, axis)), 0, axis)
+        shape = array.shape
+        if axis == array.ndim - 1:  # many products with a vector would be slow
+            array = array.reshape(-1, shape[axis]) @ matrix.T
+        else:
+            array = np.matmul(matrix, array.reshape(math.prod(shape[:axis]), shape[axis], -1))
+        array = array.reshape(*shape[:axis], len(matrix), *shape[axis + 1 :])
     return array
 
 

@@ -11,9 +11,9 @@ from functools import reduce
 from typing import Protocol
 
 import numpy as np
-from scipy.ndimage import map_coordinates
 
 from heartfit.geometry.arrays import Floats
+from heartfit.imaging.raster import sampled
 from heartfit.registration.lattice import Lattice
 from heartfit.registration.level import Level
 
@@ -112,18 +112,17 @@ class Brightness:
     """sum_x w(x) (F(x) - M(x + u(x)))^2: a point keeps its brightness from the fixed to the moving image."""
 
     def __init__(self, fixed: FixedImage, moving: Floats) -> None:
-        self._fixed, self._image = fixed, fixed.level.reduced(moving)
-        self._gradients: list[Floats] = list(np.gradient(self._image))
+        image = fixed.level.reduced(moving)
+        self._fixed, self._fields = fixed, np.stack([image, *np.gradient(image)])
 
     def mismatch(self, coefficients: Floats) -> float:
         """Root mean square difference of the images where they are compared."""
-        value = (self._fixed.weight * self._residual(self._fixed.index(coefficients)) ** 2).sum()
-        return float(np.sqrt(value / self._fixed.weight.sum()))
+        weight = self._fixed.weight
+        residual = self._compared(coefficients)[0]
+        return float(np.sqrt((weight * residual**2).sum() / weight.sum()))
 
     def at(self, coefficients: Floats) -> Linearised:
-        index = self._fixed.index(coefficients)
-        residual = self._residual(index)
-        slope = np.stack([_sampled(part, index) for part in self._gradients]) / self._fixed.level.shrink
+        residual, slope = self._compared(coefficients)
         weight, sampling = self._fixed.weight, self._fixed.sampling
 
         def curvature(step: Floats) -> Floats:
@@ -137,9 +136,11 @@ class Brightness:
             sampling.diagonal(weight * slope**2),
         )
 
-    def _residual(self, index: Floats) -> Floats:
-        residual: Floats = self._fixed.image - _sampled(self._image, index)
-        return residual
+    def _compared(self, coefficients: Floats) -> tuple[Floats, Floats]:
+        """Difference of brightness (...) and gradient (dimension, ...) of the moving image, where they are compared."""
+        fixed = self._fixed
+        moved = sampled(self._fields, fixed.index(coefficients), fixed.weight)
+        return fixed.image - moved[0], moved[1:] / fixed.level.shrink
 
 
 def _determinant(matrix: Floats) -> tuple[Floats, Floats]:
@@ -151,9 +152,3 @@ def _determinant(matrix: Floats) -> tuple[Floats, Floats]:
 
 def _cross(a: Floats, b: Floats) -> Floats:
     return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
-
-
-def _sampled(image: Floats, index: Floats) -> Floats:
-    """The image at fractional indices (dimension, ...), linear, and constant beyond the outermost voxels."""
-    values: Floats = map_coordinates(image, index, order=1, mode="nearest")
-    return values
