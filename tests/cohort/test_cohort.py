@@ -67,5 +67,5 @@ def test_drawn_anatomies_are_those_of_healthy_adults_and_fit_together() -> None:
     assert volumes.mean() == pytest.approx(148.0, abs=3.0 * 24.0 / np.sqrt(60))
     assert ((volumes >= 100.0) & (volumes <= 196.0)).all()
     assert np.std([each.period for each in drawn]) == pytest.approx(0.07, rel=0.35)
-    for each in drawn[:6]:
+    for each in drawn[:2]:
         each.shape.surface()  # the right cavity fits beside the left one

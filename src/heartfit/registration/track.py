@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt
+from threadpoolctl import threadpool_limits
 
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
@@ -71,6 +72,13 @@ def track(sequence: ImageSequence, mesh: VentricularMesh, settings: FreeForm) ->
     Raises InputError, with the frames named, where the wall is folded (a tetrahedron turned inside out) even by the
     stiffest displacement.
     """
+    with threadpool_limits(
+        1
+    ):  # how threads share a sum would change its last bits, and they cost more than they save
+        return _track(sequence, mesh, settings)
+
+
+def _track(sequence: ImageSequence, mesh: VentricularMesh, settings: FreeForm) -> Tracking:
     cubes = isotropic(cropped(sequence, mesh.points, settings.reach + SURROUNDINGS))
     tracker = _Tracker(cubes, mesh, settings)
     count = len(cubes.times)
