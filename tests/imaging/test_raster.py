@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from heartfit.imaging.raster import interpolated, paint_inside, paint_wall
+from heartfit.imaging.raster import interpolated, paint_inside, paint_wall, sampled
 from heartfit.verification.block import cube
 
 SHAPE = (22, 24, 26)
@@ -125,6 +125,22 @@ def test_between_voxels_a_field_is_linear_and_beyond_them_constant() -> None:
     )
     assert interpolated(field, -3.0, 9.0, 2.0) == field[2, 3, 0]
     assert interpolated(FLAT, 7.0, -7.0, 0.3) == 1.0
+
+
+def test_several_fields_are_sampled_as_one_is_and_only_where_they_weigh() -> None:
+    rng = np.random.default_rng(1)
+    fields, index, weight = (
+        rng.random((2, 3, 4, 5)),
+        rng.uniform(-1.0, 5.0, (3, 2, 3, 4)),
+        np.zeros((2, 3, 4)),
+    )
+    weight[:, 1:, ::2] = 0.5
+    found = sampled(fields, index, weight)
+    assert found.shape == (2, 2, 3, 4)
+    for place in np.ndindex(weight.shape):
+        k, j, i = index[(slice(None), *place)]
+        expected = [interpolated(field, i, j, k) if weight[place] else 0.0 for field in fields]
+        np.testing.assert_array_equal(found[(slice(None), *place)], expected)
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -10,7 +10,6 @@ References
 Rueckert D et al. 1999, doi 10.1109/42.796284.
 """
 
-import math
 from collections.abc import Sequence
 from functools import cached_property
 from itertools import combinations_with_replacement
@@ -39,9 +38,11 @@ class Lattice:
 
     def at(self, coefficients: Floats, places: Floats) -> Floats:
         """Displacements (n, dimension) at scattered places (n, dimension)."""
-        result = np.broadcast_to(coefficients, (len(places), *coefficients.shape))
-        for spline, place in zip(self._splines, np.clip(places, 0, np.array(self.shape) - 1).T, strict=True):
-            result = np.einsum("nc,nvc...->nv...", spline(place), result)
+        held = np.clip(places, 0, np.array(self.shape) - 1)
+        first, *others = (spline(place) for spline, place in zip(self._splines, held.T, strict=True))
+        result = np.tensordot(first, coefficients, (1, 1))
+        for weights in others:
+            result = np.einsum("nc,nvc...->nv...", weights, result)
         return result
 
     def on(self, places: Sequence[Floats], along: int | None = None) -> "Sampling":
@@ -104,14 +105,14 @@ class Sampling:
 
 
 def product(matrices: Sequence[Floats], array: Floats) -> Floats:
-    """Applies a matrix to each axis of the array but the first."""
-    for axis, matrix in enumerate(matrices, start=1):
-        shape = array.shape
-        if axis == array.ndim - 1:  # many products with a vector would be slow
-            array = array.reshape(-1, shape[axis]) @ matrix.T
-        else:
-            array = np.matmul(matrix, array.reshape(math.prod(shape[:axis]), shape[axis], -1))
-        array = array.reshape(*shape[:axis], len(matrix), *shape[axis + 1 :])
+    """Applies a matrix to each axis of the array but the first.
+
+    Each in turn takes the axis that is then the second, and its result becomes the last, so that none has to be moved.
+    """
+    for matrix in matrices:
+        components, points, *others = array.shape
+        lines = array.reshape(components, points, -1).swapaxes(1, 2)
+        array = (lines @ matrix.T).reshape(components, *others, len(matrix))
     return array
 
 

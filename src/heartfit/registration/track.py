@@ -72,9 +72,7 @@ def track(sequence: ImageSequence, mesh: VentricularMesh, settings: FreeForm) ->
     Raises InputError, with the frames named, where the wall is folded (a tetrahedron turned inside out) even by the
     stiffest displacement.
     """
-    with threadpool_limits(
-        1
-    ):  # how threads share a sum would change its last bits, and they cost more than they save
+    with threadpool_limits(1):  # threads would change the last bits of sums, and cost more than they save
         return _track(sequence, mesh, settings)
 
 
