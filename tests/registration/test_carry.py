@@ -8,7 +8,7 @@ import pytest
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.surface import LabelledSurface
-from heartfit.registration.carry import boundary_surface, carry_mesh, follow_mesh, inverted_elements
+from heartfit.registration.carry import boundary_surface, carry_mesh, inverted_elements
 
 PHASES = 9
 TIMES = np.linspace(0.0, 0.8, PHASES)
@@ -64,28 +64,3 @@ def test_an_inverted_element_is_counted(ventricle: VentricularMesh, surface: Lab
     counts = inverted_elements(ventricle, replace(motion, positions=mirrored))
     assert counts[3] == len(ventricle.tets)
     assert counts.sum() == counts[3]
-
-
-def test_a_mesh_follows_itself_exactly_in_any_motion(ventricle: VentricularMesh) -> None:
-    noise = 1e-3 * np.random.default_rng(4).standard_normal((PHASES, *ventricle.points.shape))
-    positions = ventricle.points + noise
-    motion = follow_mesh(ventricle, ventricle.points, ventricle.tets, positions, TIMES, PERIOD)
-    assert motion.positions == pytest.approx(ventricle.points + noise - noise[0], abs=1e-12)
-
-
-def test_a_node_within_a_tet_of_the_other_mesh_moves_with_its_corners(ventricle: VentricularMesh) -> None:
-    within = ventricle.points[ventricle.tets].mean(axis=1)
-    queries = replace(
-        ventricle,
-        points=within,
-        tets=ventricle.tets[:0],
-        fibres=None,
-        orientation=None,
-        segments=None,
-        activation=None,
-        longitudinal=None,
-    )
-    motion = follow_mesh(
-        queries, ventricle.points, ventricle.tets, stretched(ventricle.points), TIMES, PERIOD
-    )
-    assert motion.positions == pytest.approx(stretched(within), abs=1e-12)

@@ -1,7 +1,6 @@
 """Carries the end-diastolic mesh through the beat."""
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from heartfit.geometry.arrays import Floats, Integers
 from heartfit.geometry.laplace import harmonic_extension
@@ -42,37 +41,6 @@ def _attach(mesh: VentricularMesh, surface: LabelledSurface) -> tuple[Integers, 
                 nearest[node] = (float(distance[i]), triangles[index[i]], weights[i])
     _, corner, weight = zip(*nearest.values(), strict=True)
     return np.array(list(nearest)), np.array(corner), np.array(weight)
-
-
-def follow_mesh(
-    mesh: VentricularMesh, points: Floats, tets: Integers, positions: Floats, times: Floats, period: float
-) -> Motion:
-    """Carries a mesh by the motion of another, usually finer, one that fills the same wall.
-
-    points (n,3) m: the other mesh where the two coincide; tets (m,4); positions (p,n,3) m in every phase. A
-    node moves with the tetrahedron that holds it, or outside the wall with the nearest one. The displacement
-    is taken from positions[0], so phase 0 is the mesh itself.
-    """
-    holder, weights = _locate(mesh.points, points, tets)
-    moved = np.einsum("qc,pqcd->pqd", weights, (positions - positions[0])[:, tets[holder]])
-    return Motion(times, period, mesh.points + moved)
-
-
-def _locate(queries: Floats, points: Floats, tets: Integers, candidates: int = 40) -> tuple[Integers, Floats]:
-    """The tetrahedron (q,) that holds each query, or nearly does, and barycentric coordinates (q,4)."""
-    count = min(candidates, len(tets))
-    near = np.asarray(cKDTree(points[tets].mean(axis=1)).query(queries, count)[1]).reshape(
-        len(queries), count
-    )
-    a, b, c, d = np.moveaxis(points[tets[near]], 2, 0)
-    local = np.linalg.solve(np.stack([b - a, c - a, d - a], axis=-1), (queries[:, None] - a)[..., None])[
-        ..., 0
-    ]
-    weights = np.concatenate([1.0 - local.sum(axis=-1, keepdims=True), local], axis=-1)
-    best = weights.min(axis=-1).argmax(axis=1)
-    rows = np.arange(len(queries))
-    inside = np.maximum(weights[rows, best], 0.0)
-    return near[rows, best], inside / inside.sum(axis=1, keepdims=True)
 
 
 def inverted_elements(mesh: VentricularMesh, motion: Motion) -> Integers:
