@@ -27,7 +27,7 @@ BIN = ENVIRONMENT / ("Scripts" if os.name == "nt" else "bin")
 OLDEST, NEWEST = (3, 11), (3, 13)
 LOCK = ROOT / "requirements.lock"
 STAMP = ENVIRONMENT / "installed.sha256"
-ABOUT = "5 to 15 minutes on two cores when nothing is there yet"
+ABOUT = "15 to 25 minutes on two cores when nothing is there yet"
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 LINTS = (
     ("ruff", "check", "."),

@@ -45,8 +45,8 @@ def _observations(axes: Axes, model: NoiseModel, fresh: Sequence[Pair]) -> None:
 
 
 def _scale(name: str) -> str:
-    """What an error is compared with, for the axis."""
-    return f"\n/ range of {EXTREMA[name][3:]}" if name in EXTREMA else "\nln(measured / true)"
+    """What an error is compared with, for the axis: the range of the curve, or by the logarithm of the ratio."""
+    return "\nof range" if name in EXTREMA else "\nln ratio"
 
 
 def _errors(axes: Axes, model: NoiseModel, fresh: Sequence[Pair]) -> None:
