@@ -10,7 +10,7 @@ from heartfit.cohort.scanner import Contrast, Scanner
 from heartfit.configuration.generator import Generator
 from heartfit.configuration.strict import Strict
 from heartfit.observation.noise_model import FEWEST_SEQUENCES
-from heartfit.registration.track import FreeForm
+from heartfit.registration.matching import FreeForm
 
 BASELINE = "baseline"
 """The acquisition by the cohort's own scanner."""
@@ -68,7 +68,7 @@ class PressureLine(Strict):
 
 
 class Registration(Strict):
-    """How frames are matched to end diastole; see heartfit.registration.track."""
+    """How frames are matched to end diastole; see heartfit.registration.matching."""
 
     knots: float = Field(default=FreeForm.knots, gt=1e-3, lt=0.1, description="m, between control points")
     stiffness: float = Field(default=FreeForm.stiffness, gt=0, description="m^2")

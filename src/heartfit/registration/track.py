@@ -22,6 +22,7 @@ from heartfit.imaging.wall import wall_voxels
 from heartfit.registration.free_form import minimise
 from heartfit.registration.lattice import Lattice
 from heartfit.registration.level import Level
+from heartfit.registration.matching import FreeForm as FreeForm
 from heartfit.registration.terms import Bending, Brightness, FixedImage, WallVolume
 
 STIFFER, ATTEMPTS = 10.0, 3
@@ -35,22 +36,6 @@ SURROUNDINGS = 4e-3
 
 RANGE = (1.0, 99.0)
 """Percentiles of end diastole about the wall that count as darkest and brightest."""
-
-
-@dataclass(frozen=True)
-class FreeForm:
-    """How frames are matched.
-
-    knots: distance of the control points, m; stiffness: weight of the displacement's squared second derivatives beside
-    the squared difference of brightness, m^2; reach: how far beyond the wall brightness is compared, m; levels: blocks
-    of how many voxels a side are averaged, coarse to fine, and how many steps are taken at most.
-    """
-
-    knots: float = 10e-3
-    stiffness: float = 4e-9
-    incompressibility: float = 0.01
-    reach: float = 4e-3
-    levels: tuple[tuple[int, int], ...] = ((2, 10), (1, 3))
 
 
 @dataclass(frozen=True, eq=False)
