@@ -8,8 +8,9 @@ class FreeForm:
     """How frames are matched.
 
     knots: distance of the control points, m; stiffness: weight of the displacement's squared second derivatives beside
-    the squared difference of brightness, m^2; reach: how far beyond the wall brightness is compared, m; levels: blocks
-    of how many voxels a side are averaged, coarse to fine, and how many steps are taken at most.
+    the squared difference of brightness, m^2; incompressibility: weight of the wall's squared relative change of volume
+    beside it; reach: how far beyond the wall brightness is compared, m; levels: blocks of how many voxels a side are
+    averaged, coarse to fine, and how many steps are taken at most.
     """
 
     knots: float = 10e-3
