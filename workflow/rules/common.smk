@@ -114,3 +114,8 @@ def noise_of(wildcards):
 
 def scanner_of(wildcards):
     return STUDY.scanner(wildcards.acquisition)
+
+
+def measured_images(_):
+    """The short-axis images of the measured heart, where there are any."""
+    return str(PLAN.images) if PLAN.images else []

@@ -49,7 +49,7 @@ rule register_volunteer:
 rule register_cine:
     input:
         files=measured_files,
-        images=PLAN.images or [],
+        images=measured_images,
     output:
         "<results>/{case}/registration/cine.npz",
     log:
@@ -71,7 +71,7 @@ rule register_cine:
 rule compare_cine:
     input:
         files=measured_files,
-        images=PLAN.images or [],
+        images=measured_images,
         motion="<results>/{case}/registration/cine.npz",
     output:
         outlines=expand("<results>/tables/{{case}}_cine_outlines.{suffix}", suffix=("csv", "md", "tex")),
