@@ -41,9 +41,7 @@ def coverage(model: NoiseModel, pairs: Sequence[Pair], level: float = 0.95) -> d
     That of the volume is the mean over the phases. The phases of one sequence err together, so its interval takes a
     sequence, not a phase, as one trial: it is rather too wide.
     """
-    held = [_held(model, pair, level) for pair in pairs]
-    names = held[0].keys()
-    return {name: Share.of(sum(each[name] for each in held), len(pairs)) for name in names}
+    return _shares([_held(model, pair, level) for pair in pairs])
 
 
 def coverage_of_left_out(
@@ -54,7 +52,11 @@ def coverage_of_left_out(
         _held(NoiseModel.of([*pairs[:index], *pairs[index + 1 :]], protocol), pair, level)
         for index, pair in enumerate(pairs)
     ]
-    return {name: Share.of(sum(each[name] for each in held), len(pairs)) for name in held[0]}
+    return _shares(held)
+
+
+def _shares(held: Sequence[Mapping[str, float]]) -> dict[str, Share]:
+    return {name: Share.of(sum(each[name] for each in held), len(held)) for name in held[0]}
 
 
 def _held(model: NoiseModel, pair: Pair, level: float) -> dict[str, float]:

@@ -15,6 +15,7 @@ from heartfit.geometry.arrays import Floats
 from heartfit.imaging.grid import Grid
 from heartfit.imaging.sequence import ImageSequence
 from heartfit.registration.demons import Demons, jacobian, register
+from heartfit.registration.order import in_turn
 
 CINE = Demons(smoothing=3.0)
 """Chosen on the measured heart, see docs/measured_heart.md: with less smoothing the endocardium, beside papillary
@@ -77,12 +78,9 @@ def register_slices(sequence: ImageSequence, about: Floats, method: Demons = CIN
     images = sequence.voxels[:, :, rows, columns]
     frames, slices = images.shape[:2]
     field = np.zeros((*images.shape, 2))
-    forward, backward = range(1, frames // 2 + 1), range(frames - 1, frames // 2, -1)
-    for order in (forward, backward):
-        neighbours = [0, *order][:-1]
-        for frame, neighbour in zip(order, neighbours, strict=True):
-            for k in range(slices):
-                field[frame, k] = register(images[0, k], images[frame, k], method, field[neighbour, k])
+    for frame, neighbour in in_turn(frames):
+        for k in range(slices):
+            field[frame, k] = register(images[0, k], images[frame, k], method, field[neighbour, k])
     return SliceMotion(sequence.grid, (columns.start, rows.start), field)
 
 

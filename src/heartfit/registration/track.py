@@ -5,7 +5,6 @@ neighbour's ended, forwards from end diastole to the middle of the sequence and 
 compared in the wall and a little beyond it: what lies further away does not move with the heart.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +22,7 @@ from heartfit.registration.free_form import minimise
 from heartfit.registration.lattice import Lattice
 from heartfit.registration.level import Level
 from heartfit.registration.matching import FreeForm as FreeForm
+from heartfit.registration.order import in_turn
 from heartfit.registration.terms import Bending, Brightness, FixedImage, WallVolume
 
 STIFFER, ATTEMPTS = 10.0, 3
@@ -66,7 +66,7 @@ def _track(sequence: ImageSequence, mesh: VentricularMesh, settings: FreeForm) -
     tracker = _Tracker(cubes, mesh, settings)
     count = len(cubes.times)
     found = {0: (tracker.lattice.zeros(), 0.0)}
-    for frame, neighbour in _order(count):
+    for frame, neighbour in in_turn(count):
         found[frame] = tracker.follow(frame, found[neighbour][0])
     coefficients, mismatch = zip(*(found[frame] for frame in range(count)), strict=True)
     positions = np.array([tracker.nodes(each) for each in coefficients])
@@ -116,13 +116,6 @@ class _Tracker:
     def compression(self, positions: Floats) -> float:
         """Least volume of a tetrahedron over that at end diastole."""
         return float((element_volumes(positions, self._mesh.tets) / self._mesh.element_volumes()).min())
-
-
-def _order(count: int) -> Iterator[tuple[int, int]]:
-    """Frames after the first, each with the neighbour that is matched before it."""
-    middle = count // 2
-    yield from ((frame, frame - 1) for frame in range(1, middle + 1))
-    yield from ((frame, (frame + 1) % count) for frame in range(count - 1, middle, -1))
 
 
 def _require_unfolded(compression: Floats) -> None:

@@ -11,11 +11,11 @@ from matplotlib.image import AxesImage
 
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
-from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
 from heartfit.imaging.sequence import ImageSequence
 from heartfit.imaging.view import View, views
+from heartfit.observation.volumes import cavity_volumes
 
 OUTLINES = {"lv_endo": ("left endocardium", "#D55E00"), "rv_endo": ("right endocardium", "#56B4E9")}
 OUTLINES |= {"epi": ("epicardium", "#F0E442")}
@@ -48,11 +48,8 @@ class Overlay:
     @cached_property
     def volumes(self) -> Mapping[str, Floats]:
         """Volume (p,) in m^3 of the left and right cavity, by "lv" and "rv"."""
-        cavities = {side: Cavity.of(self.mesh, f"{side}_endo") for side in ("lv", "rv")}
-        return {
-            side: np.array([cavity.volume(x) for x in self.motion.positions])
-            for side, cavity in cavities.items()
-        }
+        curves = cavity_volumes(self.mesh, self.motion)
+        return {side: curves[f"{side}_volume"].values for side in ("lv", "rv")}
 
     @cached_property
     def views(self) -> Mapping[str, View]:
