@@ -26,7 +26,7 @@ rule all:
         ),
         expand("<results>/figures/{about}.png", about=PICTURES),
         # asked for by name, or Snakemake would not miss a beat that was deleted
-        [beats_of(CASES, setting) for setting in SETTINGS],
+        [beats_of(case, setting) for case in CASES for setting in SETTINGS],
 
 
 include: "workflow/rules/resources.smk"

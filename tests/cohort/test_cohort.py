@@ -6,7 +6,7 @@ import pytest
 from heartfit.beat import Beat, motion_of
 from heartfit.circulation.valves import OrificeValve
 from heartfit.cohort.draw_shape import draw_anatomy
-from heartfit.cohort.hidden_heart import draw_heart
+from heartfit.cohort.hidden_heart import ESTIMATED, draw_heart, hide_heart
 from heartfit.heart import FOURTEEN, Heart
 
 PERIOD, FRAMES = 0.8, 25
@@ -48,6 +48,15 @@ def test_the_hidden_hearts_scatter_about_the_standard() -> None:
     drawn = np.log([draw_heart(STANDARD, PERIOD, seed)[1]["sigma_0"] / 200e3 for seed in range(150)])
     assert drawn.mean() == pytest.approx(0.0, abs=0.04)
     assert drawn.std() == pytest.approx(0.15, rel=0.2)
+
+
+def test_a_heart_is_hidden_at_its_share_of_the_standard_and_the_others_scatter() -> None:
+    ratios = {"sigma_0": 0.6, "mu": 1.1, "c_1": 1.48, "R_p": 0.9}
+    first, second = (hide_heart(STANDARD, ratios, PERIOD, seed)[1] for seed in (1, 2))
+    standard = {name: Heart().parameters()[Heart().path_of(name)] for name in ESTIMATED} | STANDARD
+    for name, ratio in ratios.items():
+        assert first[name] == second[name] == pytest.approx(ratio * standard[name])
+    assert first["k_RS"] != second["k_RS"]
 
 
 def test_the_motion_begins_at_the_trigger_and_goes_on_between_the_steps(beat: Beat) -> None:

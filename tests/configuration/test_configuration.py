@@ -11,6 +11,7 @@ from heartfit.configuration.strict import validated
 from heartfit.configuration.study import Study
 from heartfit.errors import InputError
 from heartfit.io.configuration import plan_study, read_cases, read_configuration, schema
+from heartfit.io.tables import read_published
 from heartfit.mechanisms.image_shrinkage import ImageShrinkage
 from heartfit.mechanisms.image_smoothing import ImageSmoothing
 
@@ -140,6 +141,41 @@ def test_a_virtual_case_lacks_nothing():
     assert "anna is virtual and lacks seed, edv" in complaint(
         Case, {"case": "anna", "kind": "virtual", "period": 0.9}
     )
+
+
+def test_a_patient_says_how_long_depolarisation_takes():
+    row = {"case": "anna", "kind": "measured", "period": 0.9, "conduction": "lbbb"}
+    assert "anna has a bundle branch block and lacks qrs; give its duration, qrs_ms" in complaint(Case, row)
+    assert not Case(**row, qrs=0.15).healthy
+
+
+def test_pressures_add_parameters_to_those_that_are_estimated(content):
+    content["settings"]["physical"]["with_pressure"] = ["k_RS", "tau"]
+    study = validated(Study, content, "config.yaml")
+    without = Case(case="anna", kind="measured", period=0.9)
+    seen = without.model_copy(update={"catheter": True})
+    usual = study.setting("physical", without).estimate
+    assert usual == study.setting("physical").estimate
+    assert study.setting("physical", seen).estimate == (*usual, "k_RS", "tau")
+    assert study.setting("physical", seen).prior["tau"].mean == declared("tau").value
+    points = [len(study.sigma_points("physical", case)) for case in (without, seen)]
+    assert points == [2 * len(usual) + 1, 2 * len(usual) + 5]
+
+
+def test_a_parameter_is_not_estimated_twice(content):
+    content["settings"]["physical"]["with_pressure"] = [content["settings"]["physical"]["estimate"][0]]
+    assert "a parameter is estimated twice; name each once" in complaint(Study, content)
+
+
+def test_the_hidden_parameters_scatter_as_the_published_ones():
+    table = read_published(ROOT / "resources" / "marchesseau2012" / "table2.csv").set_index("parameter")
+    cases = {case.case: case for case in read_cases(ROOT / "config" / "cases.tsv")}
+    for ours, theirs in (("sigma_0", "sigma_0"), ("mu", "mu"), ("c_1", "K"), ("R_p", "R_p")):
+        published = table.loc[theirs, list("1234567")].to_numpy(float)
+        hidden = [cases[f"volunteer{number}"].hidden[ours] for number in range(1, 8)]
+        assert hidden == pytest.approx(published / published.mean(), abs=6e-4)
+    assert all(cases[name].hidden["sigma_0"] < 0.69 for name in ("lbbb1", "lbbb2"))
+    assert cases["lbbb2"].hidden["c_1"] == 1.48
 
 
 def test_cases_are_read_in_si_units(tmp_path):

@@ -1,12 +1,13 @@
 """Curves survive a file and bad files are named, with the place and the cure."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from heartfit.errors import InputError
-from heartfit.io.curves import read_curves, write_curves
+from heartfit.io.curves import read_curves, read_table_of_curves, write_curves
 from heartfit.observation.curve import Curve
 
 TIMES = np.arange(25) * 0.033
@@ -38,9 +39,21 @@ def test_units_are_in_the_header(tmp_path: Path) -> None:
     assert lines[2] == "0,170,1,100"
 
 
-def test_curves_of_different_times_do_not_share_a_file(tmp_path: Path) -> None:
-    curves = sample() | {"rv_volume": sample()["lv_volume"].shifted(0.1)}
-    with pytest.raises(ValueError, match="rv_volume has its own times"):
+def test_curves_keep_their_own_times_in_one_file(tmp_path: Path) -> None:
+    fast = np.arange(200) * 0.004
+    curves = sample() | {"lv_pressure": Curve(fast, 8e3 - 7e3 * np.cos(2 * np.pi * fast / 0.825), 0.825)}
+    write_curves(tmp_path / "c.csv", curves)
+    found = read_curves(tmp_path / "c.csv")
+    for name, curve in curves.items():
+        assert found[name].times == pytest.approx(curve.times, abs=1e-12)
+        assert found[name].values == pytest.approx(curve.values, rel=1e-10)
+    with pytest.raises(InputError, match="lv_volume in data row 2 is empty"):
+        read_table_of_curves(tmp_path / "c.csv")
+
+
+def test_curves_of_different_periods_do_not_share_a_file(tmp_path: Path) -> None:
+    curves = sample() | {"rv_volume": replace(sample()["lv_volume"], period=0.9)}
+    with pytest.raises(ValueError, match="rv_volume has its own period"):
         write_curves(tmp_path / "c.csv", curves)
     assert not list(tmp_path.iterdir())
 
@@ -53,6 +66,7 @@ def test_curves_of_different_times_do_not_share_a_file(tmp_path: Path) -> None:
         ("# period_s = 0.825", "# beat", "no period"),
         ("0,170,1,100", "0,nan,1,100", "lv_volume_ml in data row 1 is nan"),
         ("0,170,1,100", "0,many,1,100", "lv_volume_ml in data row 1 is many"),
+        ("0,170,1,100", ",170,1,100", "time_s in data row 1 is empty"),
         ("0,170,1,100", "0.04,170,1,100", "expected increasing times"),
         ("lv_pressure_kpa", "lv_volume_ml", "c.csv: unknown column lv_volume_ml.1"),
         ("0,170,1,100", "0,170,120,100", "c.csv: pressure: values from .* to 120000 Pa.* mmHg taken for kPa"),

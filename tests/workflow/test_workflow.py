@@ -5,6 +5,8 @@ import re
 import pytest
 
 POINTS = "results/volunteer1/physical/calibration/points.json"
+VOLUNTEERS, PATIENTS, SETTINGS = 7, 2, 2
+POINTS_OF_COHORT = SETTINGS * (VOLUNTEERS * 9 + PATIENTS * 15)
 
 
 def job_counts(output):
@@ -30,15 +32,16 @@ def readers(output, part):
 def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_only(workflow):
     run = workflow.snakemake("-n")
     counts = job_counts(run.stdout)
-    cases, settings, points = 2, 2, 9
     assert run.returncode == 0, run.stdout
-    assert counts["simulate_point"] == cases * settings * points
-    assert counts["simulate_calibrated"] == cases * settings
-    assert counts["generate_volunteer"] == 2
+    assert counts["simulate_point"] == POINTS_OF_COHORT
+    assert counts["simulate_calibrated"] == SETTINGS * (VOLUNTEERS + PATIENTS)
+    assert counts["generate_volunteer"] == VOLUNTEERS + PATIENTS
+    assert counts["record_pressure"] == PATIENTS
     assert counts["make_tables"] == 1
     assert counts["compile_kernels"] == 1
     assert readers(run.stdout, "truth") == {"make_tables"}
-    assert readers(run.stdout, "cohort/motion") == readers(run.stdout, "cohort/beat") | {"image_volunteer"}
+    assert readers(run.stdout, "cohort/motion") == {"image_volunteer"}
+    assert readers(run.stdout, "cohort/beat") == {"record_pressure"}
     assert readers(run.stdout, "cohort/heart") == {"image_volunteer", "build_volunteer_mesh"}
     assert readers(run.stdout, "images/cine") == {"register_volunteer", "plot_contours"}
     assert counts["try_acquisition"] == 24 + 4 + 6 * 3
@@ -60,7 +63,7 @@ def test_the_measured_heart_is_one_more_case(workflow, measured_heart_folder):
     imaged = len(list((measured_heart_folder / "cine").glob("sax*")))
     assert counts.get("register_cine", 0) == counts.get("compare_cine", 0) == min(imaged, 1)
     assert ("registration of images left out" in run.stdout) == (imaged == 0)
-    assert counts["simulate_point"] == 3 * 2 * 9
+    assert counts["simulate_point"] == POINTS_OF_COHORT + SETTINGS * 9
 
 
 def test_a_spoilt_measured_heart_is_refused_in_one_line_before_anything_runs(workflow):
@@ -76,7 +79,7 @@ def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(w
     run = workflow.snakemake("-n")
     assert run.returncode == 0, run.stdout
     assert "build_measured_mesh" not in job_counts(run.stdout)
-    assert job_counts(run.stdout)["simulate_point"] == 2 * 2 * 9
+    assert job_counts(run.stdout)["simulate_point"] == POINTS_OF_COHORT
     said = [line for line in run.stdout.splitlines() if "left out" in line]
     assert len(said) == 1
     assert "fetch_measured_heart" in said[0]

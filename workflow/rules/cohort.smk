@@ -49,3 +49,27 @@ rule image_volunteer:
         code=code("image_volunteer.py"),
     script:
         "../scripts/image_volunteer.py"
+
+
+rule record_pressure:
+    input:
+        beat="<results>/{case}/cohort/beat.json",
+        curves="<results>/{case}/cohort/beat.csv",
+    output:
+        "<results>/{case}/cohort/pressure.csv",
+    log:
+        "<logs>/{case}/record_pressure.log",
+    benchmark:
+        "<benchmarks>/{case}/record_pressure.tsv"
+    wildcard_constraints:
+        case=one_of(CATHETERISED),
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        case=case_of,
+        catheter=STUDY.cohort.catheter.catheter(),
+        stated=stated(case_of, STUDY.cohort.catheter),
+        code=code("record_pressure.py"),
+    script:
+        "../scripts/record_pressure.py"

@@ -26,6 +26,9 @@ SETTINGS = list(STUDY.settings)
 MEASURED = [name for name, case in CASES.items() if case.kind == "measured"]
 IMAGED = MEASURED if PLAN.images else []
 VIRTUAL = [name for name, case in CASES.items() if case.kind == "virtual"]
+HEALTHY = [name for name, case in CASES.items() if case.healthy]
+PATIENTS = [name for name, case in CASES.items() if not case.healthy]
+CATHETERISED = [name for name, case in CASES.items() if case.catheter]
 
 
 ERROR = STUDY.registration_error
@@ -72,7 +75,8 @@ def case_of(wildcards):
 
 
 def setting_of(wildcards):
-    return STUDY.setting(wildcards.setting)
+    """The setting of a case, or as it is without pressures where a job concerns none."""
+    return STUDY.setting(wildcards.setting, CASES.get(wildcards.get("case")))
 
 
 def mechanisms_of(wildcards):
@@ -84,12 +88,12 @@ def mechanisms_of(wildcards):
 
 
 def beats_of(case, setting):
-    """The beats of all sigma points, whose number follows from the setting."""
+    """The beats of all sigma points of a case, whose number follows from the setting."""
     return expand(
         "<results>/{case}/{setting}/calibration/beats/{point}.json",
         case=case,
         setting=setting,
-        point=STUDY.sigma_points()[setting],
+        point=STUDY.sigma_points(setting, CASES[case]),
     )
 
 
@@ -110,6 +114,11 @@ def images_of(wildcards):
 def noise_of(wildcards):
     """The noise model of the volunteers' images; none was made for those of a measured heart."""
     return [NOISE_MODEL] if wildcards.case in VIRTUAL else []
+
+
+def pressure_of(wildcards):
+    """The recorded pressure of a case, where there is one."""
+    return ["<results>/{case}/cohort/pressure.csv"] if case_of(wildcards).catheter else []
 
 
 def scanner_of(wildcards):

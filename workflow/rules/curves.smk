@@ -3,6 +3,7 @@ rule extract_curves:
         mesh="<results>/{case}/geometry/mesh.vtu",
         motion="<results>/{case}/registration/motion.npz",
         noise=noise_of,
+        pressure=pressure_of,
     output:
         curves="<results>/{case}/curves/measured.csv",
         observations="<results>/{case}/curves/observations.json",

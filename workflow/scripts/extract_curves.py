@@ -1,8 +1,10 @@
-"""Volume curves of both cavities from the registered mesh, and what is observed of them."""
+"""Volume curves of both cavities from the registered mesh, the recorded pressure, and what is observed of them."""
 
+from functools import reduce
+from operator import or_
 from pathlib import Path
 
-from heartfit.io.curves import write_curves
+from heartfit.io.curves import read_curves, write_curves
 from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.noise_models import read_noise_model
@@ -12,7 +14,9 @@ from heartfit.protocol import observe_case
 
 record(snakemake.log[0])
 files, given = snakemake.input, snakemake.params
-curves = cavity_volumes(read_mesh(Path(files.mesh)), read_motion(Path(files.motion)))
+volumes = cavity_volumes(read_mesh(Path(files.mesh)), read_motion(Path(files.motion)))
+pressures = map(read_curves, map(Path, files.get("pressure", [])))
+curves = reduce(or_, pressures, volumes)
 models = list(map(read_noise_model, map(Path, files.get("noise", []))))
 measurement = observe_case(curves, given.operator, models, given.protocol)
 write_curves(Path(snakemake.output.curves), curves)

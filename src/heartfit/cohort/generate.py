@@ -15,6 +15,7 @@ from heartfit.geometry.mesher import fill_wall
 from heartfit.geometry.motion import Motion
 from heartfit.geometry.parametric import ParametricVentricles
 from heartfit.geometry.prepare import prepare
+from heartfit.heart import Heart
 from heartfit.mechanics.body import FiniteElementBody
 from heartfit.mechanics.unloading import unload
 from heartfit.simulation import simulate
@@ -39,21 +40,23 @@ class VolunteerError(RuntimeError):
 
 
 def generate(
-    shape: ParametricVentricles, standard: Mapping[str, float], period: float, seed: int, protocol: Protocol
+    shape: ParametricVentricles,
+    hidden: tuple[Heart, dict[str, float]],
+    protocol: Protocol,
 ) -> Volunteer:
-    """The volunteer of this shape whose hidden heart is scattered about the ``standard`` parameters."""
-    heart, truth = draw_heart(standard, period, seed)
+    """The volunteer of this shape in whom the ``hidden`` heart beats; with it comes the truth."""
+    heart, truth = hidden
     bare = fill_wall(shape.surface(), protocol.edge_length, protocol.tolerance)
     mesh = assign_activation(prepare(bare))
     reference = unload(mesh, heart.tissue, np.array(protocol.end_diastolic_pressure))
     body = FiniteElementBody(reference, heart.tissue)
     beat = simulate(heart, body, replace(protocol.numerics, keep_positions=True))
     if not beat.completed:
-        raise VolunteerError(f"volunteer of seed {seed}: {beat.reason}; choose another seed or shape")
+        raise VolunteerError(f"the hidden heart did not beat: {beat.reason}; choose another seed or shape")
     return Volunteer(prepare(bare.with_points(motion_of(beat).at(0.0))), beat, truth)
 
 
 def draw_volunteer(standard: Mapping[str, float], seed: int, protocol: Protocol) -> Volunteer:
-    """A volunteer whose shape and period are drawn too."""
+    """A volunteer whose shape, period and heart are drawn."""
     anatomy = draw_anatomy(seed)
-    return generate(anatomy.shape, standard, anatomy.period, seed, protocol)
+    return generate(anatomy.shape, draw_heart(standard, anatomy.period, seed), protocol)

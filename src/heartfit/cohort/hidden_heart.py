@@ -29,13 +29,27 @@ OTHER_MODEL = {"slope": 0.3, "trigger_delay": 0.03}
 
 def draw_heart(standard: Mapping[str, float], period: float, seed: int) -> tuple[Heart, dict[str, float]]:
     """A heart scattered about the ``standard`` values, and the truth: its value of the paper's parameters."""
+    return _scattered(standard, period, seed, dict.fromkeys(ESTIMATED, ESTIMATED_SPREAD))
+
+
+def hide_heart(
+    standard: Mapping[str, float], ratios: Mapping[str, float], period: float, seed: int
+) -> tuple[Heart, dict[str, float]]:
+    """A heart whose estimated parameters are these ``ratios`` of the ``standard`` values; the others scatter."""
+    values = Heart().with_parameters(standard)
+    given = {name: values.parameters()[values.path_of(name)] * ratio for name, ratio in ratios.items()}
+    return _scattered({**standard, **given}, period, seed, {})
+
+
+def _scattered(
+    standard: Mapping[str, float], period: float, seed: int, spreads: Mapping[str, float]
+) -> tuple[Heart, dict[str, float]]:
     rng = np.random.default_rng(seed)
     heart = Heart(circulation=VALVES, period=period).with_parameters({**standard, **OTHER_MODEL})
     values = heart.parameters()
     drawn = {
         name: values[heart.path_of(name)] * float(np.exp(spread * rng.standard_normal()))
-        for names, spread in ((ESTIMATED, ESTIMATED_SPREAD), (OTHERS, OTHER_SPREAD))
-        for name in names
+        for name, spread in {**spreads, **dict.fromkeys(OTHERS, OTHER_SPREAD)}.items()
     }
     heart = heart.with_parameters(drawn)
     return heart, {name: heart.parameters()[heart.path_of(name)] for name in FOURTEEN}

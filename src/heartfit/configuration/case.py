@@ -1,33 +1,63 @@
 """A row of the table of cases."""
 
+from collections.abc import Mapping
 from typing import Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, PositiveFloat, model_validator
 
 from heartfit.configuration.strict import Strict
 from heartfit.geometry.parametric import ParametricVentricles
 
+SHAPE = ("edv", "wall_thickness", "sphericity", "rv_edv", "rv_wall_thickness")
+HIDDEN = ("sigma_0", "mu", "c_1", "R_p")
+
 
 class Case(Strict):
-    """A subject; a virtual one also says its shape and the seed of its hidden truth."""
+    """A subject; a virtual one also says its shape, its hidden parameters and the seed of all else that is hidden."""
 
     case: str = Field(pattern=r"^[A-Za-z][A-Za-z0-9-]*$")
     kind: Literal["measured", "virtual"]
     period: float = Field(gt=0.3, lt=2.0, description="s")
+    conduction: Literal["healthy", "lbbb"] = Field("healthy", description="where depolarisation starts")
+    qrs: float | None = Field(None, gt=0.05, lt=0.3, description="s, duration of the QRS complex")
+    catheter: bool = Field(False, description="whether the pressure of the left ventricle is recorded")
     seed: int | None = None
     edv: float | None = Field(None, gt=5e-5, lt=4e-4, description="m^3")
     wall_thickness: float | None = Field(None, gt=4e-3, lt=25e-3, description="m")
     sphericity: float | None = Field(None, gt=1, lt=3, description="long axis over diameter")
     rv_edv: float | None = Field(None, gt=5e-5, lt=4e-4, description="m^3")
     rv_wall_thickness: float | None = Field(None, gt=1e-3, lt=1e-2, description="m")
+    sigma_0: PositiveFloat | None = Field(None, description="over the cohort's mean, as the next three")
+    mu: PositiveFloat | None = None
+    c_1: PositiveFloat | None = None
+    R_p: PositiveFloat | None = None
 
     @model_validator(mode="after")
-    def _virtual_is_complete(self) -> Self:
-        missing = [name for name in type(self).model_fields if getattr(self, name) is None]
-        if self.kind == "virtual" and missing:
+    def _is_complete(self) -> Self:
+        needed = ("seed", *SHAPE, *HIDDEN) if self.kind == "virtual" else ()
+        missing = [name for name in needed if getattr(self, name) is None]
+        if missing:
             raise ValueError(f"{self.case} is virtual and lacks {', '.join(missing)}; give a number")
+        if self.conduction == "lbbb" and self.qrs is None:
+            raise ValueError(
+                f"{self.case} has a bundle branch block and lacks qrs; give its duration, qrs_ms"
+            )
+        if self.kind == "measured" and self.catheter:
+            raise ValueError(
+                f"{self.case} is measured: recorded pressures are not read yet; leave catheter empty"
+            )
         return self
+
+    @property
+    def healthy(self) -> bool:
+        """Whether the case is a volunteer rather than a patient."""
+        return self.conduction == "healthy"
+
+    @property
+    def hidden(self) -> Mapping[str, float]:
+        """The hidden parameters of a virtual case, over the cohort's mean."""
+        return {name: getattr(self, name) for name in HIDDEN}
 
     def shape(self) -> ParametricVentricles:
         """The ventricles of a virtual case."""
-        return ParametricVentricles(**self.model_dump(exclude={"case", "kind", "period", "seed"}))
+        return ParametricVentricles(**{name: getattr(self, name) for name in SHAPE})

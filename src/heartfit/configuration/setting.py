@@ -33,6 +33,7 @@ class Setting(Strict):
     reference: Literal["unloaded", "end_diastolic"] = Field("unloaded", description="the stress-free state")
     mechanisms: tuple[str, ...] = Field((), description="added to the heart, by name")
     estimate: tuple[str, ...] = Field(min_length=1)
+    with_pressure: tuple[str, ...] = Field((), description="estimated too where the LV pressure is measured")
     heart: dict[str, float] = Field({}, description="parameters that differ from their declared value")
     prior: dict[str, Prior] = Field({}, description="what differs from the study's prior")
 
@@ -40,15 +41,24 @@ class Setting(Strict):
     def _names_are_sound(self) -> Self:
         try:
             heart = composed(self.mechanisms)
-            for name in (*self.estimate, *self.heart, *self.prior):
+            for name in (*self.estimate, *self.with_pressure, *self.heart, *self.prior):
                 heart.path_of(name)
             heart.with_parameters(self.heart)
         except KeyError as unknown:
             raise ValueError(str(unknown.args[0])) from None
-        both = sorted(set(self.estimate) & set(self.heart))
+        estimated = (*self.estimate, *self.with_pressure)
+        both = sorted(set(estimated) & set(self.heart))
         if both:
             raise ValueError(f"{both[0]} is estimated and fixed at once; give its mean under prior instead")
+        if len(set(estimated)) < len(estimated):
+            raise ValueError(f"{', '.join(estimated)}: a parameter is estimated twice; name each once")
         return self
+
+    def seeing_pressure(self) -> "Setting":
+        """The setting of a case whose LV pressure is measured."""
+        return self.model_copy(
+            update={"estimate": (*self.estimate, *self.with_pressure), "with_pressure": ()}
+        )
 
     def with_prior(self, table: Mapping[str, Prior]) -> "Setting":
         """The setting with the prior complete: its own, over the study's, over the declared one."""

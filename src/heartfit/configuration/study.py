@@ -7,6 +7,7 @@ from pydantic import Field, PositiveFloat, model_validator
 
 from heartfit.calibration.unscented import Scaling
 from heartfit.cohort.scanner import Scanner
+from heartfit.configuration.case import Case
 from heartfit.configuration.generator import Generator, Pressures
 from heartfit.configuration.imaging import (
     BASELINE,
@@ -86,14 +87,17 @@ class Study(Strict):
     def _prior_is_known(self) -> Self:
         for name in (*self.prior, *self.cohort.heart):
             require_known(name)
-        self.sigma_points()
+        for setting in self.settings.values():
+            setting.seeing_pressure().with_prior(self.prior)
         for name in self.registration_error.acquisitions():
             self._acquisition(name)
         return self
 
-    def setting(self, name: str) -> Setting:
-        """The setting with its prior complete."""
-        return self.settings[name].with_prior(self.prior)
+    def setting(self, name: str, case: Case | None = None) -> Setting:
+        """The setting with its prior complete, as it is for this case."""
+        setting = self.settings[name]
+        seen = setting.seeing_pressure() if case is not None and case.catheter else setting
+        return seen.with_prior(self.prior)
 
     def scanner(self, acquisition: str = BASELINE) -> Scanner:
         """The cohort's scanner, or that of another acquisition on which registration is tried."""
@@ -121,6 +125,6 @@ class Study(Strict):
             }
         )
 
-    def sigma_points(self) -> dict[str, Sequence[int]]:
-        """Indices of the 2n+1 sigma points of each setting."""
-        return {name: range(2 * len(self.setting(name).estimate) + 1) for name in self.settings}
+    def sigma_points(self, name: str, case: Case) -> Sequence[int]:
+        """Indices of the 2n+1 sigma points of a case under a setting."""
+        return range(2 * len(self.setting(name, case).estimate) + 1)

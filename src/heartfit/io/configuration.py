@@ -17,7 +17,7 @@ from heartfit.errors import InputError
 from heartfit.io.measured_heart import read_measured_heart, short_axis_images
 
 LARGEST_PERIOD_DIFFERENCE = 0.02
-UNITS = {"_s": 1.0, "_ml": 1e-6, "_mm": 1e-3}
+UNITS = {"_ms": 1e-3, "_s": 1.0, "_ml": 1e-6, "_mm": 1e-3}
 
 
 @dataclass(frozen=True)

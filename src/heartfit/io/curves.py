@@ -3,6 +3,8 @@
 # period_s = 0.829
 time_s,lv_volume_ml,rv_volume_ml,lv_pressure_kpa,mitral_flow_ml_per_s
 0.0,174.49,170.1,1.3,0.0
+
+Curves that were sampled at other times than their neighbours leave the cells of those empty.
 """
 
 import difflib
@@ -52,7 +54,7 @@ def write_table_of_curves(
         table[f"{name}_{unit}"] = array / factor
     body = StringIO()
     np.savetxt(body, np.column_stack(list(table.values())), "%.12g", ",", header=",".join(table), comments="")
-    write_text(path, f"# period_s = {float(period)!r}\n{body.getvalue()}")
+    write_text(path, f"# period_s = {float(period)!r}\n{body.getvalue().replace('nan', '')}")
 
 
 def read_table_of_curves(
@@ -60,37 +62,58 @@ def read_table_of_curves(
 ) -> tuple[np.ndarray, dict[str, np.ndarray], float]:
     """Times s, SI arrays by name, and the period s, as the file states it or as given.
 
-    Raises InputError for a missing file, time column or period, an unknown column, text or NaN where a number
-    belongs.
+    Raises InputError for a missing file, time column or period, an unknown column, and for text, NaN or nothing where
+    a number belongs.
     """
+    times, values, period = _read_sampled(path, period)
+    for name, array in values.items():
+        if np.isnan(array).any():
+            row = int(np.flatnonzero(np.isnan(array))[0]) + 1
+            raise InputError(f"{path}: {name} in data row {row} is empty; expected a number in every row")
+    return times, values, period
+
+
+def _read_sampled(path: Path, period: float | None) -> tuple[np.ndarray, dict[str, np.ndarray], float]:
+    """The same, NaN where a cell is empty."""
     table = _read_csv(path)
-    for column in table.columns:
-        _check_column(path, table[column])
+    numbers = {column: _numbers(path, table[column]) for column in table.columns}
     values = {
-        name: table[column].to_numpy(float) * UNITS[kind_of(name)][1]
-        for column in table.columns
+        name: array * UNITS[kind_of(name)][1]
+        for column, array in numbers.items()
         if (name := _name_of(column))
     }
-    return table["time_s"].to_numpy(float), values, _period(path) if period is None else period
+    return numbers["time_s"], values, _period(path) if period is None else period
 
 
 def write_curves(path: Path, curves: Mapping[str, Curve]) -> None:
-    """Write curves that share their times and period; raises ValueError if they do not."""
+    """Write curves of one period, each at its own times; raises ValueError if the periods differ."""
     first = next(iter(curves.values()))
     for name, curve in curves.items():
-        if curve.period != first.period or not np.array_equal(curve.times, first.times):
-            raise ValueError(f"curves: {name} has its own times or period; expected one time axis in a file")
+        if curve.period != first.period:
+            raise ValueError(f"curves: {name} has its own period; expected one period in a file")
+    times = np.unique(np.concatenate([curve.times for curve in curves.values()]))
     write_table_of_curves(
-        path, first.times, {name: curve.values for name, curve in curves.items()}, first.period
+        path, times, {name: _spread(curve, times) for name, curve in curves.items()}, first.period
     )
 
 
+def _spread(curve: Curve, times: np.ndarray) -> np.ndarray:
+    """The samples of a curve at their places among ``times``, NaN elsewhere."""
+    values = np.full(len(times), np.nan)
+    values[np.searchsorted(times, curve.times)] = curve.values
+    return values
+
+
 def read_curves(path: Path, period: float | None = None) -> dict[str, Curve]:
-    """Curves by name, SI; raises InputError that names the file for anything a curve refuses."""
-    times, values, period = read_table_of_curves(path, period)
+    """Curves by name, SI, each where it was sampled; raises InputError that names the file for what a curve refuses."""
+    times, values, period = _read_sampled(path, period)
     makers = {"volume": Curve.of_volume, "pressure": Curve.of_pressure, "flow": Curve}
+    sampled = {name: ~np.isnan(array) for name, array in values.items()}
     try:
-        return {name: makers[kind_of(name)](times, array, period) for name, array in values.items()}
+        return {
+            name: makers[kind_of(name)](times[sampled[name]], array[sampled[name]], period)
+            for name, array in values.items()
+        }
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
 
@@ -101,7 +124,7 @@ def _read_csv(path: Path) -> "pd.DataFrame":
     if not Path(path).is_file():
         raise InputError(f"{path}: no such file; expected curves as CSV: correct the path")
     try:
-        table = pd.read_csv(path, comment="#", skipinitialspace=True)
+        table = pd.read_csv(path, comment="#", skipinitialspace=True, dtype=str, keep_default_na=False)
     except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
         raise InputError(
             f"{path}: not a CSV table ({error}); expected a header such as time_s,lv_volume_ml"
@@ -116,7 +139,8 @@ def _read_csv(path: Path) -> "pd.DataFrame":
     return table
 
 
-def _check_column(path: Path, column: "pd.Series") -> None:
+def _numbers(path: Path, column: "pd.Series") -> np.ndarray:
+    """The numbers of a column, NaN where it is empty, as all may be but the times."""
     import pandas as pd
 
     if column.name != "time_s" and _name_of(str(column.name)) is None:
@@ -124,14 +148,15 @@ def _check_column(path: Path, column: "pd.Series") -> None:
         raise InputError(
             f"{path}: unknown column {column.name}; did you mean {near[0]}? Rename it or leave it out"
         )
-    numbers = pd.to_numeric(column, errors="coerce")
-    bad = np.flatnonzero(~np.isfinite(numbers))
+    numbers = pd.to_numeric(column, errors="coerce").to_numpy(float)
+    empty = (column.str.strip() == "").to_numpy() & (column.name != "time_s")
+    bad = np.flatnonzero(~np.isfinite(numbers) & ~empty)
     if bad.size:
         raise InputError(
-            f"{path}: {column.name} in data row {bad[0] + 1} is {column.iloc[bad[0]]}; expected a finite "
-            "number: "
-            "fill or drop the row"
+            f"{path}: {column.name} in data row {bad[0] + 1} is {column.iloc[bad[0]] or 'empty'}; expected a finite "
+            "number: fill or drop the row"
         )
+    return numbers
 
 
 def _period(path: Path) -> float:
