@@ -6,7 +6,8 @@ import pytest
 from heartfit.beat import Beat, motion_of
 from heartfit.circulation.valves import OrificeValve
 from heartfit.cohort.draw_shape import draw_anatomy
-from heartfit.cohort.hidden_heart import ESTIMATED, draw_heart, hide_heart
+from heartfit.cohort.hidden_heart import ESTIMATED, OTHER_CONDUCTIONS, draw_heart, hide_heart
+from heartfit.electrophysiology.conduction import CONDUCTIONS
 from heartfit.heart import FOURTEEN, Heart
 
 PERIOD, FRAMES = 0.8, 25
@@ -57,6 +58,13 @@ def test_a_heart_is_hidden_at_its_share_of_the_standard_and_the_others_scatter()
     for name, ratio in ratios.items():
         assert first[name] == second[name] == pytest.approx(ratio * standard[name])
     assert first["k_RS"] != second["k_RS"]
+
+
+def test_a_hidden_block_starts_where_the_calibrator_s_does_but_runs_at_other_speeds() -> None:
+    assert OTHER_CONDUCTIONS["healthy"] == CONDUCTIONS["healthy"]
+    hidden, known = OTHER_CONDUCTIONS["lbbb"], CONDUCTIONS["lbbb"]
+    assert hidden.sites == known.sites
+    assert (hidden.speed, hidden.ratio) != (known.speed, known.ratio)
 
 
 def test_the_motion_begins_at_the_trigger_and_goes_on_between_the_steps(beat: Beat) -> None:

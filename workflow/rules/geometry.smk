@@ -36,8 +36,9 @@ rule build_volunteer_mesh:
         mem_mb=1500,
         runtime=20,
     params:
+        case=case_of,
         size=STUDY.mesh,
-        stated=stated(STUDY.mesh),
+        stated=stated(case_of, STUDY.mesh),
         code=code("build_volunteer_mesh.py"),
     script:
         "../scripts/build_volunteer_mesh.py"

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from heartfit.cohort.generate import generate
-from heartfit.cohort.hidden_heart import hide_heart
+from heartfit.cohort.hidden_heart import OTHER_CONDUCTIONS, hide_heart
 from heartfit.io.beats import write_beat
 from heartfit.io.log import record
 from heartfit.io.meshes import write_mesh, write_motion
@@ -13,7 +13,7 @@ record(snakemake.log[0])
 given = snakemake.params
 case, protocol = given.case, given.cohort.protocol(given.pressures)
 hidden = hide_heart(given.cohort.heart, case.hidden, case.period, case.seed)
-volunteer = generate(case.shape(), hidden, protocol)
+volunteer = generate(case.shape(), hidden, protocol, OTHER_CONDUCTIONS[case.conduction], case.qrs)
 write_mesh(Path(snakemake.output.mesh), volunteer.mesh)
 write_motion(Path(snakemake.output.motion), volunteer.motion)
 write_beat(Path(snakemake.output.beat), volunteer.beat, given.code)

@@ -9,7 +9,9 @@ from heartfit.beat import Beat, motion_of
 from heartfit.cohort.draw_shape import draw_anatomy
 from heartfit.cohort.hidden_heart import draw_heart
 from heartfit.cohort.protocol import Protocol as Protocol
+from heartfit.electrophysiology.conduction import HEALTHY, Conduction
 from heartfit.electrophysiology.onset import assign_activation
+from heartfit.electrophysiology.personalise import personalised
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.mesher import fill_wall
 from heartfit.geometry.motion import Motion
@@ -43,11 +45,17 @@ def generate(
     shape: ParametricVentricles,
     hidden: tuple[Heart, dict[str, float]],
     protocol: Protocol,
+    conduction: Conduction = HEALTHY,
+    qrs: float | None = None,
 ) -> Volunteer:
-    """The volunteer of this shape in whom the ``hidden`` heart beats; with it comes the truth."""
+    """The volunteer of this shape in whom the ``hidden`` heart beats; with it comes the truth.
+
+    qrs: s, how long the activation takes, where it was measured.
+    """
     heart, truth = hidden
     bare = fill_wall(shape.surface(), protocol.edge_length, protocol.tolerance)
-    mesh = assign_activation(prepare(bare))
+    prepared = prepare(bare)
+    mesh = assign_activation(prepared, personalised(prepared, conduction, qrs))
     reference = unload(mesh, heart.tissue, np.array(protocol.end_diastolic_pressure))
     body = FiniteElementBody(reference, heart.tissue)
     beat = simulate(heart, body, replace(protocol.numerics, keep_positions=True))

@@ -2,15 +2,18 @@
 
 It differs from the calibrator's model on purpose, as a real heart does: valves obey Bernoulli's law instead
 of a conductance, the number of bridges depends on length, the trigger comes earlier, and parameters that nobody
-estimates are not at their standard values either.
+estimates are not at their standard values either. Where the left bundle is blocked, the wave runs through the wall at
+other speeds, although it takes as long.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from heartfit.circulation.network import Circulation
 from heartfit.circulation.valves import OrificeValve
+from heartfit.electrophysiology.conduction import HEALTHY, LBBB
 from heartfit.heart import FOURTEEN, Heart
 
 ESTIMATED = ("sigma_0", "mu", "c_1", "R_p")
@@ -25,6 +28,7 @@ VALVES = Circulation(
     pulmonary=OrificeValve(area=4e-4),
 )
 OTHER_MODEL = {"slope": 0.3, "trigger_delay": 0.03}
+OTHER_CONDUCTIONS = {"healthy": HEALTHY, "lbbb": replace(LBBB, speed=0.65, ratio=0.45)}
 
 
 def draw_heart(standard: Mapping[str, float], period: float, seed: int) -> tuple[Heart, dict[str, float]]:

@@ -40,26 +40,27 @@ def activation_times(
     speed: float = 0.6,
     ratio: float = 0.45,
     fast_layer: Integers = NO_TRIANGLES,
-    fast_speed: float = 3.0,
+    fast_speed: Floats | float = 3.0,
 ) -> Floats:
     """Arrival times (n,) in s of the wave that starts at the sites {node: time in s}, or reaches them earlier.
 
     fibres (m,3) unit; speed in m/s along the fibres and ratio of the speed across them to it; fast_layer
-    (k,3) triangles that conduct at fast_speed in m/s in every direction.
+    (k,3) triangles that conduct at fast_speed in m/s, one or (k,), in every direction.
     Raises ValueError without sites, for speeds or a ratio that are not positive, or when a node is never
     reached.
     """
-    if not sites or min(speed, ratio, fast_speed) <= 0.0:
+    slowest = float(np.min(fast_speed, initial=np.inf))
+    if not sites or min(speed, ratio, slowest) <= 0.0:
         raise ValueError(
             f"activation: {len(sites)} sites, speed {speed:g} m/s, ratio {ratio:g}, "
-            f"fast speed {fast_speed:g} m/s; "
+            f"fast speed {slowest:g} m/s; "
             "expected at least one site and positive numbers"
         )
     times = np.full(len(points), np.inf)
     times[list(sites)] = list(sites.values())
     start = np.array(sorted(sites), dtype=np.int64)
     metric = slowness_metric(fibres, speed, ratio)
-    isotropic = np.tile(np.eye(3) / fast_speed**2, (len(fast_layer), 1, 1))
+    isotropic = np.eye(3) / np.broadcast_to(fast_speed, len(fast_layer))[:, None, None] ** 2
     _march(
         times,
         start,
