@@ -41,6 +41,7 @@ TRIALS = [(acquisition, number) for acquisition, numbers in TRIED.items() for nu
 PICTURES = [
     "registration",
     "noise_model",
+    *(f"{case}_activation" for case in CASES),
     *(f"{case}_contours" for case in VIRTUAL + IMAGED),
     *(f"{case}_cine_{about}" for case in IMAGED for about in ("outlines", "volume")),
 ]

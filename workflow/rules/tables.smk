@@ -110,3 +110,23 @@ rule plot_contours:
         code=code("plot_contours.py"),
     script:
         "../scripts/plot_contours.py"
+
+
+rule plot_activation:
+    input:
+        "<results>/{case}/geometry/mesh.vtu",
+    output:
+        expand("<results>/figures/{{case}}_activation.{suffix}", suffix=("png", "pdf")),
+    log:
+        "<logs>/{case}/plot_activation.log",
+    benchmark:
+        "<benchmarks>/{case}/plot_activation.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        case=case_of,
+        stated=stated(case_of),
+        code=code("plot_activation.py"),
+    script:
+        "../scripts/plot_activation.py"

@@ -28,7 +28,7 @@ VALVES = Circulation(
     pulmonary=OrificeValve(area=4e-4),
 )
 OTHER_MODEL = {"slope": 0.3, "trigger_delay": 0.03}
-OTHER_CONDUCTIONS = {"healthy": HEALTHY, "lbbb": replace(LBBB, speed=0.65, ratio=0.45)}
+OTHER_CONDUCTIONS = {"healthy": HEALTHY, "lbbb": replace(LBBB, speed=0.5, ratio=0.5)}
 
 
 def draw_heart(standard: Mapping[str, float], period: float, seed: int) -> tuple[Heart, dict[str, float]]:

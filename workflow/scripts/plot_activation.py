@@ -1,0 +1,14 @@
+"""Draw when each place of the ventricles is activated."""
+
+from itertools import repeat
+from pathlib import Path
+
+from heartfit.io.log import record
+from heartfit.io.meshes import read_mesh
+from heartfit.io.tables import write_figure
+from heartfit.tables.activation_figure import plot_activation
+
+record(snakemake.log[0])
+case = snakemake.params.case
+figure = plot_activation(read_mesh(Path(snakemake.input[0])), case.conduction, case.case)
+list(map(write_figure, map(Path, snakemake.output), repeat(figure)))
