@@ -43,6 +43,8 @@ COMPILE_LOCK = (
         "compile",
         "pyproject.toml",
         "--extra",
+        "alternatives",
+        "--extra",
         "develop",
         "--quiet",
         "--output-file",

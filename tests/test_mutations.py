@@ -9,7 +9,7 @@ from tests.mutations.run import PAGE, ROOT, MutationError, Verdict, row
 
 KERNELS = {
     "active/bcs", "mooney_rivlin", "guccione", "kinematics", "assembly", "elements", "cavity", "eikonal", "windkessel",
-    "branch", "unscented", "unloading", "solver", "sphere",
+    "branch", "unscented", "scaling", "simplex", "iterated", "smoother", "unloading", "solver", "sphere",
 }  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as some
 
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.calibration.unscented import CalibrationError, Scaling, sigma_labels, sigma_points, transform
+from heartfit.calibration.unscented import CalibrationError, Scaling, sigma_points, transform
 from heartfit.calibration.update import calibrate, update
 
 NAMES = ("V_min", "q_max", "q_min")
@@ -137,7 +137,7 @@ def test_whichever_beats_fail_the_closed_form_is_met_or_the_update_refuses(lost:
     mean, covariance = kalman(prior, a, observed)
     assert posterior.estimate.mean == pytest.approx(mean, abs=1e-8)
     assert posterior.estimate.covariance == pytest.approx(covariance, abs=1e-8)
-    labels = sigma_labels(prior.names)
+    labels = [point.label for point in sigma_points(prior)]
     assert posterior.failed == tuple(f"{labels[i]} (inverted)" for i in failed)
 
 

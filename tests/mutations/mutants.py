@@ -212,13 +212,39 @@ MUTANTS = (
     *_in(
         "calibration/unscented.py",
         UNSCENTED,
-        ("points too near", "np.sqrt(scaling.spread(n)) *", "1.0 *"),
+        ("deviations from the centre, not the mean", "deviation = z - mean", "deviation = z - z[0]"),
+    ),
+    *_in(
+        "calibration/scaling.py",
+        UNSCENTED,
+        ("points too near", "np.sqrt(self.spread(n)) *", "1.0 *"),
         ("no extra weight of the centre", "covariance[0] += 1 - self.a**2 + self.b", "covariance[0] += 0.0"),
         (
             "a lost point repeats its partner",
             "up[~has_up] = 2.0 * filled[0] - down[~has_up]",
             "up[~has_up] = down[~has_up]",
         ),
+    ),
+    *_in(
+        "calibration/simplex.py",
+        "tests/calibration/test_simplex.py",
+        (
+            "corners too near",
+            "1.0 / np.sqrt((j + 1) * (j + 2) * weight)",
+            "0.5 / np.sqrt((j + 1) * (j + 2) * weight)",
+        ),
+        ("a lost corner is the centre", "filled[index] = corners * z[0] - ", "filled[index] = z[0] - 0.0 * "),
+    ),
+    *_in(
+        "calibration/iterated.py",
+        "tests/calibration/test_iterated.py",
+        ("the prior moves along", "(prior.mean - around.mean) @ slope", "0.0 * prior.mean @ slope"),
+        ("points never shrink", "spread *= shrink**2", "spread *= 1.0"),
+    ),
+    *_in(
+        "calibration/smoother.py",
+        "tests/calibration/test_alternatives.py",
+        ("noise not inflated", "np.sqrt(assimilations) * np.linalg", "1.0 * np.linalg"),
     ),
     *_in(
         "calibration/update.py",

@@ -13,12 +13,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
+from heartfit.calibration.design import Design
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import (
     STANDARD,
     CalibrationError,
     Moments,
-    Scaling,
     SigmaPoint,
     sigma_points,
     transform,
@@ -64,18 +64,28 @@ def calibrate(
     outcomes: Sequence[Mapping[str, float] | str],
     observed: Mapping[str, float],
     noise: np.ndarray | None = None,
-    scaling: Scaling = STANDARD,
+    design: Design = STANDARD,
 ) -> Posterior:
     """The posterior from the observations of each sigma point's beat, or the reason why there are none."""
-    points = sigma_points(prior, scaling)
+    return update(prior, moments_of(prior, outcomes, tuple(observed), design), observed, noise)
+
+
+def moments_of(
+    prior: Gaussian,
+    outcomes: Sequence[Mapping[str, float] | str],
+    names: Sequence[str],
+    design: Design = STANDARD,
+) -> Moments:
+    """Moments of the observations `names` over the sigma points, from the outcome of each."""
+    points = sigma_points(prior, design)
     if len(outcomes) != len(points):
         raise ValueError(
             f"calibration: {len(outcomes)} outcomes; expected one for each of {len(points)} points"
         )
     named = [_with_reason(point, outcome) for point, outcome in zip(points, outcomes, strict=True)]
-    z = np.array([_row(outcome, observed) for outcome in outcomes])
+    z = np.array([_row(outcome, names) for outcome in outcomes])
     completed = np.array([not isinstance(outcome, str) for outcome in outcomes])
-    return update(prior, transform(named, z, scaling, completed), observed, noise)
+    return transform(named, z, design, completed)
 
 
 def _with_reason(point: SigmaPoint, outcome: Mapping[str, float] | str) -> SigmaPoint:

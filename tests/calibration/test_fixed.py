@@ -1,0 +1,29 @@
+"""What is held fixed is noise of the model: its covariance is that of the observations it moves."""
+
+import numpy as np
+import pytest
+
+from heartfit.calibration.fixed import covariance_of_fixed
+
+
+def test_it_is_the_covariance_of_a_linear_map() -> None:
+    rng = np.random.default_rng(0)
+    slopes, sds = rng.standard_normal((5, 3)), rng.uniform(0.1, 0.3, 5)
+    moved = (sds * rng.standard_normal((200_000, 5))) @ slopes
+    assert covariance_of_fixed(slopes, sds) == pytest.approx(np.cov(moved.T), abs=0.01)
+
+
+def test_nothing_fixed_is_no_noise() -> None:
+    assert (covariance_of_fixed(np.empty((0, 3)), np.empty(0)) == np.zeros((3, 3))).all()
+
+
+@pytest.mark.parametrize(
+    ("slopes", "sds", "message"),
+    [
+        (np.ones((2, 3)), np.ones(3), r"slopes \(2, 3\), deviations \(3,\)"),
+        (np.array([[np.nan]]), np.ones(1), "not finite"),
+    ],
+)
+def test_what_does_not_fit_is_refused(slopes: np.ndarray, sds: np.ndarray, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        covariance_of_fixed(slopes, sds)
