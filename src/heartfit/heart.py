@@ -54,24 +54,26 @@ class Heart:
         the paper's fourteen (R_p, tau, Z_c and L then mean the systemic circulation). Raises ``KeyError``
         for an unknown or ambiguous name, naming the nearest known ones.
         """
-        heart = self
+        heart, known = self, tuple(self.parameters())
         for name, value in values.items():
-            heart = _replace_at(heart, self.path_of(name).split("."), float(value))
+            heart = _replace_at(heart, _path_of(name, known).split("."), float(value))
         return heart
 
     def path_of(self, name: str) -> str:
         """Dotted path of the parameter ``name``."""
-        paths = [path for path in self.parameters() if path == name or path.endswith(f".{name}")]
-        systemic = [path for path in paths if path.startswith("circulation.systemic.")]
-        if len(paths) > 1 and name in FOURTEEN and systemic:
-            paths = systemic
-        if len(paths) == 1:
-            return paths[0]
-        known = get_close_matches(
-            name, [p.rsplit(".", 1)[-1] for p in self.parameters()] + list(self.parameters())
-        )
-        problem = f"is one of {paths}: give the path" if paths else f"is unknown, nearest are {known}"
-        raise KeyError(f"parameter {name!r} {problem}")
+        return _path_of(name, tuple(self.parameters()))
+
+
+def _path_of(name: str, known: tuple[str, ...]) -> str:
+    paths = [path for path in known if path == name or path.endswith(f".{name}")]
+    systemic = [path for path in paths if path.startswith("circulation.systemic.")]
+    if len(paths) > 1 and name in FOURTEEN and systemic:
+        paths = systemic
+    if len(paths) == 1:
+        return paths[0]
+    near = get_close_matches(name, [path.rsplit(".", 1)[-1] for path in known] + list(known))
+    problem = f"is one of {paths}: give the path" if paths else f"is unknown, nearest are {near}"
+    raise KeyError(f"parameter {name!r} {problem}")
 
 
 def _walk(part: Any, prefix: str = "") -> list[tuple[str, float]]:
