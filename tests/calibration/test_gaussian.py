@@ -31,3 +31,12 @@ def test_a_prior_that_cannot_be_is_refused(
 def test_an_indefinite_covariance_is_refused() -> None:
     with pytest.raises(ValueError, match="not positive definite"):
         Gaussian(("a", "b"), np.zeros(2), np.array([[1.0, 2.0], [2.0, 1.0]]))
+
+
+def test_a_marginal_keeps_mean_and_covariance_in_the_order_asked():
+    covariance = np.array([[4.0, 1.0, 0.5], [1.0, 3.0, 0.2], [0.5, 0.2, 2.0]])
+    whole = Gaussian(("a", "b", "c"), np.array([1.0, 2.0, 3.0]), covariance)
+    part = whole.marginal(["c", "a"])
+    assert part.names == ("c", "a")
+    assert part.mean.tolist() == [3.0, 1.0]
+    assert part.covariance.tolist() == [[2.0, 0.5], [0.5, 4.0]]

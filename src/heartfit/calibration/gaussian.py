@@ -1,6 +1,6 @@
 """Positive parameters as a Gaussian of their logarithms."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Self
 
@@ -55,6 +55,11 @@ class Gaussian:
     def sd(self) -> np.ndarray:
         """Standard deviations of the logarithms (n,)."""
         return np.sqrt(np.diag(self.covariance))
+
+    def marginal(self, names: Sequence[str]) -> Self:
+        """The same belief about these parameters only, in this order; raises ValueError for one it lacks."""
+        places = [self.names.index(name) for name in names]
+        return type(self)(tuple(names), self.mean[places], self.covariance[np.ix_(places, places)])
 
     def physical(self, logarithms: np.ndarray | None = None) -> dict[str, float]:
         """Physical parameters by name, exp(z); the median if no z is given."""
