@@ -7,6 +7,7 @@ import numpy as np
 
 from heartfit.beat import Beat, failed_beat
 from heartfit.calibration.gaussian import Gaussian
+from heartfit.calibration.slopes import Slopes
 from heartfit.calibration.unscented import SigmaPoint
 from heartfit.calibration.update import Posterior, calibrate
 from heartfit.configuration.generator import Pressures
@@ -57,14 +58,17 @@ def estimate(
     measurement: Measurement,
     operator: Operator,
     transform: Transform,
+    slopes: Slopes | None = None,
 ) -> Posterior:
     """The posterior from the beats of all sigma points, in their order, each seen through its own sensors.
 
     Without the transform's noise the numbers are met as they were measured, as the paper does; with it, those without
-    bias under their covariance.
+    bias under their covariance. Slopes add to it what the parameters that are not estimated may do.
     """
     sensors = [setting.sensors(point.parameters) for point in points]
     noise = measurement.covariance if transform.noise else None
+    if noise is not None and slopes is not None:
+        noise = noise + slopes.covariance(setting.estimate, measurement.corrected, transform.fixed_sd)
     observed = measurement.corrected if transform.noise else measurement.values
     outcomes = observe_beats(beats, operator.features(measured), sensors)
     return calibrate(prior, outcomes, observed, noise, transform.scaling())

@@ -51,7 +51,8 @@ rule update_parameters:
         observations="<results>/{case}/curves/observations.json",
         beats=sigma_point_beats,
     output:
-        "<results>/{case}/{setting}/calibration/posterior.json",
+        met="<results>/{case}/{setting}/calibration/posterior.json",
+        weighed="<results>/{case}/{setting}/calibration/posterior_noise.json",
     log:
         "<logs>/{case}/{setting}/update_parameters.log",
     benchmark:

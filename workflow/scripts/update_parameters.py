@@ -1,4 +1,4 @@
-"""Update the prior by what the sigma points' beats and the measurement show."""
+"""Update the prior by what the sigma points' beats and the measurement show, as the paper and knowing the noise."""
 
 from pathlib import Path
 
@@ -9,11 +9,20 @@ from heartfit.io.results import read_observations, read_sigma_points, write_post
 from heartfit.protocol import estimate
 
 record(snakemake.log[0])
-prior, points = read_sigma_points(Path(snakemake.input.points))
-measurement = read_observations(Path(snakemake.input.observations))
-beats = map(read_beat, map(Path, snakemake.input.beats))
-measured = read_curves(Path(snakemake.input.measured))
-given = snakemake.params
-arguments = (given.setting, prior, points, beats, measured, measurement)
-posterior = estimate(*arguments, given.operator, given.transform)
-write_posterior(Path(snakemake.output[0]), posterior, given.code)
+files, given = snakemake.input, snakemake.params
+prior, points = read_sigma_points(Path(files.points))
+measurement = read_observations(Path(files.observations))
+beats = list(map(read_beat, map(Path, files.beats)))
+arguments = (
+    given.setting,
+    prior,
+    points,
+    beats,
+    read_curves(Path(files.measured)),
+    measurement,
+    given.operator,
+)
+met = estimate(*arguments, given.transform)
+weighed = estimate(*arguments, given.transform.weighed())
+write_posterior(Path(snakemake.output.met), met, given.code)
+write_posterior(Path(snakemake.output.weighed), weighed, given.code)

@@ -1,7 +1,7 @@
 """A whole study: meshes, numerics, observation, transform, cohort and settings."""
 
 from collections.abc import Mapping, Sequence
-from typing import Self
+from typing import Annotated, Self
 
 from pydantic import Field, PositiveFloat, model_validator
 
@@ -52,6 +52,11 @@ class Transform(Strict):
     b: float = 2.0
     kappa: float = 0.0
     noise: bool = False
+    fixed_sd: Annotated[float, Field(ge=0, lt=1, description="relative, of what is not estimated")] = 0.1
+
+    def weighed(self) -> "Transform":
+        """The same with the noise of the observations, whatever this one says."""
+        return self.model_copy(update={"noise": True})
 
     def scaling(self) -> Scaling:
         """As the calibration takes it."""
@@ -71,6 +76,7 @@ class Study(Strict):
 
     results: str = Field("results", description="folder of all that is computed")
     cases: str = Field(description="table of the cases")
+    tolerances: str = Field(description="table of the numbers that may not drift, and how far")
     measured_heart: tuple[str, ...] = Field(description="folders; the first that exists is used")
     mesh: MeshSize
     numerics: TimeScheme
