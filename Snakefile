@@ -16,14 +16,8 @@ pathvars:
 rule all:
     default_target: True
     input:
-        expand("<results>/tables/table{number}.{kind}", number=(1, 2), kind=("csv", "md", "tex")),
-        expand(
-            "<results>/figures/{case}_{setting}{about}.{kind}",
-            case=CASES,
-            setting=SETTINGS,
-            about=("", "_sensitivity", "_shape"),
-            kind=("png", "pdf"),
-        ),
+        expand("<results>/tables/{name}.md", name=TABLES),
+        expand("<results>/figures/{picture}", picture=CASE_PICTURES),
         expand("<results>/figures/{about}.png", about=PICTURES),
         # asked for by name, or Snakemake would not miss a beat that was deleted
         [beats_of(case, setting) for case in CASES for setting in SETTINGS],
@@ -38,3 +32,4 @@ include: "workflow/rules/curves.smk"
 include: "workflow/rules/calibration.smk"
 include: "workflow/rules/verification.smk"
 include: "workflow/rules/tables.smk"
+include: "workflow/rules/meaning.smk"

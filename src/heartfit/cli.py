@@ -49,6 +49,12 @@ def _parser() -> argparse.ArgumentParser:
     for page in (parameters, configuration_schema, verification, robustness):
         command = commands.add_parser(page.__name__.replace("_", "-"), help=page.__doc__)
         command.set_defaults(carry_out=page)
+    held = commands.add_parser("tolerances", help=tolerances.__doc__)
+    held.set_defaults(carry_out=tolerances)
+    held.add_argument("numbers", type=Path, help="numbers.csv of a study")
+    held.add_argument(
+        "table", type=Path, help="the tolerances whose expected numbers are to be those of the study"
+    )
     compared = commands.add_parser("reference", help=reference.__doc__)
     compared.set_defaults(carry_out=reference)
     compared.add_argument(
@@ -140,6 +146,16 @@ def robustness(_: argparse.Namespace) -> int:
     from heartfit.verification.robustness_page import robustness_page
 
     print(robustness_page(say=lambda text: print(text, file=sys.stderr)), end="")
+    return 0
+
+
+def tolerances(given: argparse.Namespace) -> int:
+    """Print a table of tolerances with the numbers of a study as the expected ones."""
+    from heartfit.io.tables import read_numbers, read_tolerances  # pandas, which no other command needs
+    from heartfit.tables.drift import renewed
+
+    table = renewed(read_numbers(given.numbers), read_tolerances(given.table))
+    print(table.to_csv(sep="\t", index=False, float_format="%.4g"), end="")
     return 0
 
 

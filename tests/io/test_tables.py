@@ -6,7 +6,17 @@ import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 
-from heartfit.io.tables import read_published, write_figure, write_table
+from heartfit.errors import InputError
+from heartfit.io.tables import (
+    read_numbers,
+    read_published,
+    read_tolerances,
+    write_figure,
+    write_figures,
+    write_table,
+    write_tables,
+)
+from heartfit.tables.notes import NOTES
 
 TABLE = pd.DataFrame({"setting": ["paper"], "case": ["a_b"], "sigma_0 (kPa)": [240.0]})
 
@@ -42,3 +52,25 @@ def test_a_figure_is_the_same_file_every_time(tmp_path: Path, suffix: str) -> No
     assert content == (tmp_path / f"b.{suffix}").read_bytes()
     assert b"CreationDate" not in content
     assert b"Software" not in content
+
+
+def test_tables_and_figures_are_written_by_name_with_their_note(tmp_path: Path) -> None:
+    write_tables(tmp_path, {"table1": TABLE, "other": TABLE})
+    write_figures(tmp_path, {"card": Figure()})
+    suffixes = [("table1", ("csv", "md", "tex")), ("other", ("csv", "md", "tex")), ("card", ("png", "pdf"))]
+    assert {file.name for file in tmp_path.iterdir()} == {
+        f"{name}.{end}" for name, ends in suffixes for end in ends
+    }
+    assert (tmp_path / "table1.md").read_text().endswith(f"|\n\n{NOTES['table1']}\n")
+    assert (tmp_path / "other.md").read_text().endswith("|\n")
+    assert "Why" not in (tmp_path / "table1.csv").read_text()
+
+
+def test_numbers_are_text_and_tolerances_are_numbers(tmp_path: Path) -> None:
+    (tmp_path / "numbers.csv").write_text("table,value\ntable1,<4\ntable1,1.50\n")
+    assert read_numbers(tmp_path / "numbers.csv")["value"].tolist() == ["<4", "1.50"]
+    (tmp_path / "tolerances.tsv").write_text("# of the study\ncase\texpected\nmean of 7\t1.5\n")
+    assert read_tolerances(tmp_path / "tolerances.tsv")["expected"].tolist() == [1.5]
+    for read in (read_numbers, read_tolerances):
+        with pytest.raises(InputError, match="no such file"):
+            read(tmp_path / "none")

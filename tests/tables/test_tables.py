@@ -15,10 +15,12 @@ from heartfit.observation.vector import operators
 from heartfit.tables.case import CaseResult, summarise
 from heartfit.tables.errors_table import PAPER, error_table
 from heartfit.tables.fingerprints import FingerprintMismatchError
+from heartfit.tables.groups import Groups
 from heartfit.tables.parameters_table import parameter_table
 from heartfit.tables.plausibility_table import plausibility_table
 from heartfit.tables.text import to_latex, to_markdown
 
+HEALTHY = Groups(("real", "virtual", "b", "c", "d"))
 OBSERVED = {"V_min": 72e-6, "q_max": 474e-6, "q_min": -520e-6}
 PAPER_ERRORS = pd.DataFrame(
     {"observation": list(OBSERVED), "1": [0.35, 3.06, 0.31], "mean": [1.32, 11.85, 12.66]}
@@ -54,7 +56,7 @@ def case(name: str = "real", setting: str = "physical", factor: float = 1.1) -> 
 
 
 def test_errors_stand_beside_their_floor_and_the_paper() -> None:
-    table = error_table([case(), case("virtual", factor=0.8)], PAPER_ERRORS)
+    table = error_table([case(), case("virtual", factor=0.8)], PAPER_ERRORS, HEALTHY)
     first = table.iloc[0]
     assert first["V_min (%)"] == pytest.approx(10)
     assert first["q_min (%)"] == pytest.approx(10)
@@ -72,11 +74,22 @@ def test_errors_stand_beside_their_floor_and_the_paper() -> None:
 def test_each_setting_has_the_mean_of_its_completed_cases() -> None:
     cases = [case(factor=1.1), case("b", factor=1.3), case("c", setting="paper", factor=1.5)]
     failed = replace(case("d", setting="paper"), calibrated={}, root_mean_square={})
-    table = error_table([*cases, failed], PAPER_ERRORS)
+    table = error_table([*cases, failed], PAPER_ERRORS, HEALTHY)
     means = table[table["case"].str.startswith("mean of")].set_index("setting")
     assert means.loc["physical", "V_min (%)"] == pytest.approx(20)
     assert means.loc["paper", "V_min (%)"] == pytest.approx(50)
     assert means.loc["paper", "case"] == "mean of 1"
+
+
+def test_a_fit_below_the_noise_is_flagged_and_patients_are_left_out():
+    groups = Groups(("virtual",), ("real",), ("sick",))
+    table = error_table([case(factor=1.06), case("virtual"), case("sick")], PAPER_ERRORS, groups)
+    rows = table[table["setting"] == "physical"].set_index("case")
+    assert rows.index.tolist() == ["real", "virtual", "mean of 1", "mean of 2 with real"]
+    assert rows.loc["real", "below noise"] == "q_max", "an error of 6 %, floors of 2, 10 and 5 %"
+    assert rows.loc["real", "V_min z"] == pytest.approx(3)
+    assert rows.loc["mean of 1", "V_min (%)"] == pytest.approx(10)
+    assert rows.loc["mean of 2 with real", "V_min (%)"] == pytest.approx(8)
 
 
 def test_the_sign_of_an_error_follows_the_magnitude_of_the_observation() -> None:
@@ -86,7 +99,7 @@ def test_the_sign_of_an_error_follows_the_magnitude_of_the_observation() -> None
 
 def test_parameters_in_printed_units_with_prior_paper_and_truth() -> None:
     cases = [case(), case("virtual"), case(setting="paper")]
-    table = parameter_table(cases, PAPER_PARAMETERS, {"virtual": {"sigma_0": 200e3, "hidden": 1.0}})
+    table = parameter_table(cases, PAPER_PARAMETERS, HEALTHY, {"virtual": {"sigma_0": 200e3, "hidden": 1.0}})
     assert table["case"].tolist()[:3] == ["prior", "real", "virtual"]
     assert table["sigma_0 (kPa)"].tolist() == pytest.approx([240, 250, 250, 240, 250, 6490, 5800])
     assert table["R_p (MPa.s/m^3)"].iloc[0] == pytest.approx(114)
@@ -96,11 +109,16 @@ def test_parameters_in_printed_units_with_prior_paper_and_truth() -> None:
     assert "R_p of truth (%)" not in table
     assert table["longest step (prior sd)"].iloc[1] == pytest.approx(np.log(250 / 240) / 0.2)
     sigma = [place for place, column in enumerate(table.columns) if column.startswith("sigma_0")]
-    assert sigma == [3, 4, 5]
+    assert sigma == [3, 4, 5, 6]
+    assert table["sigma_0 over mean"].dropna().tolist() == pytest.approx([1, 1, 1, 6.49 / 5.8, 1])
 
 
 @pytest.mark.parametrize(
-    "make", [lambda c: error_table(c, PAPER_ERRORS), lambda c: parameter_table(c, PAPER_PARAMETERS)]
+    "make",
+    [
+        lambda c: error_table(c, PAPER_ERRORS, HEALTHY),
+        lambda c: parameter_table(c, PAPER_PARAMETERS, HEALTHY),
+    ],
 )
 def test_rows_of_different_code_are_refused(make) -> None:
     with pytest.raises(FingerprintMismatchError, match="abc: real/physical; old: other/physical"):
@@ -108,13 +126,13 @@ def test_rows_of_different_code_are_refused(make) -> None:
 
 
 def test_text_has_symbols_blanks_and_no_raw_special_characters() -> None:
-    table = error_table([case("bivme_patient1")], PAPER_ERRORS)
+    table = error_table([case("bivme_patient1")], PAPER_ERRORS, Groups(("bivme_patient1",)))
     latex = to_latex(table)
     assert r"\toprule" in latex
     assert r"$V_{\min}$ (\%)" in latex
     assert r"bivme\_patient1" in latex
     assert "nan" not in latex.lower()
-    assert "| real" in to_markdown(error_table([case()], PAPER_ERRORS))
+    assert "| real" in to_markdown(error_table([case()], PAPER_ERRORS, HEALTHY))
 
 
 def wave(late: float = 0.0, size: float = 50e-6) -> dict[str, Curve]:
@@ -168,7 +186,7 @@ def test_a_record_takes_everything_from_the_posterior_and_the_curves() -> None:
 def test_a_failed_verification_is_a_row_without_errors() -> None:
     found = record({})
     assert np.isnan(list(found.errors().values())).all()
-    assert "nan" not in to_markdown(error_table([found], PAPER_ERRORS))
+    assert "nan" not in to_markdown(error_table([found], PAPER_ERRORS, HEALTHY))
 
 
 def test_plausibility_prints_what_the_record_holds():

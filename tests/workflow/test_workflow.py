@@ -39,7 +39,8 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert counts["record_pressure"] == PATIENTS
     assert counts["make_tables"] == 1
     assert counts["compile_kernels"] == 1
-    assert readers(run.stdout, "truth") == {"make_tables"}
+    assert readers(run.stdout, "truth") == {"make_tables", "make_cards", "compare_groups"}
+    assert readers(run.stdout, "posterior_noise") == {"make_cards", "compare_groups"}
     assert readers(run.stdout, "cohort/motion") == {"image_volunteer"}
     assert readers(run.stdout, "cohort/beat") == {"record_pressure"}
     assert readers(run.stdout, "cohort/heart") == {"image_volunteer", "build_volunteer_mesh"}
@@ -123,3 +124,11 @@ def test_bad_input_is_refused_in_one_line_before_anything_runs(workflow, file, t
     assert len([line for line in run.stdout.splitlines() if expected in line]) == 1
     assert "Traceback" not in run.stdout
     assert not (workflow.folder / "results").exists()
+
+
+def test_numbers_are_checked_where_it_is_asked_for(workflow):
+    assert "check_numbers" not in job_counts(workflow.snakemake("-n").stdout)
+    run = workflow.snakemake("-n", "check_numbers", "--configfile", "config/smoke.yaml")
+    assert job_counts(run.stdout)["check_numbers"] == job_counts(run.stdout)["make_tables"] == 1
+    job = dict(jobs(run.stdout))["check_numbers"]
+    assert inputs(job) == ["results/smoke/tables/numbers.csv", "config/smoke_tolerances.tsv"]

@@ -9,6 +9,7 @@ from heartfit.errors import InputError
 from heartfit.io.configuration import plan_study
 from heartfit.io.fingerprint import fingerprint
 from heartfit.mechanism import registered
+from heartfit.tables.groups import Groups, Origin
 
 # one thread a job: the jobs are what runs in parallel
 for library in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
@@ -28,6 +29,11 @@ IMAGED = MEASURED if PLAN.images else []
 VIRTUAL = [name for name, case in CASES.items() if case.kind == "virtual"]
 HEALTHY = [name for name, case in CASES.items() if case.healthy]
 PATIENTS = [name for name, case in CASES.items() if not case.healthy]
+GROUPS = Groups(
+    volunteers=tuple(name for name in VIRTUAL if CASES[name].healthy),
+    measured=tuple(name for name in MEASURED if CASES[name].healthy),
+    patients=tuple(name for name in VIRTUAL if not CASES[name].healthy),
+)
 CATHETERISED = [name for name, case in CASES.items() if case.catheter]
 
 
@@ -45,6 +51,14 @@ PICTURES = [
     *(f"{case}_contours" for case in VIRTUAL + IMAGED),
     *(f"{case}_cine_{about}" for case in IMAGED for about in ("outlines", "volume")),
 ]
+CASE_PICTURES = [
+    f"{case}_{setting}{about}.{kind}"
+    for case in CASES
+    for setting in SETTINGS
+    for about in ("", "_sensitivity", "_shape", "_card")
+    for kind in ("png", "pdf")
+]
+TABLES = ["table1", "cards", "specificity"]
 FRESH = range(ERROR.sequences, ERROR.sequences + ERROR.fresh)
 
 
@@ -59,6 +73,11 @@ wildcard_constraints:
 def code(script):
     """The fingerprint of a script and all library modules it rests on; see heartfit.io.fingerprint."""
     return fingerprint(Path(workflow.basedir, "workflow", "scripts", script))
+
+
+def printed(*names):
+    """The files of tables by name."""
+    return expand("<results>/tables/{name}.{suffix}", name=names, suffix=("csv", "md", "tex"))
 
 
 def one_of(cases):

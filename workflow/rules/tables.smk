@@ -1,3 +1,11 @@
+ORIGIN = Origin(
+    STUDY.results,
+    GROUPS,
+    {name: case.period for name, case in CASES.items()},
+    {name: case.seed for name, case in CASES.items()},
+)
+
+
 rule make_tables:
     input:
         cases=expand(
@@ -5,12 +13,11 @@ rule make_tables:
             case=CASES,
             setting=SETTINGS,
         ),
-        truths=expand("<results>/{case}/cohort/truth.json", case=VIRTUAL),
-        paper=expand("resources/marchesseau2012/table{number}.csv", number=(1, 2)),
+        truths=expand("<results>/{case}/cohort/truth.json", case=GROUPS.virtual),
+        paper=expand("resources/marchesseau2012/{name}.csv", name=("table1", "table2", "patients")),
     output:
-        errors=expand("<results>/tables/table1.{suffix}", suffix=("csv", "md", "tex")),
-        parameters=expand("<results>/tables/table2.{suffix}", suffix=("csv", "md", "tex")),
-        plausibility=expand("<results>/tables/plausibility.{suffix}", suffix=("csv", "md", "tex")),
+        printed("table1", "table2", "table3", "table3_parameters", "plausibility"),
+        numbers="<results>/tables/numbers.csv",
     log:
         "<logs>/make_tables.log",
     benchmark:
@@ -19,7 +26,8 @@ rule make_tables:
         mem_mb=500,
         runtime=5,
     params:
-        virtual=VIRTUAL,
+        origin=ORIGIN,
+        stated=stated(ORIGIN),
         code=code("make_tables.py"),
     script:
         "../scripts/make_tables.py"

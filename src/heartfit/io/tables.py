@@ -1,5 +1,6 @@
 """Tables and figures out, published tables in."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import pandas as pd
@@ -7,6 +8,7 @@ from matplotlib.figure import Figure
 
 from heartfit.errors import InputError
 from heartfit.io.atomic import replacing, write_text
+from heartfit.tables.notes import NOTES
 from heartfit.tables.text import to_latex, to_markdown
 
 WRITERS = {
@@ -16,14 +18,45 @@ WRITERS = {
 }
 
 
-def write_table(path: Path, table: pd.DataFrame) -> None:
-    """Write as CSV, Markdown or LaTeX by the suffix; raises ValueError for another one."""
+def write_table(path: Path, table: pd.DataFrame, note: str = "") -> None:
+    """Write as CSV, Markdown or LaTeX by the suffix, Markdown with a note below; raises ValueError for another one."""
     suffix = Path(path).suffix
     if suffix not in WRITERS:
         raise ValueError(
             f"{path}: tables are written as {', '.join(WRITERS)}, not {suffix or 'without suffix'}"
         )
-    write_text(path, WRITERS[suffix](table))
+    text = WRITERS[suffix](table)
+    write_text(path, f"{text}\n{note}\n" if note and suffix == ".md" else text)
+
+
+def write_tables(folder: Path, tables: Mapping[str, pd.DataFrame]) -> None:
+    """Write each table by its name in all three formats, with its note if there is one in heartfit.tables.notes."""
+    for name, table in tables.items():
+        for suffix in WRITERS:
+            write_table(Path(folder, f"{name}{suffix}"), table, NOTES.get(name, ""))
+
+
+def write_figures(folder: Path, figures: Mapping[str, Figure]) -> None:
+    """Write each figure by its name as PNG and PDF."""
+    for name, figure in figures.items():
+        for suffix in ("png", "pdf"):
+            write_figure(Path(folder, f"{name}.{suffix}"), figure)
+
+
+def read_numbers(path: Path) -> pd.DataFrame:
+    """The numbers of a study that write_table wrote as CSV, values as text."""
+    if not Path(path).is_file():
+        raise InputError(
+            f"{path}: no such file; expected the numbers of a study: `snakemake --cores 2` makes them"
+        )
+    return pd.read_csv(path, dtype=str, keep_default_na=False)
+
+
+def read_tolerances(path: Path) -> pd.DataFrame:
+    """A table of tolerances, separated by tabs; lines that begin with # tell of it. Raises InputError for none."""
+    if not Path(path).is_file():
+        raise InputError(f"{path}: no such file; expected a table of tolerances")
+    return pd.read_csv(path, sep="\t", comment="#")
 
 
 def read_published(path: Path) -> pd.DataFrame:

@@ -54,6 +54,11 @@ class CaseResult:
         """Noise of each observation in percent of its value: no error below it means anything."""
         return {name: 100 * self.noise[name] / abs(value) for name, value in self.observed.items()}
 
+    def scores(self) -> dict[str, float]:
+        """z, the signed error over its floor: within one, the fit is as good as noise allows or fits the noise."""
+        floor = self.floor()
+        return {name: error / floor[name] for name, error in self.errors().items()}
+
 
 def relative_errors(found: Mapping[str, float], true: Mapping[str, float]) -> dict[str, float]:
     """100 (found - true) / |true| for every name of `true`; NaN where nothing was found."""

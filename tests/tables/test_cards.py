@@ -1,0 +1,68 @@
+"""Cards say what is believed, what is seen of it, and whether the truth is in it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.tables.card import cards
+from heartfit.tables.card_figure import plot_card, plot_cards
+from heartfit.tables.cards_table import ALL, cards_table, coverage_table
+
+
+def test_a_card_knows_places_and_cover_in_prior_deviations(cohort):
+    volunteer = cohort[0]
+    assert volunteer.true_place()[3] == pytest.approx(np.log(0.9 * 0.8) / 0.25)
+    assert set(volunteer.covered(volunteer.weighed.estimate)) == {"sigma_0", "mu", "c_1", "R_p"}
+    far = replace(volunteer, truth={"sigma_0": 1e9})
+    assert far.covered(far.weighed.estimate) == {"sigma_0": False}
+    assert volunteer.seen.rank == 3
+    assert volunteer.weakest() == "R_p up with sigma_0 up"
+
+
+def test_the_table_has_a_row_per_parameter_and_no_verdict_without_a_truth(cohort):
+    table = cards_table(cohort).set_index(["case", "parameter"])
+    assert len(table) == 5 * 4 + 2 * 7
+    assert (table.loc["real", "weighed covered"] == "").all()
+    assert table.loc["real", "truth"].isna().all()
+    row = table.loc[("volunteer1", "R_p")]
+    assert row["seen"] == pytest.approx(1 - row["weighed sd over prior"] ** 2)
+    assert row["met sd over prior"] <= row["weighed sd over prior"] < 1
+    assert row["rank"] == "3 of 4"
+
+
+def test_coverage_counts_hearts_with_a_truth(cohort):
+    wrong = [
+        replace(card, truth={name: 1e3 * value for name, value in card.truth.items()}) for card in cohort[:2]
+    ]
+    table = coverage_table([*wrong, *cohort[2:]]).set_index(["posterior", "parameter"])
+    found = table.loc[("noise and fixed", ALL)]
+    assert found["hearts"] == 6, "the measured heart has no truth"
+    assert found["covered (%)"] == pytest.approx(100 * 4 / 6, abs=0.1)
+    assert found["from (%)"] < found["covered (%)"] < found["to (%)"]
+    assert table.loc[("noise and fixed", "tau"), "hearts"] == 2
+
+
+def test_no_estimate_is_held_against_a_true_K():
+    made = cards([("v", "paper")], [None], [None], {"v": {"K": 1.0, "mu": 2.0}})  # type: ignore[list-item]
+    assert made[0].truth == {"mu": 2.0}
+
+
+def test_the_figure_shows_each_parameter_and_direction(cohort):
+    figure = plot_card(cohort[0])
+    left, right = figure.axes
+    assert len(right.patches) == 4
+    assert [bar.get_width() for bar in right.patches] == pytest.approx(cohort[0].seen.reduction)
+    prior = left.patches[:4]
+    assert [bar.get_width() for bar in prior] == pytest.approx([3.92] * 4)
+    assert any(text.get_text().endswith(", covered") for text in left.texts)
+    assert "3 of 4" in figure.get_suptitle()
+
+
+def test_a_truth_beyond_the_edge_is_an_arrow(cohort):
+    markers = [line.get_marker() for line in plot_card(replace(cohort[0], truth={"mu": 1.0})).axes[0].lines]
+    assert "<" in markers
+
+
+def test_figures_are_named_by_case_and_setting(cohort):
+    assert list(plot_cards(cohort[:1])) == ["volunteer1_physical_card"]

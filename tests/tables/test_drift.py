@@ -1,0 +1,61 @@
+"""A number that moves is found, with what to do; one that is not there is as bad."""
+
+import pandas as pd
+import pytest
+
+from heartfit.errors import InputError
+from heartfit.tables.drift import COLUMNS, DriftError, renewed, require_no_drift
+
+NUMBERS = pd.DataFrame(
+    [
+        {"table": "table1", "setting": "physical", "case": "mean of 7", "quantity": "V_min", "value": "1.3"},
+        {"table": "table1", "setting": "physical", "case": "v1", "quantity": "V_min", "value": "0.4"},
+        {
+            "table": "table1",
+            "setting": "physical",
+            "case": "v1",
+            "quantity": "failed points",
+            "value": "0 of 9",
+        },
+    ]
+)
+
+
+def tolerances(*rows: tuple[str, str, float, float]) -> pd.DataFrame:
+    return pd.DataFrame([("table1", "physical", *row, "mesh") for row in rows], columns=COLUMNS)
+
+
+def test_what_is_within_its_tolerance_passes():
+    found = require_no_drift(
+        NUMBERS, tolerances(("mean of 7", "V_min", 1.5, 0.21), ("v1", "V_min", 0.4, 0.0))
+    )
+    assert found["measured"].tolist() == [1.3, 0.4]
+
+
+def test_all_that_drifted_or_is_missing_is_listed_with_advice():
+    rows = (("mean of 7", "V_min", 1.5, 0.1), ("v1", "V_min", 0.4, 0.1), ("v9", "V_min", 1.0, 9.0))
+    with pytest.raises(DriftError) as error:
+        require_no_drift(NUMBERS, tolerances(*rows))
+    lines = str(error.value).splitlines()
+    assert lines[0] == "2 of 3 numbers drifted:"
+    assert lines[1] == "  table1, physical, mean of 7, V_min: expected 1.5 within 0.1, found 1.3"
+    assert lines[2].endswith("v9, V_min: expected 1 within 9, found nan")
+    assert "heartfit tolerances" in lines[3]
+
+
+def test_a_number_that_is_none_drifted():
+    with pytest.raises(DriftError, match="found nan"):
+        require_no_drift(NUMBERS, tolerances(("v1", "failed points", 0.0, 1.0)))
+
+
+def test_renewing_keeps_rows_tolerances_and_what_is_not_there():
+    found = renewed(NUMBERS, tolerances(("v1", "V_min", 9.0, 0.1), ("v9", "V_min", 1.0, 0.2)))
+    assert list(found.columns) == COLUMNS
+    assert found["expected"].tolist() == [0.4, 1.0]
+    assert found["tolerance"].tolist() == [0.1, 0.2]
+
+
+@pytest.mark.parametrize("table", [tolerances(), tolerances(("v1", "V_min", 1.0, 0.1)).drop(columns="why")])
+def test_a_table_that_holds_nothing_is_refused(table):
+    with pytest.raises(InputError, match="expected one or more of table, setting"):
+        require_no_drift(NUMBERS, table)

@@ -1,0 +1,103 @@
+"""Patients are told from volunteers as far as the data go."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.tables.card import Card
+from heartfit.tables.groups import Groups
+from heartfit.tables.specificity import Comparison, comparisons
+from heartfit.tables.specificity_figure import plot_specificity
+from heartfit.tables.specificity_table import claims_table, specificity_table
+
+
+@pytest.fixture
+def compared(cohort, groups) -> Comparison:
+    return comparisons(cohort, groups)[0]
+
+
+def test_only_what_is_estimated_in_everybody_is_compared(compared):
+    assert compared.names == ("sigma_0", "mu", "c_1", "R_p")
+    assert [card.case for card in compared.volunteers] == [
+        "volunteer1",
+        "volunteer2",
+        "volunteer3",
+        "volunteer4",
+    ]
+
+
+def test_true_ratios_are_those_the_cohort_was_made_with(compared):
+    healthy = np.mean([1.1, 0.76, 0.95, 1.2])
+    assert compared.ratios("truth", "sigma_0")["lbbb2"] == pytest.approx(0.55 / healthy)
+
+
+def test_the_estimate_without_the_pull_of_the_prior_is_nearer_the_truth(compared):
+    error = {
+        reading: abs(
+            np.log(compared.ratios(reading, "c_1")["lbbb2"] / compared.ratios("truth", "c_1")["lbbb2"])
+        )
+        for reading in ("noise and fixed", "unshrunk")
+    }
+    assert error["unshrunk"] < error["noise and fixed"]
+
+
+def test_p_cannot_be_below_that_of_one_labeling(compared):
+    table = specificity_table([compared])
+    assert table["least p"].dropna().unique() == pytest.approx([1 / 15])
+    assert (table["p"].dropna() >= 1 / 15 - 1e-12).all()
+    sigma = table[(table["parameter"] == "sigma_0") & (table["reading"] == "truth")].iloc[0]
+    assert sigma["p"] == pytest.approx(1 / 15)
+
+
+def unseen(card: Card) -> Card:
+    """The same estimate with the prior's uncertainty."""
+    estimate = replace(card.weighed.estimate, covariance=card.prior.covariance)
+    return replace(card, weighed=replace(card.weighed, estimate=estimate))
+
+
+def test_a_difference_that_the_data_do_not_see_is_warned_of(cohort, groups):
+    table = specificity_table(comparisons([unseen(card) for card in cohort], groups))
+    assert (table["warning"] != "").all()
+    assert table["seen"].dropna().tolist() == pytest.approx([0.0] * 19, abs=1e-9), (
+        "nothing is left of what was unshrunk"
+    )
+    seen = specificity_table(comparisons(cohort, groups))
+    assert (seen["warning"] == "").all()
+
+
+def test_both_claims_hold_in_truth_and_one_does_not_where_the_prior_pulls(compared):
+    table = claims_table([compared]).set_index(["claim", "reading"])["holds"]
+    assert (table.loc["sigma_0 of lbbb1 and lbbb2 below"] == "holds").all()
+    assert table.loc[("c_1 of lbbb2 above", "truth")] == "holds"
+    assert table.loc[("c_1 of lbbb2 above", "noise and fixed")] == "does not hold"
+
+
+def test_K_is_held_against_the_true_stiffness(cohort, groups):
+    def renamed(card: Card) -> Card:
+        names = tuple("K" if name == "c_1" else name for name in card.prior.names)
+        met, weighed = (
+            replace(one, prior=replace(one.prior, names=names), estimate=replace(one.estimate, names=names))
+            for one in (card.met, card.weighed)
+        )
+        return replace(card, met=met, weighed=weighed)
+
+    found = comparisons([renamed(card) for card in cohort], groups)[0]
+    assert found.ratios("truth", "K") == pytest.approx(comparisons(cohort, groups)[0].ratios("truth", "c_1"))
+    assert "K of lbbb2 above" in claims_table([found])["claim"].tolist()
+
+
+def test_one_patient_and_one_volunteer_are_compared_as_well(cohort, groups):
+    small = comparisons(cohort, Groups(groups.volunteers[:1], (), groups.patients[:1]))
+    assert specificity_table(small)["least p"].dropna().unique() == pytest.approx([0.5])
+    assert comparisons(cohort, Groups(groups.volunteers)) == []
+    assert specificity_table([]).empty
+
+
+def test_the_figure_has_a_panel_per_parameter_and_grey_where_nothing_is_seen(cohort, groups, compared):
+    figure = plot_specificity([compared])
+    assert sum(axes.get_visible() for axes in figure.axes) == 4
+    assert {axes.get_facecolor()[0] for axes in figure.axes} == {1.0}
+    grey = plot_specificity(comparisons([unseen(card) for card in cohort], groups))
+    assert all(axes.get_facecolor()[0] < 1.0 for axes in grey.axes)
+    assert plot_specificity([]).axes
