@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 from benchmarks.ventricles import FOLDER, ROOT, SHAPE
 from heartfit.cohort.draw_shape import Anatomy
 from heartfit.cohort.generate import generate
+from heartfit.cohort.hidden_heart import draw_heart
+from heartfit.cohort.template import Template
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
 from heartfit.geometry.parametric import ParametricVentricles
@@ -45,9 +47,8 @@ def _made(anatomy: Anatomy, seed: int) -> Known:
     study = read_study([ROOT / "config" / "config.yaml"])
     protocol = replace(
         study.cohort.protocol(study.end_diastolic_pressure),
-        edge_length=EDGE,
-        tolerance=TOLERANCE,
         numerics=study.numerics.numerics(),
     )
-    volunteer = generate(anatomy.shape, study.cohort.heart, anatomy.period, seed, protocol)
+    bare = Template.build(EDGE, TOLERANCE).shaped(anatomy.shape)
+    volunteer = generate(bare, draw_heart(study.cohort.heart, anatomy.period, seed), protocol)
     return Known(volunteer.mesh, volunteer.motion)

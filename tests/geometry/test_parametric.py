@@ -65,3 +65,14 @@ def test_a_size_in_another_unit_is_refused_by_name(name: str, value: float) -> N
 def test_a_right_ventricle_that_does_not_fit_is_refused() -> None:
     with pytest.raises(InputError, match="does not fit"):
         ParametricVentricles(**(HUMAN | {"edv": 20e-6, "rv_edv": 600e-6})).surface()
+
+
+def test_nodes_are_numbered_alike_for_all_shapes() -> None:
+    """The node at the apex of one heart is the node at the apex of another, and so all around."""
+    small, large = (ParametricVentricles(**(HUMAN | {"edv": edv})).surface() for edv in (90e-6, 260e-6))
+    assert np.array_equal(small.triangles, large.triangles)
+    assert small.labels.tolist() == large.labels.tolist()
+    for name in ("lv_endo", "epi"):
+        nodes = np.unique(small.surfaces[name])
+        depth = [each.points[nodes, 2].argmin() for each in (small, large)]
+        assert depth[0] == depth[1]

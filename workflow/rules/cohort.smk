@@ -1,5 +1,6 @@
 rule generate_volunteer:
     input:
+        template="<results>/templates/generator.vtu",
         kernels="<results>/kernels.json",
     output:
         mesh="<results>/{case}/cohort/heart.vtu",

@@ -90,6 +90,10 @@ def stated(*parts):
     return lambda wildcards: [repr(part(wildcards) if callable(part) else part) for part in parts]
 
 
+def template_size(wildcards):
+    return STUDY.templates()[wildcards.template]
+
+
 def case_of(wildcards):
     return CASES[wildcards.case]
 

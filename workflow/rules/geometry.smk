@@ -1,3 +1,24 @@
+# one mesh of each size, which every virtual heart moves to its own wall
+rule build_template:
+    output:
+        "<results>/templates/{template}.vtu",
+    log:
+        "<logs>/templates/{template}.log",
+    benchmark:
+        "<benchmarks>/templates/{template}.tsv"
+    wildcard_constraints:
+        template=one_of(STUDY.templates()),
+    resources:
+        mem_mb=1500,
+        runtime=20,
+    params:
+        size=template_size,
+        stated=stated(template_size),
+        code=code("build_template.py"),
+    script:
+        "../scripts/build_template.py"
+
+
 rule build_measured_mesh:
     input:
         files=measured_files,
@@ -24,6 +45,8 @@ rule build_measured_mesh:
 rule build_volunteer_mesh:
     input:
         outline="<results>/{case}/cohort/heart.vtu",
+        generator="<results>/templates/generator.vtu",
+        template="<results>/templates/calibrator.vtu",
     output:
         "<results>/{case}/geometry/mesh.vtu",
     log:
@@ -37,8 +60,8 @@ rule build_volunteer_mesh:
         runtime=20,
     params:
         case=case_of,
-        size=STUDY.mesh,
-        stated=stated(case_of, STUDY.mesh),
+        size=STUDY.virtual_mesh,
+        stated=stated(case_of, STUDY.virtual_mesh),
         code=code("build_volunteer_mesh.py"),
     script:
         "../scripts/build_volunteer_mesh.py"

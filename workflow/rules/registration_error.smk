@@ -1,5 +1,6 @@
 rule draw_volunteer:
     input:
+        template="<results>/templates/registration_error.vtu",
         kernels="<results>/kernels.json",
     output:
         mesh="<results>/registration_error/hearts/{number}.vtu",
@@ -17,7 +18,7 @@ rule draw_volunteer:
         error=ERROR,
         heart=STUDY.cohort.heart,
         pressures=STUDY.end_diastolic_pressure,
-        stated=stated(ERROR.protocol(STUDY.end_diastolic_pressure), STUDY.cohort.heart, ERROR.seed),
+        stated=stated(ERROR.numerics, STUDY.end_diastolic_pressure, STUDY.cohort.heart, ERROR.seed),
         code=code("draw_volunteer.py"),
     script:
         "../scripts/draw_volunteer.py"

@@ -28,6 +28,9 @@ FURTHEST = 2.0
 """Standard deviations at which a draw is cut off."""
 
 
+AVERAGE = ParametricVentricles(EDV[0], WALL[0], SPHERICITY[0], RIGHT_OVER_LEFT[0] * EDV[0], RIGHT_WALL[0])
+
+
 @dataclass(frozen=True)
 class Anatomy:
     """Ventricles and the period of their beat, s."""

@@ -9,13 +9,12 @@ from heartfit.beat import Beat, motion_of
 from heartfit.cohort.draw_shape import draw_anatomy
 from heartfit.cohort.hidden_heart import draw_heart
 from heartfit.cohort.protocol import Protocol as Protocol
+from heartfit.cohort.template import Template
 from heartfit.electrophysiology.conduction import HEALTHY, Conduction
 from heartfit.electrophysiology.onset import assign_activation
 from heartfit.electrophysiology.personalise import personalised
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.mesher import fill_wall
 from heartfit.geometry.motion import Motion
-from heartfit.geometry.parametric import ParametricVentricles
 from heartfit.geometry.prepare import prepare
 from heartfit.heart import Heart
 from heartfit.mechanics.body import FiniteElementBody
@@ -42,18 +41,17 @@ class VolunteerError(RuntimeError):
 
 
 def generate(
-    shape: ParametricVentricles,
+    bare: VentricularMesh,
     hidden: tuple[Heart, dict[str, float]],
     protocol: Protocol,
     conduction: Conduction = HEALTHY,
     qrs: float | None = None,
 ) -> Volunteer:
-    """The volunteer of this shape in whom the ``hidden`` heart beats; with it comes the truth.
+    """The volunteer of this wall in whom the ``hidden`` heart beats; with it comes the truth.
 
     qrs: s, how long the activation takes, where it was measured.
     """
     heart, truth = hidden
-    bare = fill_wall(shape.surface(), protocol.edge_length, protocol.tolerance)
     prepared = prepare(bare)
     mesh = assign_activation(prepared, personalised(prepared, conduction, qrs))
     reference = unload(mesh, heart.tissue, np.array(protocol.end_diastolic_pressure))
@@ -64,7 +62,10 @@ def generate(
     return Volunteer(prepare(bare.with_points(motion_of(beat).at(0.0))), beat, truth)
 
 
-def draw_volunteer(standard: Mapping[str, float], seed: int, protocol: Protocol) -> Volunteer:
+def draw_volunteer(
+    template: Template, standard: Mapping[str, float], seed: int, protocol: Protocol
+) -> Volunteer:
     """A volunteer whose shape, period and heart are drawn."""
     anatomy = draw_anatomy(seed)
-    return generate(anatomy.shape, draw_heart(standard, anatomy.period, seed), protocol)
+    hidden = draw_heart(standard, anatomy.period, seed)
+    return generate(template.shaped(anatomy.shape), hidden, protocol)

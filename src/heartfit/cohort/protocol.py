@@ -1,4 +1,4 @@
-"""How virtual volunteers are made; apart from the making, which needs the mesher."""
+"""How the hearts of virtual volunteers beat; apart from the making, which needs scipy's solvers."""
 
 from dataclasses import dataclass
 
@@ -7,9 +7,7 @@ from heartfit.simulation import Numerics
 
 @dataclass(frozen=True)
 class Protocol:
-    """How volunteers are made: mesh size and tolerance, m; numerics; pressures (lv, rv) at end diastole, Pa."""
+    """Numerics of the beat; pressures (lv, rv) at end diastole, Pa."""
 
-    edge_length: float
-    tolerance: float
     numerics: Numerics
     end_diastolic_pressure: tuple[float, float]

@@ -22,5 +22,4 @@ class Generator(Strict):
 
     def protocol(self, pressures: Pressures) -> Protocol:
         """As the cohort takes it."""
-        size, loads = self.mesh, (pressures.lv, pressures.rv)
-        return Protocol(size.edge_length, size.tolerance, self.numerics.numerics(), loads)
+        return Protocol(self.numerics.numerics(), (pressures.lv, pressures.rv))

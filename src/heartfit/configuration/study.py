@@ -78,7 +78,8 @@ class Study(Strict):
     cases: str = Field(description="table of the cases")
     tolerances: str = Field(description="table of the numbers that may not drift, and how far")
     measured_heart: tuple[str, ...] = Field(description="folders; the first that exists is used")
-    mesh: MeshSize
+    mesh: MeshSize = Field(description="of a measured heart")
+    virtual_mesh: MeshSize = Field(description="of the calibrator's mesh of a virtual heart")
     numerics: TimeScheme
     observation: Operator
     unscented: Transform = Transform()
@@ -130,6 +131,14 @@ class Study(Strict):
                 "registration": self.registration,
             }
         )
+
+    def templates(self) -> dict[str, MeshSize]:
+        """Sizes of the meshes that are moved to every virtual heart, by who computes on them."""
+        return {
+            "generator": self.cohort.mesh,
+            "calibrator": self.virtual_mesh,
+            "registration_error": self.registration_error.mesh,
+        }
 
     def sigma_points(self, name: str, case: Case) -> Sequence[int]:
         """Indices of the 2n+1 sigma points of a case under a setting."""

@@ -17,12 +17,10 @@ import wildmeshing
 from heartfit.geometry.arrays import Floats, Integers, Names
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.nearest import nearest_on_surface
-from heartfit.geometry.quality import smallest_dihedral_angles
+from heartfit.geometry.quality import SMALLEST_ANGLE, defect_of
 from heartfit.geometry.surface import SURFACES, LabelledSurface, triangle_normals
-from heartfit.geometry.topology import boundary_faces, euler_characteristic, neighbours, rim_loops
+from heartfit.geometry.topology import boundary_faces, neighbours
 
-SMALLEST_ANGLE = np.deg2rad(8.0)
-LARGEST_VOLUME_ERROR = 0.02
 ATTEMPTS = 12
 
 
@@ -30,18 +28,20 @@ class MeshingError(RuntimeError):
     """The wall could not be filled with tetrahedra that are good enough to compute on."""
 
 
-def fill_wall(surface: LabelledSurface, edge_length: float, tolerance: float) -> VentricularMesh:
+def fill_wall(
+    surface: LabelledSurface, edge_length: float, tolerance: float, smallest_angle: float = SMALLEST_ANGLE
+) -> VentricularMesh:
     """Tetrahedra of the wall inside the surface, with the surface's names on their boundary.
 
-    edge_length: wished edge length in m; tolerance: how far in m the boundary may leave the surface.
-    Raises MeshingError when in ATTEMPTS meshes the wall volume is off by more than 2 %, a dihedral angle is
-    below 8 degrees, or a valve ring is pinched.
+    edge_length: wished edge length in m; tolerance: how far in m the boundary may leave the surface;
+    smallest_angle: between two faces, rad. Raises MeshingError when in ATTEMPTS meshes the wall volume is off by
+    more than 2 %, an angle is smaller, or a valve ring is pinched.
     """
     defects = []
     for _ in range(ATTEMPTS):
         points, tets = _tetrahedralise(surface, edge_length, tolerance)
         mesh = VentricularMesh(points, tets, _name_surfaces(surface, points, boundary_faces(tets)))
-        defect = _defect(mesh, surface)
+        defect = defect_of(mesh, surface, smallest_angle)
         if not defect:
             return mesh
         defects.append(defect)
@@ -108,22 +108,3 @@ def _without_islands(labels: Names, pairs: Integers) -> Names:
             if count >= 2 and name != labels[face]:
                 labels[face] = name
     return labels
-
-
-def _defect(mesh: VentricularMesh, surface: LabelledSurface) -> str:
-    """What is wrong with the mesh, or nothing."""
-    error = mesh.wall_volume() / surface.volume() - 1.0
-    if abs(error) > LARGEST_VOLUME_ERROR:
-        return f"wall volume off by {100 * error:+.1f} %"
-    angle = smallest_dihedral_angles(mesh.points, mesh.tets).min()
-    if angle < SMALLEST_ANGLE:
-        return f"smallest dihedral angle {np.rad2deg(angle):.1f} degrees"
-    boundary = np.vstack(list(mesh.surfaces.values()))
-    found, wished = euler_characteristic(boundary), euler_characteristic(surface.triangles)
-    if found != wished:
-        return f"hole in a wall thinner than the tolerance (Euler characteristic {found} instead of {wished})"
-    for name in ("lv_endo", "rv_endo"):
-        loops, expected = len(rim_loops(mesh.surfaces[name])), len(rim_loops(surface.surfaces[name]))
-        if loops != expected:
-            return f"{name} has {loops} openings instead of {expected}"
-    return ""

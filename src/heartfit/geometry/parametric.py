@@ -12,14 +12,15 @@ a follows from the left cavity volume, B from the right one.
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
 from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats, Integers
+from heartfit.geometry.arrays import Floats
 from heartfit.geometry.cavity import Cavity
-from heartfit.geometry.surface import LabelledSurface, enclosed_volume
-from heartfit.geometry.topology import orient
+from heartfit.geometry.seams import Seams
+from heartfit.geometry.surface import LabelledSurface
 
 PATCH_AZIMUTH = np.deg2rad(78.0)
 PATCH_DEPTH = np.deg2rad(65.0)
@@ -27,6 +28,7 @@ ROUNDING = 3e-3
 HALF_PATCH = 14
 OUTSIDE_PATCH = 26
 ROWS = 28
+NAMES = ("lv_endo", "epi", "rv_endo", "rv_endo", "base", "base")
 MILLILITRE = 1e-6
 
 
@@ -54,41 +56,30 @@ class ParametricVentricles:
     def surface(self) -> LabelledSurface:
         """The closed wall surface; base in the plane z = 0, apex towards -z, right ventricle towards +x.
 
-        Raises InputError when the right cavity does not fit beside the left one.
+        Nodes and triangles are numbered alike for all shapes. Raises InputError when the right cavity does not fit
+        beside the left one.
         """
         from scipy.optimize import brentq
 
-        a = self._radius()
+        a, cavity = self._radius(), _cavity("rv_endo")
 
         def excess(bulge: float) -> float:
-            surface = self._build(a, bulge)
-            return Cavity.of(surface, "rv_endo").volume(surface.points) - self.rv_edv
+            return cavity.volume(_seams().points(self._sheets(a, bulge).grids())) - self.rv_edv
 
         if excess(4.0 * a) < 0.0:
             raise InputError(
                 f"rv_edv {self.rv_edv:g} m^3 does not fit beside edv {self.edv:g} m^3; make it smaller"
             )
-        return self._build(a, float(brentq(excess, 1e-3 * a, 4.0 * a, xtol=1e-6 * a)))
+        bulge = float(brentq(excess, 1e-3 * a, 4.0 * a, xtol=1e-6 * a))
+        return _seams().surface(self._sheets(a, bulge).grids())
 
     def _radius(self) -> float:
         """Radius a in m of the left cavity at the base; the volume of the faceted cavity grows with a^3."""
-        unit = self._build(1.0, 1.0)
-        return float(np.cbrt(self.edv / Cavity.of(unit, "lv_endo").volume(unit.points)))
+        unit = _seams().points(self._sheets(1.0, 1.0).grids())
+        return float(np.cbrt(self.edv / _cavity("lv_endo").volume(unit)))
 
-    def _build(self, a: float, bulge: float) -> LabelledSurface:
-        sheet = _Sheets(a, 2.0 * self.sphericity * a, self.wall_thickness, self.rv_wall_thickness, bulge)
-        eta, phi = np.meshgrid(np.linspace(0.0, np.pi / 2, ROWS), _azimuths(), indexing="ij")
-        patch = _patch_angles()
-        rim = (np.zeros_like(_azimuths()), _azimuths())
-        sheets = [
-            ("lv_endo", sheet.left_endo(eta, phi)),
-            ("epi", sheet.epi(eta, phi)),
-            ("rv_endo", sheet.left_epi(*patch)),
-            ("rv_endo", sheet.right_endo(*patch)),
-            ("base", np.stack([sheet.left_endo(*rim), sheet.left_epi(*rim)])),
-            ("base", np.stack([sheet.right_endo(*rim), sheet.epi(*rim)])),
-        ]
-        return _sew(sheets)
+    def _sheets(self, a: float, bulge: float) -> "_Sheets":
+        return _Sheets(a, 2.0 * self.sphericity * a, self.wall_thickness, self.rv_wall_thickness, bulge)
 
 
 @dataclass(frozen=True)
@@ -100,6 +91,20 @@ class _Sheets:
     wall: float
     right_wall: float
     bulge: float
+
+    def grids(self) -> list[Floats]:
+        """The parts of the closed surface that NAMES names, as grids (i,j,3) of points."""
+        turn, patch = _azimuths(), _patch_angles()
+        eta, phi = np.meshgrid(np.linspace(0.0, np.pi / 2, ROWS), turn, indexing="ij")
+        rim = (np.zeros_like(turn), turn)
+        return [
+            self.left_endo(eta, phi),
+            self.epi(eta, phi),
+            self.left_epi(*patch),
+            self.right_endo(*patch),
+            np.stack([self.left_endo(*rim), self.left_epi(*rim)]),
+            np.stack([self.right_endo(*rim), self.epi(*rim)]),
+        ]
 
     def left_endo(self, eta: Floats, phi: Floats) -> Floats:
         across = self.a * np.cos(eta)
@@ -125,6 +130,9 @@ class _Sheets:
         return endo + distance[..., None] * normal / np.linalg.norm(normal, axis=-1, keepdims=True)
 
 
+_ANY = _Sheets(a=0.026, c=0.096, wall=9e-3, right_wall=3.5e-3, bulge=0.03)
+
+
 def _smooth_positive(x: Floats) -> Floats:
     """The maximum of x and 0, rounded over ROUNDING: (x + sqrt(x^2 + s^2)) / 2."""
     return 0.5 * (x + np.hypot(x, ROUNDING))
@@ -148,27 +156,15 @@ def _patch_angles() -> tuple[Floats, Floats]:
     return PATCH_DEPTH * q * np.cos(omega), PATCH_AZIMUTH * q * np.sin(omega)
 
 
-def _sew(sheets: list[tuple[str, Floats]]) -> LabelledSurface:
-    """One closed surface from grids (i,j,3) of points, joined where their points coincide to a nanometre."""
-    points = np.concatenate([grid.reshape(-1, 3) for _, grid in sheets])
-    _, first, merged = np.unique(np.round(points * 1e9), axis=0, return_index=True, return_inverse=True)
-    start = np.cumsum([0] + [grid.shape[0] * grid.shape[1] for _, grid in sheets])
-    triangles = [
-        _grid_triangles(grid.shape[0], grid.shape[1]) + s for (_, grid), s in zip(sheets, start, strict=False)
-    ]
-    labels = np.repeat([name for name, _ in sheets], [len(part) for part in triangles])
-    joined = merged.reshape(-1)[np.concatenate(triangles)]
-    whole = (joined != np.roll(joined, 1, axis=1)).all(axis=1)
-    oriented = orient(joined[whole].astype(np.int64))
-    if enclosed_volume(points[first], oriented) < 0.0:
-        oriented = oriented[:, ::-1]
-    return LabelledSurface(points[first], oriented, labels[whole])
+@cache
+def _seams() -> Seams:
+    """How the parts hang together, found on one of all shapes."""
+    return Seams.of(NAMES, _ANY.grids())
 
 
-def _grid_triangles(rows: int, columns: int) -> Integers:
-    node = np.arange(rows * columns).reshape(rows, columns)
-    a, b, c, d = node[:-1, :-1], node[1:, :-1], node[1:, 1:], node[:-1, 1:]
-    return np.concatenate([np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)])
+@cache
+def _cavity(name: str) -> Cavity:
+    return Cavity.of(_seams().surface(_ANY.grids()), name)
 
 
 def _require(name: str, value: float, low: float, high: float, unit: str) -> None:

@@ -1,4 +1,4 @@
-"""Carries the end-diastolic mesh through the beat."""
+"""Carries a mesh by the surface that it fills: through the beat, or to another shape."""
 
 import numpy as np
 
@@ -18,10 +18,15 @@ def carry_mesh(
     phases (p,n,3) m, phases[0] = surface.points; times (p,) s; period s. A boundary node keeps its distance
     from the nearest point of the surface; inside, the displacement is harmonic. Phase 0 is the mesh itself.
     """
+    return Motion(times, period, carry_nodes(mesh, surface, phases))
+
+
+def carry_nodes(mesh: VentricularMesh, surface: LabelledSurface, phases: Floats) -> Floats:
+    """The places (p,n,3) m of the mesh's nodes where its surface's points are at phases (p,s,3) m."""
     nodes, triangles, weights = _attach(mesh, surface)
-    moved = np.einsum("fc,pfcd->fpd", weights, (phases - phases[0])[:, triangles])
+    moved = np.einsum("fc,pfcd->fpd", weights, (phases - surface.points)[:, triangles])
     displacement = harmonic_extension(mesh.points, mesh.tets, nodes, moved)
-    return Motion(times, period, mesh.points + np.moveaxis(displacement, 1, 0))
+    return mesh.points + np.moveaxis(displacement, 1, 0)
 
 
 def _attach(mesh: VentricularMesh, surface: LabelledSurface) -> tuple[Integers, Integers, Floats]:
