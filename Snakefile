@@ -21,6 +21,7 @@ rule all:
         expand("<results>/figures/{about}.png", about=PICTURES),
         # asked for by name, or Snakemake would not miss a beat that was deleted
         [beats_of(case, setting) for case in CASES for setting in SETTINGS],
+        surroundings(SETTINGS),
 
 
 include: "workflow/rules/resources.smk"
@@ -30,6 +31,7 @@ include: "workflow/rules/registration.smk"
 include: "workflow/rules/registration_error.smk"
 include: "workflow/rules/curves.smk"
 include: "workflow/rules/calibration.smk"
+include: "workflow/rules/sensitivity.smk"
 include: "workflow/rules/verification.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/meaning.smk"

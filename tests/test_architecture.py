@@ -25,9 +25,11 @@ HEIGHTS = (
     ("sphere",),
     ("cohort",),
     ("observation",),
+    ("spherical_case",),
     ("verification",),
     ("kernels",),
     ("calibration",),
+    ("sensitivity",),
     ("tables",),
     ("catalogue",),
     ("configuration",),
@@ -52,6 +54,8 @@ PHYSICS |= {
     "registration",
     "observation",
     "calibration",
+    "sensitivity",
+    "spherical_case",
     "verification",
 }
 HEART = {
@@ -111,9 +115,9 @@ def test_imports_point_downwards(file):
     assert not upward, f"{own} may not import {upward}"
 
 
-def test_calibration_never_imports_a_heart():
+def test_calibration_and_sensitivity_never_import_a_heart():
     for file in FILES:
-        if layer(file) == "calibration":
+        if layer(file) in {"calibration", "sensitivity"}:
             assert not layers_imported(file) & HEART, file
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from heartfit.beat import Beat, failed_beat
+from heartfit.calibration.forward import Outcome
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.slopes import Slopes
 from heartfit.calibration.unscented import SigmaPoint
@@ -16,12 +17,17 @@ from heartfit.configuration.setting import Setting
 from heartfit.configuration.study import Operator, Transform
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics.body import StepFailed
-from heartfit.observation.beat import observe_beats
+from heartfit.observation.beat import beat_curves, observe_beats
 from heartfit.observation.curve import Curve
 from heartfit.observation.measurement import Measurement, observe_measured
 from heartfit.observation.noise_model import NoiseModel
+from heartfit.observation.operator import PressureFeatures, VolumeFeatures
+from heartfit.observation.vector import cavity_indices, observe
 from heartfit.simulation import Progress, simulate
 from heartfit.ventricles import ventricles
+
+OBSERVED = (*VolumeFeatures.names, *PressureFeatures.names)
+"""All six observations of the paper."""
 
 
 def run_beat(
@@ -72,6 +78,31 @@ def estimate(
     observed = measurement.corrected if transform.noise else measurement.values
     outcomes = observe_beats(beats, operator.features(measured), sensors)
     return calibrate(prior, outcomes, observed, noise, transform.scaling())
+
+
+def observe_plausibility(
+    setting: Setting, points: Sequence[SigmaPoint], beats: Iterable[Beat], operator: Operator
+) -> list[Outcome]:
+    """The six observations of each beat and what else says whether it is plausible, or why it failed.
+
+    EDV and ESV in m^3, SV in m^3 and EF as shares: not through the operator, as published values are.
+    """
+    features = operator.trial_features(operator.frames)
+    outcomes: list[Outcome] = []
+    for point, beat in zip(points, beats, strict=True):
+        curves = beat_curves(beat, setting.sensors(point.parameters))
+        outcomes.append(observe(curves, features) | cavity_indices(curves) if curves else beat.reason)
+    return outcomes
+
+
+def curves_of_points(
+    setting: Setting, points: Sequence[SigmaPoint], beats: Iterable[Beat]
+) -> dict[str, dict[str, Curve]]:
+    """The curves of each point's beat by its label, none of a failed one."""
+    return {
+        point.label: beat_curves(beat, setting.sensors(point.parameters))
+        for point, beat in zip(points, beats, strict=True)
+    }
 
 
 def observe_case(

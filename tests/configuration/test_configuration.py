@@ -129,11 +129,11 @@ def test_the_prior_of_a_setting_stands_over_the_study_s_over_the_declared_one(co
 
 
 def test_the_heart_stands_at_the_mean_of_the_prior(content):
-    content["settings"]["physical"]["heart"] = {"alpha": 5.0}
+    content["settings"]["physical"]["heart"] = {"k_0": 9e4}
     content["prior"]["mu"] = {"mean": 8e3}
     heart = validated(Study, content, "config.yaml").setting("physical").base_heart(0.9)
     assert heart.period == 0.9
-    assert heart.tissue.active.alpha == 5.0
+    assert heart.tissue.active.k_0 == 9e4
     assert heart.tissue.active.mu == pytest.approx(8e3)
 
 
@@ -233,6 +233,7 @@ def test_without_its_images_the_measured_heart_remains_and_one_line_says_so(
 def test_a_period_that_is_not_the_measured_one_is_refused(content, tmp_path, measured_heart_folder):
     table = tmp_path / "cases.tsv"
     content |= {"cases": str(table), "measured_heart": [str(measured_heart_folder)]}
+    content["sensitivity"]["case"] = "a"
     table.write_text("case\tkind\tperiod_s\na\tmeasured\t0.829\n")
     assert set(plan_study(content).cases) == {"a"}
     table.write_text("case\tkind\tperiod_s\na\tmeasured\t0.90\n")

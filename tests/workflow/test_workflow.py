@@ -46,12 +46,14 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert readers(run.stdout, "cohort/heart") == {"image_volunteer", "build_volunteer_mesh"}
     assert readers(run.stdout, "images/cine") == {"register_volunteer", "plot_contours"}
     assert counts["try_acquisition"] == 24 + 4 + 6 * 3
+    assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
     beating = {"generate_volunteer", "draw_volunteer", "simulate_point", "simulate_calibrated"}
+    beating |= {"simulate_surrounding", "study_sphere"}
     assert readers(run.stdout, "kernels") == beating
     targets = inputs(dict(jobs(run.stdout))["all"])
-    assert sum("/beats/" in name for name in targets) == counts["simulate_point"], (
-        "a deleted one is not missed"
-    )
+    assert sum("/beats/" in name for name in targets) == (
+        counts["simulate_point"] + counts["simulate_surrounding"]
+    ), "a deleted one is not missed"
 
 
 @pytest.mark.measured

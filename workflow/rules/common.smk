@@ -48,6 +48,8 @@ PICTURES = [
     "registration",
     "noise_model",
     *(f"{case}_activation" for case in CASES),
+    "sobol",
+    *(f"sensitivity{about}_{setting}" for about in ("", "_curves") for setting in SETTINGS),
     *(f"{case}_contours" for case in VIRTUAL + IMAGED),
     *(f"{case}_cine_{about}" for case in IMAGED for about in ("outlines", "volume")),
 ]
@@ -58,7 +60,7 @@ CASE_PICTURES = [
     for about in ("", "_sensitivity", "_shape", "_card")
     for kind in ("png", "pdf")
 ]
-TABLES = ["table1", "cards", "specificity"]
+TABLES = ["table1", "cards", "specificity", "selection", *(f"sensitivity_{setting}" for setting in SETTINGS)]
 FRESH = range(ERROR.sequences, ERROR.sequences + ERROR.fresh)
 
 
@@ -119,6 +121,12 @@ def beats_of(case, setting):
         setting=setting,
         point=STUDY.sigma_points(setting, CASES[case]),
     )
+
+
+def surroundings(setting):
+    """The beats about the prior's mean on which the sensitivities rest."""
+    points = range(2 * len(STUDY.sensitivity.parameters) + 1)
+    return expand("<results>/sensitivity/{setting}/beats/{point}.json", setting=setting, point=points)
 
 
 def sigma_point_beats(wildcards):

@@ -1,6 +1,6 @@
 """A setting: which model, what is estimated of it, and from which prior."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, PositiveFloat, model_validator
@@ -59,6 +59,14 @@ class Setting(Strict):
         return self.model_copy(
             update={"estimate": (*self.estimate, *self.with_pressure), "with_pressure": ()}
         )
+
+    def estimating(self, names: Sequence[str]) -> "Setting":
+        """The setting with these parameters estimated instead; one that was fixed is the mean of its prior."""
+        freed = {name: Prior(mean=value) for name, value in self.heart.items() if name in names}
+        prior = self.prior | {name: mean.over(self.prior.get(name, Prior())) for name, mean in freed.items()}
+        fixed = {name: value for name, value in self.heart.items() if name not in names}
+        changes = {"estimate": tuple(names), "with_pressure": (), "heart": fixed, "prior": prior}
+        return self.model_copy(update=changes)
 
     def with_prior(self, table: Mapping[str, Prior]) -> "Setting":
         """The setting with the prior complete: its own, over the study's, over the declared one."""

@@ -18,6 +18,7 @@ from heartfit.configuration.imaging import (
     flat,
 )
 from heartfit.configuration.numerics import MeshSize, TimeScheme
+from heartfit.configuration.sensitivity import SensitivityStudy
 from heartfit.configuration.setting import Prior, Setting, require_known
 from heartfit.configuration.strict import Strict
 from heartfit.observation.curve import Curve
@@ -87,15 +88,19 @@ class Study(Strict):
     cohort: Cohort
     registration: Registration = Registration()
     registration_error: RegistrationError
+    sensitivity: SensitivityStudy
     prior: dict[str, Prior] = Field({}, description="where it differs from the declared one")
     settings: dict[str, Setting] = Field(min_length=1)
 
     @model_validator(mode="after")
     def _prior_is_known(self) -> Self:
-        for name in (*self.prior, *self.cohort.heart):
+        tried = (*self.sensitivity.parameters, *self.sensitivity.sphere.heart)
+        for name in (*self.prior, *self.cohort.heart, *tried):
             require_known(name)
         for setting in self.settings.values():
             setting.seeing_pressure().with_prior(self.prior)
+        for name in self.settings:
+            self.surroundings(name)
         for name in self.registration_error.acquisitions():
             self._acquisition(name)
         return self
@@ -105,6 +110,22 @@ class Study(Strict):
         setting = self.settings[name]
         seen = setting.seeing_pressure() if case is not None and case.catheter else setting
         return seen.with_prior(self.prior)
+
+    def estimated(self) -> dict[str, tuple[tuple[str, ...], tuple[str, ...]]]:
+        """By setting, what is estimated from volume alone and from volume and pressure."""
+        return {
+            name: (each.estimate, each.seeing_pressure().estimate) for name, each in self.settings.items()
+        }
+
+    def surroundings(self, name: str) -> Setting:
+        """The setting with every parameter of the sensitivity study estimated."""
+        return self.settings[name].estimating(self.sensitivity.parameters).with_prior(self.prior)
+
+    def sphere(self) -> Setting:
+        """The same parameters of a heart whose left ventricle is a sphere."""
+        means = {name: Prior(mean=value) for name, value in self.sensitivity.sphere.heart.items()}
+        parts = {"element": "sphere", "estimate": self.sensitivity.parameters, "prior": means}
+        return Setting.model_validate(parts).with_prior(self.prior)
 
     def scanner(self, acquisition: str = BASELINE) -> Scanner:
         """The cohort's scanner, or that of another acquisition on which registration is tried."""

@@ -44,6 +44,7 @@ def plan_study(content: Mapping[str, Any], where: str = "configuration") -> Plan
     measured = [case for case in kept.values() if case.kind == "measured"]
     if folder is not None and measured:
         _require_sound(folder, measured)
+    _require_reference(study, kept)
     left_out, images = _left_out(absent, study) if absent else "", None
     if folder is not None and measured:
         images = short_axis_images(folder)
@@ -61,6 +62,13 @@ def _require_sound(folder: Path, cases: Sequence[Case]) -> None:
                 f"{case.case}: period_s is {case.period:g}, the beat lengths in {folder} say {heart.period:.3f} s; "
                 "expected the same to 2 %: correct the table of cases"
             )
+
+
+def _require_reference(study: Study, cases: Mapping[str, Case]) -> None:
+    if study.sensitivity.case not in cases:
+        raise InputError(
+            f"sensitivity.case = {study.sensitivity.case!r} is no case that can be run; known are {', '.join(cases)}"
+        )
 
 
 def _left_out(absent: Sequence[str], study: Study) -> str:

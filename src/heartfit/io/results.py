@@ -15,6 +15,7 @@ from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
 from heartfit.observation.measurement import Measurement
 from heartfit.observation.noise import Observation
+from heartfit.sensitivity.covariance import Sensitivity
 from heartfit.tables.case import CaseResult
 
 
@@ -81,6 +82,19 @@ def read_posterior(path: Path) -> Posterior:
         notes=tuple(content["notes"]),
         **{name: np.array(content[name]) for name in arrays},
     )
+
+
+def write_sensitivity(path: Path, result: Sensitivity, fingerprint: str) -> None:
+    units = {"centre": "SI", "covariance": "1", "slopes": "d ln Z / d ln theta"}
+    write_result(path, _shallow(result), fingerprint, units)
+
+
+def read_sensitivity(path: Path) -> Sensitivity:
+    """What every parameter does to every observation; see heartfit.sensitivity.covariance."""
+    content = read_result(path)
+    centre, covariance, slopes = (np.array(content[name]) for name in ("centre", "covariance", "slopes"))
+    names, failed = tuple(content["observations"]), tuple(content["failed"])
+    return Sensitivity(_gaussian(content["prior"]), names, centre, covariance, slopes, failed)
 
 
 def read_truth(path: Path) -> dict[str, float]:

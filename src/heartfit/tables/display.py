@@ -18,6 +18,11 @@ def printed(value: float, unit: str) -> float:
     return value / DISPLAY.get(unit, (unit, 1.0))[1]
 
 
+def printed_unit(unit: str) -> str:
+    """The unit in which a quantity given in `unit` is printed."""
+    return DISPLAY.get(unit, (unit, 1.0))[0]
+
+
 def heading(name: str, unit: str) -> str:
     """Column heading of a quantity given in `unit`, such as "sigma_0 (kPa)"."""
-    return f"{name} ({DISPLAY.get(unit, (unit, 1.0))[0]})"
+    return f"{name} ({printed_unit(unit)})"

@@ -1,0 +1,1 @@
+"""Which parameters the observations see; knows vectors and Gaussians, never a heart."""

@@ -1,0 +1,52 @@
+"""A subject as a sphere answers parameters with observations, and feels no bulk modulus."""
+
+from dataclasses import replace
+
+import pytest
+
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart import Heart
+from heartfit.observation.operator import PressureFeatures, VolumeFeatures
+from heartfit.simulation import Numerics
+from heartfit.spherical_case import UNFILLED, SphericalCase
+
+FEATURES = {"lv_volume": VolumeFeatures(), "lv_pressure": PressureFeatures()}
+
+
+@pytest.fixture(scope="module")
+def subject(spherical_heart: Heart) -> SphericalCase:
+    return SphericalCase(160e-6, 150e-6, 1300.0, spherical_heart, FEATURES, Numerics(max_beats=1))
+
+
+def observed(subject: SphericalCase, **parameters: float) -> dict[str, float]:
+    outcome = subject(parameters)
+    assert not isinstance(outcome, str), outcome
+    return outcome
+
+
+def test_all_six_observations_answer_the_parameters(subject: SphericalCase) -> None:
+    usual, strong = observed(subject), observed(subject, sigma_0=180e3)
+    assert tuple(usual) == (*VolumeFeatures.names, *PressureFeatures.names)
+    assert strong["V_min"] < usual["V_min"]
+    assert strong["dPdt_max"] > usual["dPdt_max"]
+
+
+def test_an_incompressible_wall_has_no_bulk_modulus(subject: SphericalCase) -> None:
+    assert observed(subject, K=1e5) == observed(subject, K=1e7)
+
+
+def test_every_wall_is_unloaded_by_itself(subject: SphericalCase) -> None:
+    """At the trigger a soft and a stiff wall hold the same volume, though their references differ."""
+    starts = [replace(subject, pressure=600.0)({"c_1": c_1, "sigma_0": 1e3}) for c_1 in (3e3, 9e3)]
+    assert all(not isinstance(each, str) for each in starts)
+
+
+def test_what_cannot_be_unloaded_is_a_reason(subject: SphericalCase) -> None:
+    assert subject({"c_1": 1.0, "c_2": 1.0}) == UNFILLED
+
+
+def test_volumes_are_those_of_the_mesh(ventricle: VentricularMesh, spherical_heart: Heart) -> None:
+    case = SphericalCase.of(ventricle, 1300.0, spherical_heart, FEATURES, Numerics())
+    septum_and_free_wall = ventricle.element_volumes()[ventricle.segments != 0].sum()
+    assert case.wall == pytest.approx(septum_and_free_wall)
+    assert 20e-6 < case.cavity < 300e-6
