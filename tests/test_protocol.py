@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from heartfit.beat import Beat
+from heartfit.calibration.slopes import Slopes
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import Posterior
 from heartfit.configuration.setting import Prior, Setting
@@ -46,7 +47,7 @@ def test_a_sigma_point_is_seen_through_the_sensors_of_its_own_parameters(smoothi
     assert found == pytest.approx(smoothing, rel=0.01)  # by one linear step from 15 ms
 
 
-def estimated(measurement: Measurement, noise: bool) -> Posterior:
+def estimated(measurement: Measurement, noise: bool, slopes: Slopes | None = None) -> Posterior:
     """The posterior of three sensors, which each point sees the same beat through."""
     prior = {name: Prior(mean=mean, sd=0.3) for name, mean in SENSORS.items()}
     setting = Setting(
@@ -59,19 +60,22 @@ def estimated(measurement: Measurement, noise: bool) -> Posterior:
     measured = {"lv_volume": beat_curves(beat())["lv_volume"].resampled(FRAMES)}
     points = sigma_points(setting.gaussian())
     given = points, [beat()] * len(points), measured, measurement, operator
-    return estimate(setting, setting.gaussian(), *given, Transform(noise=noise))
+    transform = Transform().weighed() if noise else Transform()
+    return estimate(setting, setting.gaussian(), *given, transform, slopes)
+
+
+OBSERVATIONS = [
+    Observation("V_min", 6.0e-5, "m^3", 2e-6, 3e-6),
+    Observation("q_max", 4.5e-4, "m^3/s", 3e-5, -4e-5),
+    Observation("q_min", -4.2e-4, "m^3/s", 2e-5, 2e-5),
+]
 
 
 def test_noise_takes_off_the_bias_and_weighs_by_the_whole_covariance_and_the_paper_does_neither() -> None:
-    observations = [
-        Observation("V_min", 6.0e-5, "m^3", 2e-6, 3e-6),
-        Observation("q_max", 4.5e-4, "m^3/s", 3e-5, -4e-5),
-        Observation("q_min", -4.2e-4, "m^3/s", 2e-5, 2e-5),
-    ]
-    independent = Measurement.independent(observations)
-    sd = np.array([each.noise for each in observations])
+    independent = Measurement.independent(OBSERVATIONS)
+    sd = np.array([each.noise for each in OBSERVATIONS])
     correlation = np.array([[1.0, -0.3, 0.2], [-0.3, 1.0, -0.8], [0.2, -0.8, 1.0]])
-    together = Measurement(observations, correlation * np.outer(sd, sd))
+    together = Measurement(OBSERVATIONS, correlation * np.outer(sd, sd))
     paper = estimated(independent, noise=False)
     assert paper.observed.tolist() == [6.0e-5, 4.5e-4, -4.2e-4]
     assert np.array_equal(estimated(together, noise=False).estimate.mean, paper.estimate.mean)
@@ -81,3 +85,19 @@ def test_noise_takes_off_the_bias_and_weighs_by_the_whole_covariance_and_the_pap
     expected = found.cov_xz @ np.linalg.solve(total, found.observed - found.predicted)
     assert found.estimate.mean - found.prior.mean == pytest.approx(expected)
     assert estimated(independent, noise=True).estimate.mean != pytest.approx(found.estimate.mean, rel=1e-3)
+
+
+def test_what_is_held_fixed_is_noise_where_noise_is_known_and_nothing_where_numbers_are_met() -> None:
+    independent = Measurement.independent(OBSERVATIONS)
+    slopes = Slopes(
+        ("sigma_0", "delay"), ("V_min", "q_max", "q_min"), np.array([[0.5, 0.2, -0.3], [9.0, 9.0, 9.0]])
+    )
+    found = estimated(independent, True, slopes)
+    moved = 0.1 * np.array([0.5, 0.2, -0.3]) * found.observed
+    total = found.cov_zz + independent.covariance + np.outer(moved, moved)
+    expected = found.cov_xz @ np.linalg.solve(total, found.observed - found.predicted)
+    assert found.estimate.mean - found.prior.mean == pytest.approx(expected), (
+        "delay is estimated, so not fixed"
+    )
+    met, plain = estimated(independent, False, slopes), estimated(independent, False)
+    assert np.array_equal(met.estimate.mean, plain.estimate.mean)
