@@ -20,6 +20,16 @@ def test_a_card_knows_places_and_cover_in_prior_deviations(cohort):
     assert volunteer.weakest() == "R_p up with sigma_0 up"
 
 
+@pytest.mark.parametrize(("reach", "held"), [(1.95, True), (1.97, False)])
+def test_an_interval_reaches_as_far_as_95_percent_of_its_own_posterior(cohort, reach, held):
+    estimate = cohort[0].weighed.estimate
+    edge = {
+        name: np.exp(m + reach * sd)
+        for name, m, sd in zip(estimate.names, estimate.mean, estimate.sd, strict=True)
+    }
+    assert set(replace(cohort[0], truth=edge).covered(estimate).values()) == {held}
+
+
 def test_the_table_has_a_row_per_parameter_and_no_verdict_without_a_truth(cohort):
     table = cards_table(cohort).set_index(["case", "parameter"])
     assert len(table) == 5 * 4 + 2 * 7

@@ -67,7 +67,10 @@ def test_a_difference_that_the_data_do_not_see_is_warned_of(cohort, groups):
 
 
 def test_both_claims_hold_in_truth_and_one_does_not_where_the_prior_pulls(compared):
-    table = claims_table([compared]).set_index(["claim", "reading"])["holds"]
+    claims = claims_table([compared]).set_index(["claim", "reading"])
+    weakest = claims.loc[("sigma_0 of lbbb1 and lbbb2 below", "truth"), "over healthy"]
+    assert weakest == pytest.approx(compared.ratios("truth", "sigma_0")["lbbb1"]), "the less weak one decides"
+    table = claims["holds"]
     assert (table.loc["sigma_0 of lbbb1 and lbbb2 below"] == "holds").all()
     assert table.loc[("c_1 of lbbb2 above", "truth")] == "holds"
     assert table.loc[("c_1 of lbbb2 above", "noise and fixed")] == "does not hold"

@@ -37,9 +37,7 @@ def coverage_table(cards: Sequence[Card]) -> pd.DataFrame:
         {"setting": setting, "posterior": posterior} | row
         for setting in dict.fromkeys(card.setting for card in cards)
         for posterior, estimate in POSTERIORS.items()
-        for row in _shares(
-            [card.covered(estimate(card)) for card in cards if card.setting == setting and card.truth]
-        )
+        for row in _shares([card.covered(estimate(card)) for card in cards if card.setting == setting])
     ]
     return pd.DataFrame(rows)
 
