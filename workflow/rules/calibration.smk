@@ -50,9 +50,9 @@ rule update_parameters:
         measured="<results>/{case}/curves/measured.csv",
         observations="<results>/{case}/curves/observations.json",
         beats=sigma_point_beats,
+        sensitivity="<results>/sensitivity/{setting}/sensitivity.json",
     output:
-        met="<results>/{case}/{setting}/calibration/posterior.json",
-        weighed="<results>/{case}/{setting}/calibration/posterior_noise.json",
+        multiext("<results>/{case}/{setting}/calibration/posterior", met=".json", weighed="_noise.json"),
     log:
         "<logs>/{case}/{setting}/update_parameters.log",
     benchmark:

@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
+from heartfit.calibration.slopes import Slopes
 from heartfit.io.beats import read_beat
 from heartfit.io.curves import read_curves
 from heartfit.io.log import record
-from heartfit.io.results import read_observations, read_sigma_points, write_posterior
+from heartfit.io.results import read_observations, read_sensitivity, read_sigma_points, write_posterior
 from heartfit.protocol import estimate
 
 record(snakemake.log[0])
@@ -22,7 +23,8 @@ arguments = (
     measurement,
     given.operator,
 )
-met = estimate(*arguments, given.transform)
-weighed = estimate(*arguments, given.transform.weighed())
+seen = read_sensitivity(Path(files.sensitivity))
+slopes = Slopes(seen.parameters, seen.observations, seen.slopes)
+met, weighed = estimate(*arguments, given.transform), estimate(*arguments, given.transform.weighed(), slopes)
 write_posterior(Path(snakemake.output.met), met, given.code)
 write_posterior(Path(snakemake.output.weighed), weighed, given.code)
