@@ -245,3 +245,20 @@ def test_the_schema_is_in_step():
     assert (ROOT / "config" / "schema.json").read_text() == schema(), (
         "write it anew: heartfit configuration-schema > config/schema.json"
     )
+
+
+def test_hearts_of_the_sphere_study_are_seen_by_volume_or_by_both(content):
+    study = validated(Study, content, "config.yaml")
+    twins = study.twins()
+    assert {name: len(each.prior.names) for name, each in twins.items()} == {
+        "volume": 4,
+        "volume and pressure": 7,
+    }
+    assert [len(each.noise) for each in twins.values()] == [3, 6]
+    assert twins["volume"].model.cavity == study.sphere_study.cavity
+
+
+def test_a_sphere_study_tells_the_noise_of_every_observation(content):
+    del content["sphere_study"]["noise"]["P_max"]
+    with pytest.raises(InputError, match=r"expected one number for each of \['P_max'"):
+        validated(Study, content, "config.yaml")

@@ -45,6 +45,8 @@ TRIED = {
 }
 TRIALS = [(acquisition, number) for acquisition, numbers in TRIED.items() for number in numbers]
 PICTURES = [
+    "alternatives",
+    "coverage_sphere",
     "registration",
     "noise_model",
     *(f"{case}_activation" for case in CASES),

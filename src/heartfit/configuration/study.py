@@ -1,7 +1,7 @@
 """A whole study: meshes, numerics, observation, transform, cohort and settings."""
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Self
+from typing import TYPE_CHECKING, Annotated, Self
 
 from pydantic import Field, PositiveFloat, model_validator
 
@@ -20,10 +20,14 @@ from heartfit.configuration.imaging import (
 from heartfit.configuration.numerics import MeshSize, TimeScheme
 from heartfit.configuration.sensitivity import SensitivityStudy
 from heartfit.configuration.setting import Prior, Setting, require_known
+from heartfit.configuration.spheres import SphereStudy
 from heartfit.configuration.strict import Strict
 from heartfit.observation.curve import Curve
 from heartfit.observation.operator import CurveFeatures, PressureFeatures, VolumeFeatures
 from heartfit.observation.vector import operators
+
+if TYPE_CHECKING:
+    from heartfit.twins.draw import Twins
 
 
 class Operator(Strict):
@@ -89,6 +93,7 @@ class Study(Strict):
     registration: Registration = Registration()
     registration_error: RegistrationError
     sensitivity: SensitivityStudy
+    sphere_study: SphereStudy
     prior: dict[str, Prior] = Field({}, description="where it differs from the declared one")
     settings: dict[str, Setting] = Field(min_length=1)
 
@@ -101,6 +106,7 @@ class Study(Strict):
             setting.seeing_pressure().with_prior(self.prior)
         for name in self.settings:
             self.surroundings(name)
+        self.sphere_study.setting.seeing_pressure().with_prior(self.prior)
         for name in self.registration_error.acquisitions():
             self._acquisition(name)
         return self
@@ -164,3 +170,13 @@ class Study(Strict):
     def sigma_points(self, name: str, case: Case) -> Sequence[int]:
         """Indices of the 2n+1 sigma points of a case under a setting."""
         return range(2 * len(self.setting(name, case).estimate) + 1)
+
+    def twins(self) -> "dict[str, Twins]":
+        """Hearts of the sphere study by what is measured of them."""
+        features = self.observation.trial_features(self.observation.frames)
+        seen = {"volume": {"lv_volume": features["lv_volume"]}, "volume and pressure": features}
+        pressure, numerics = self.end_diastolic_pressure.lv, self.numerics.numerics()
+        return {
+            name: self.sphere_study.twins(self.prior, operators, pressure, numerics)
+            for name, operators in seen.items()
+        }
