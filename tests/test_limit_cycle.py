@@ -18,7 +18,7 @@ def test_the_drift_is_the_largest_of_volumes_over_stroke_and_pressures_over_them
     assert recurrence((10e3, 2e3), (10.1e3, 1.9e3)).drift() == pytest.approx(0.05)
 
 
-def test_each_windkessel_is_raised_by_the_same_part_of_what_its_blood_balance_lacks() -> None:
+def test_each_windkessel_is_raised_by_the_same_part_of_what_it_lacks() -> None:
     trees = Windkessel(tau=1.6), Windkessel(tau=0.5)
     shifts = recurrence((10e3, 2e3), (10.1e3, 1.9e3)).shifts(trees, 0.8)
-    assert shifts == pytest.approx([SHIFT * 2.0 * 100.0, -SHIFT * 0.625 * 100.0])
+    assert shifts == pytest.approx([SHIFT * 100.0 / np.expm1(0.5), -SHIFT * 100.0 / np.expm1(1.6)])

@@ -26,7 +26,7 @@ from heartfit.sphere.simulation import simulate_spheres
 
 FEATURES = {"lv_volume": VolumeFeatures(25)}
 SPHERES = (Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6))
-NUMERICS = Numerics(time_step=5e-3, max_beats=6, drift=0.01)
+NUMERICS = Numerics(time_step=5e-3, max_beats=12, drift=1e-4)
 PRIOR = Gaussian.of_relative(
     {"sigma_0": 150e3, "mu": 7e3, "c_1": 2.5e3, "R_p": 1.14e8},
     {"sigma_0": 0.2, "mu": 0.2, "c_1": 0.25, "R_p": 0.2},

@@ -99,7 +99,7 @@ class _Run:
 
     def _start(self) -> HeartState:
         """Relaxed ventricles filled at the resting atrial pressures."""
-        trees = self.heart.circulation.start()
+        trees = self.heart.circulation.start(self.heart.period)
         atria = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
         pressures = np.array([*atria, *(tree.P_c for tree in trees)])
         filled = inflate(self.body, atria)

@@ -15,7 +15,7 @@ ORIFICES = Circulation(
 
 def random_circuit(rng: np.random.Generator, circulation: Circulation) -> Circuit:
     dt = 10 ** rng.uniform(-3.5, -2.0)
-    states = zip(circulation.trees(), circulation.start(), strict=True)
+    states = zip(circulation.trees(), circulation.start(0.8), strict=True)
     windkessels = np.array([tree.affine(state, dt) for tree, state in states])
     softness = rng.uniform(1e-9, 2e-8, 2)
     compliance = np.diag(softness) + 0.3 * softness.min() * (np.ones((2, 2)) - np.eye(2))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from heartfit.catalogue import declared
+from heartfit.circulation.coupling import Tolerances
 from heartfit.heart import FOURTEEN
 from heartfit.mechanics.body import StepFailed
 from heartfit.simulation import Numerics
@@ -48,7 +49,8 @@ def test_the_same_seed_gives_the_same_hearts():
 
 def test_what_cannot_be_unloaded_or_filled_ends_with_its_reason(monkeypatch):
     heart = next(SPHERES.hearts())
-    hopeless = attempt(heart, specimen(COARSE), Numerics(max_beats=1, time_step=0.4, cuts=0))
+    impatient = Numerics(max_beats=1, cuts=0, tolerances=Tolerances(iterations=1))
+    hopeless = attempt(heart, specimen(COARSE), impatient)
     assert (hopeless.unloaded, hopeless.completed) == (True, False)
     assert hopeless.reason.startswith("beat 1: at ")
     monkeypatch.setattr(robustness, "ventricles", too_soft)

@@ -42,20 +42,18 @@ class Circulation:
     right_atrium: float = parameter(
         200.0, unit="Pa", symbol="P_{RA}", meaning="right atrial pressure at rest"
     )
-    aorta_start: float = parameter(
-        11e3, unit="Pa", symbol="P_{ao}(0)", meaning="aortic pressure of the first beat"
-    )
-    pulmonary_start: float = parameter(
-        1.6e3, unit="Pa", symbol="P_{pa}(0)", meaning="pulmonary artery pressure of the first beat"
+    first_stroke: float = parameter(
+        1.05e-4, unit="m^3", symbol="V_s(0)", meaning="stroke volume that the first arterial pressures hold"
     )
 
     def trees(self) -> tuple[Windkessel, Windkessel]:
         """Systemic and pulmonary Windkessel."""
         return self.systemic, self.pulmonary_tree
 
-    def start(self) -> tuple[WindkesselState, WindkesselState]:
+    def start(self, period: float) -> tuple[WindkesselState, WindkesselState]:
         """State of both Windkessels before the first beat."""
-        return WindkesselState(self.aorta_start), WindkesselState(self.pulmonary_start)
+        left, right = (tree.periodic_start(self.first_stroke, period) for tree in self.trees())
+        return left, right
 
     def atrial(self, time: Floats | float, period: float, mechanisms: Sequence[Mechanism]) -> Floats:
         """Pressures (2, ...) of the left and right atrium at ``time`` (...)."""

@@ -8,11 +8,15 @@ the inflow: :math:`P_{ar} = a + b q`.
 Source: Stergiopulos, Westerhof and Westerhof, Am. J. Physiol. 276 (1999) H81.
 """
 
+import math
 from dataclasses import dataclass
 
 from numba import njit
 
 from heartfit.parameter import parameter, require_admissible
+
+EJECTION = 0.3
+"""Time, s, from the start of atrial systole to the middle of ejection."""
 
 
 @dataclass(frozen=True)
@@ -49,12 +53,20 @@ class Windkessel:
         return WindkesselState(*advanced(*self.constants(), state.P_c, state.q_L, inflow, dt))  # type: ignore[call-arg]
 
     def periodic_shift(self, start: WindkesselState, end: WindkesselState, period: float) -> float:
-        r"""Change of the mean P_c, Pa, that would balance the mean inflow of the beat from ``start`` to ``end``.
+        r"""By how much P_c, Pa, after a beat is short of where the inflow of that beat would hold it.
 
-        Blood balance over a beat: :math:`C (P_c(T) - P_c(0)) = T (\bar q - (\bar P_c - P_{ve})/R_p)`, so the
-        mean pressure is short of its periodic value by :math:`\tau (P_c(T) - P_c(0))/T`.
+        What is missing decays with :math:`\tau` from beat to beat: of :math:`P^* - P_c(0)` the part
+        :math:`e^{-T/\tau}` is left at the end, which is :math:`(P_c(T) - P_c(0)) / (e^{T/\tau} - 1)`.
         """
-        return self.tau * (end.P_c - start.P_c) / period
+        return (end.P_c - start.P_c) / math.expm1(period / self.tau)
+
+    def periodic_start(self, stroke: float, period: float) -> WindkesselState:
+        r"""The state in which beats begin whose stroke volume, m^3, is ejected at once at EJECTION.
+
+        .. math:: P_c = P_{ve} + \frac{V_s R_p}{\tau} \frac{e^{-(T - t_e)/\tau}}{1 - e^{-T/\tau}}
+        """
+        decayed = math.exp((EJECTION - period) / self.tau) / -math.expm1(-period / self.tau)
+        return WindkesselState(self.P_ve + stroke * self.R_p / self.tau * decayed)
 
 
 @njit(cache=True, error_model="numpy")

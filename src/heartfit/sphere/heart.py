@@ -81,7 +81,7 @@ class SphericalHeart:
         """Relaxed ventricles filled at the resting atrial pressures; raises StepFailed if they balloon."""
         pressures = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
         sides = np.zeros((at.SIDE_ROWS, len(self.spheres)))
-        held = self.heart.circulation.start()
+        held = self.heart.circulation.start(self.heart.period)
         for v, (sphere, tree) in enumerate(zip(self.spheres, self.trees, strict=True)):
             sides[[at.RADIUS, at.RATIO, at.WALL], v] = (
                 sphere.radius,

@@ -141,7 +141,6 @@ def reference_heart() -> Heart:
         mitral=LinearValve(9e-6, closed),
         aortic=LinearValve(1.3e-5, closed),
         left_atrium=0.0,
-        aorta_start=10760.0,
     )
     tissue = Tissue(passive=TwoExponentials(), active=active, control=control)  # type: ignore[arg-type]
     return Heart(tissue, circulation, (AtrialWave(),), PERIOD)
