@@ -34,6 +34,7 @@ GROUPS = Groups(
     measured=tuple(name for name in MEASURED if CASES[name].healthy),
     patients=tuple(name for name in VIRTUAL if not CASES[name].healthy),
 )
+DYSSYNCHRONY = [*GROUPS.volunteers[:1], *GROUPS.patients]
 CATHETERISED = [name for name, case in CASES.items() if case.catheter]
 
 
@@ -47,6 +48,7 @@ TRIALS = [(acquisition, number) for acquisition, numbers in TRIED.items() for nu
 PICTURES = [
     "alternatives",
     "coverage_sphere",
+    *(["septal_flash"] if GROUPS.patients else []),
     "registration",
     "noise_model",
     *(f"{case}_activation" for case in CASES),
@@ -129,6 +131,11 @@ def surroundings(setting):
     """The beats about the prior's mean on which the sensitivities rest."""
     points = range(2 * len(STUDY.sensitivity.parameters) + 1)
     return expand("<results>/sensitivity/{setting}/beats/{point}.json", setting=setting, point=points)
+
+
+def shapes_of(cases):
+    """The calibrated motions of some cases in all settings."""
+    return expand("<results>/{case}/{setting}/verification/shape.csv", case=cases, setting=SETTINGS)
 
 
 def sigma_point_beats(wildcards):

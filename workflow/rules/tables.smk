@@ -138,3 +138,28 @@ rule plot_activation:
         code=code("plot_activation.py"),
     script:
         "../scripts/plot_activation.py"
+
+
+rule plot_septal_flash:
+    input:
+        hearts=expand("<results>/{case}/cohort/heart.vtu", case=DYSSYNCHRONY),
+        true=expand("<results>/{case}/cohort/motion.npz", case=DYSSYNCHRONY),
+        meshes=expand("<results>/{case}/geometry/mesh.vtu", case=DYSSYNCHRONY),
+        registered=expand("<results>/{case}/registration/motion.npz", case=DYSSYNCHRONY),
+        calibrated=shapes_of(DYSSYNCHRONY),
+    output:
+        table=expand("<results>/tables/septal_flash.{suffix}", suffix=("csv", "md", "tex")),
+        figure=expand("<results>/figures/septal_flash.{suffix}", suffix=("png", "pdf")),
+    log:
+        "<logs>/plot_septal_flash.log",
+    benchmark:
+        "<benchmarks>/plot_septal_flash.tsv"
+    resources:
+        mem_mb=1500,
+        runtime=5,
+    params:
+        cases=DYSSYNCHRONY,
+        settings=SETTINGS,
+        code=code("plot_septal_flash.py"),
+    script:
+        "../scripts/plot_septal_flash.py"

@@ -9,6 +9,8 @@ axis, as short-axis images have it. Segment 17, the apical cap, lies on the axis
 it is left out.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from heartfit.errors import InputError
@@ -29,9 +31,14 @@ def segment_strain(mesh: VentricularMesh, motion: Motion) -> Floats:
 
     Phase 0 of the motion is the reference. Raises InputError for a mesh that lacks one of the segments.
     """
+    return regional_strain(mesh, motion, [(int(segment),) for segment in SEGMENTS])
+
+
+def regional_strain(mesh: VentricularMesh, motion: Motion, regions: Sequence[Sequence[int]]) -> Floats:
+    """The same (p, 3, r) in regions, each of them some AHA segments."""
     start = mesh.with_points(motion.positions[0])
     gradients, volumes = shape_gradients(start.points, start.tets)
-    weights = _shares(_segments_of(mesh), volumes)
+    weights = _shares(_segments_of(mesh, np.concatenate(regions)), regions, volumes)
     along = np.einsum("mad,mnd->mna", gradients, cylinder_directions(start))
     moved = (np.einsum("mna,mad->mnd", along, positions[mesh.tets]) for positions in motion.positions)
     return np.array([weights @ (0.5 * ((stretch**2).sum(axis=-1) - 1.0)) for stretch in moved]).swapaxes(1, 2)
@@ -48,20 +55,20 @@ def cylinder_directions(mesh: VentricularMesh) -> Floats:
     )
 
 
-def _segments_of(mesh: VentricularMesh) -> Integers:
+def _segments_of(mesh: VentricularMesh, needed: Integers) -> Integers:
     if mesh.segments is None:
         raise InputError("strain: the mesh has no AHA segments; expected a prepared mesh: build it again")
-    missing = np.setdiff1d(SEGMENTS, mesh.segments)
+    missing = np.setdiff1d(needed, mesh.segments)
     if len(missing):
         raise InputError(
             f"strain: no tetrahedron lies in segment {', '.join(map(str, missing))}; "
-            "expected AHA 1 to 16: take a finer mesh"
+            f"expected one in each of {', '.join(map(str, needed))}: take a finer mesh"
         )
     return mesh.segments
 
 
-def _shares(segments: Integers, volumes: Floats) -> Floats:
-    """Weights (16, m) of the tetrahedra in the mean over each segment."""
-    inside = (segments == SEGMENTS[:, None]) * volumes
+def _shares(segments: Integers, regions: Sequence[Sequence[int]], volumes: Floats) -> Floats:
+    """Weights (r, m) of the tetrahedra in the mean over each region."""
+    inside = np.array([np.isin(segments, region) for region in regions]) * volumes
     shares: Floats = inside / inside.sum(axis=1, keepdims=True)
     return shares

@@ -15,6 +15,8 @@ import pandas as pd
 from heartfit.beat import Beat, motion_of
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.observation.shape import Shape, shape_of
+from heartfit.observation.walls import walls_of
+from heartfit.tables.walls_table import WALL_COLUMNS, walls_table
 
 COLUMNS = {  # column of a curve: what one printed unit is in SI
     "shortening (%)": ("shortening", 0.01),
@@ -41,10 +43,11 @@ def shape_table(shape: Shape) -> pd.DataFrame:
 
 
 def beat_shape_table(mesh: VentricularMesh, beat: Beat) -> pd.DataFrame:
-    """The same of a beat of the ventricles ``mesh`` that kept its nodes; no rows if the beat failed."""
+    """The same of a beat of the ventricles ``mesh`` that kept its nodes, with its walls; no rows if the beat failed."""
     if not beat.completed:
-        return pd.DataFrame(columns=["time (s)", *COLUMNS, *SPREAD])
-    return shape_table(shape_of(mesh, motion_of(beat)))
+        return pd.DataFrame(columns=["time (s)", *COLUMNS, *SPREAD, *WALL_COLUMNS])
+    motion = motion_of(beat)
+    return shape_table(shape_of(mesh, motion)).join(walls_table(walls_of(mesh, motion)))
 
 
 def end_systole(shapes: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
