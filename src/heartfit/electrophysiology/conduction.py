@@ -5,9 +5,9 @@ References
 Durrer D et al. 1970, doi 10.1161/01.CIR.41.6.899: three early sites on the left endocardium, anterior
 paraseptal, mid septal and posterior paraseptal; the right ventricle follows near the insertion of its
 anterior papillary muscle.
-Vassallo JA et al. 1984, doi 10.1161/01.CIR.69.5.914, and Auricchio A et al. 2004, doi
-10.1161/01.CIR.0000121740.83865.7D: in left bundle branch block the right ventricle comes first, the wave takes some
-40 ms or more through the septum and ends at the lateral or posterolateral base.
+Auricchio A et al. 2004, doi 10.1161/01.CIR.0000118502.91105.F6, and Strik M et al. 2012, doi
+10.1007/s12265-012-9351-1: in left bundle branch block the right ventricle comes first, the wave runs slowly through the
+septum, and it ends at the lateral or posterolateral base.
 """
 
 from collections.abc import Mapping

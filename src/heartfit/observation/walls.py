@@ -5,8 +5,8 @@ septal flash, over before ejection begins, while the lateral wall is stretched.
 
 References
 ----------
-Parsai C et al. 2009, doi 10.1093/eurheartj/ehn532: the septal flash as early inward motion of the septum within the
-isovolumic contraction. Russell K et al. 2011, doi 10.1152/ajpheart.00638.2011: why it occurs.
+Remme EW et al. 2016, Factors determining the magnitude of the pre-ejection leftward septal motion in left bundle branch
+block, Europace 18, 1905: what makes the flash large or small.
 """
 
 from dataclasses import dataclass
@@ -95,7 +95,7 @@ def septal_flash(walls: Walls) -> Flash | None:
     """
     seen = walls.from_before_the_trigger()
     early = seen.septal[: _phase_at(seen.cavity, EARLY)]
-    start = int(early.argmin())
+    start = len(early) - 1 - int(early[::-1].argmin())
     speed = np.diff(seen.septal)[start : len(early)]
     fastest = int(speed.argmax())
     stops = np.flatnonzero(speed[fastest:] < STOP * speed[fastest])
