@@ -41,9 +41,13 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert counts["compile_kernels"] == 1
     assert readers(run.stdout, "truth") == {"make_tables", "make_cards", "compare_groups"}
     assert readers(run.stdout, "posterior_noise") == {"make_cards", "compare_groups"}
-    assert readers(run.stdout, "cohort/motion") == {"image_volunteer"}
+    assert readers(run.stdout, "cohort/motion") == {"image_volunteer", "plot_septal_flash"}
     assert readers(run.stdout, "cohort/beat") == {"record_pressure"}
-    assert readers(run.stdout, "cohort/heart") == {"image_volunteer", "build_volunteer_mesh"}
+    assert readers(run.stdout, "cohort/heart") == {
+        "image_volunteer",
+        "build_volunteer_mesh",
+        "plot_septal_flash",
+    }
     assert readers(run.stdout, "images/cine") == {"register_volunteer", "plot_contours"}
     assert counts["try_acquisition"] == 24 + 4 + 6 * 3
     assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
