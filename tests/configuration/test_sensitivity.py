@@ -19,7 +19,7 @@ def test_all_fourteen_surround_the_prior_of_each_setting_by_one_deviation():
     study = read_study([CONFIG])
     prior = study.surroundings("paper").gaussian()
     assert prior.names == FOURTEEN
-    assert prior.physical()["K"] == pytest.approx(5e5)
+    assert prior.physical()["K"] == pytest.approx(study.settings["paper"].prior["K"].mean)
     assert study.surroundings("physical").gaussian().physical()["K"] == pytest.approx(1e6)
     assert study.sensitivity.scaling().spread(14) == pytest.approx(study.sensitivity.step**2)
 
