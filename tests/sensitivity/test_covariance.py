@@ -52,6 +52,7 @@ def test_squares_are_shares_of_the_variance_whatever_the_step(step: float) -> No
 def test_a_failed_beat_is_mirrored_and_named(lost: int) -> None:
     result = found(lost={lost: "inverted"})
     assert result.covariance == pytest.approx(found().covariance)
+    assert result.slopes == pytest.approx(found().slopes)
     assert [name.partition(" ")[2] for name in result.failed] == ["(inverted)"]
 
 

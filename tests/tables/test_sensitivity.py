@@ -15,7 +15,7 @@ from heartfit.sensitivity.sobol import SobolIndices
 from heartfit.tables.prior_table import prior_table
 from heartfit.tables.selection_table import FOUR, SEVEN, selection_table
 from heartfit.tables.sensitivity_figure import plot_sensitivities
-from heartfit.tables.sensitivity_table import sensitivity_table
+from heartfit.tables.sensitivity_table import bulk_modulus_table, sensitivity_table
 from heartfit.tables.sobol_figure import plot_sobol
 from heartfit.tables.sobol_table import sobol_table
 from heartfit.tables.surroundings_figure import plot_surroundings
@@ -52,6 +52,13 @@ def test_a_row_of_sensitivities_holds_prior_covariance_and_shares() -> None:
     assert table["sd (%)"]["mu"] == pytest.approx(20.0)
     assert table["q_max"]["mu"] == pytest.approx(1.0, abs=0.01)
     assert table[["volume (%)", "all (%)"]].sum().tolist() == pytest.approx([100.0, 100.0])
+
+
+def test_what_the_bulk_modulus_does_stands_in_per_cent_of_a_per_cent() -> None:
+    whole = sensitivity()
+    table = bulk_modulus_table({"paper": whole}, {"K": "Pa"})
+    assert table["K (kPa)"].tolist() == pytest.approx([1.0])
+    assert table["V_min"].tolist() == [whole.slopes[FOURTEEN.index("K"), 0]]
 
 
 def test_the_rule_prefers_what_is_independent_and_sets_are_ranked() -> None:

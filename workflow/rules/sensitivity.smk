@@ -127,6 +127,7 @@ rule tabulate_selection:
         selection=printed("selection"),
         prior=printed("prior"),
         sobol=printed("sobol"),
+        bulk_modulus=printed("bulk_modulus"),
         figure=expand("<results>/figures/sobol.{suffix}", suffix=("png", "pdf")),
     log:
         "<logs>/sensitivity/tabulate_selection.log",

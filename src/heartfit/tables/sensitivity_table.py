@@ -38,3 +38,20 @@ def sensitivity_table(found: Sensitivity, units: Mapping[str, str]) -> pd.DataFr
 def _share(covariance: np.ndarray) -> Any:
     squares = (covariance**2).sum(axis=1)
     return squares / squares.sum()
+
+
+def bulk_modulus_table(found: Mapping[str, Sensitivity], units: Mapping[str, str]) -> pd.DataFrame:
+    """By setting, the per cent by which each observation changes with one per cent of K: d ln Z / d ln K.
+
+    A sphere with an incompressible wall has zero in every column.
+    """
+    rows = [
+        {
+            "setting": setting,
+            f"K ({printed_unit(units['K'])})": printed(each.prior.physical()["K"], units["K"]),
+            **dict(zip(each.observations, each.slopes[each.parameters.index("K")].tolist(), strict=True)),
+        }
+        for setting, each in found.items()
+        if "K" in each.parameters
+    ]
+    return pd.DataFrame(rows)

@@ -29,7 +29,7 @@ def plot_surroundings(
     for index, name in enumerate(parameters):
         band, column = divmod(index, COLUMNS)
         for row, (curve, unit, label) in enumerate(SHOWN):
-            panel = axes[2 * band + row, column]
+            panel = axes[len(SHOWN) * band + row, column]
             _lines(panel, curves, name, curve, unit)
             panel.set_ylabel(label if column == 0 else "")
         axes[2 * band, column].set_title(symbol(name), fontsize=11)
@@ -49,11 +49,12 @@ def _lines(axes: Axes, curves: Mapping[str, Mapping[str, Curve]], name: str, cur
 
 
 def _frame(axes: np.ndarray, used: int) -> None:
-    """The same limits along each kind of row, and nothing where there is no parameter."""
-    for number, row in enumerate(axes):
-        low, high = zip(*(panel.get_ylim() for panel in row if panel.lines), strict=True)
-        for column, panel in enumerate(row):
+    """The same limits for each kind of curve, and nothing where there is no parameter."""
+    for kind in range(len(SHOWN)):
+        panels = axes[kind :: len(SHOWN)].ravel()
+        low, high = zip(*(panel.get_ylim() for panel in panels[:used]), strict=True)
+        for index, panel in enumerate(panels):
             clean(panel)
             panel.set_ylim(min(low), max(high))
-            panel.tick_params(labelsize=8, labelleft=column == 0)
-            panel.set_visible(number // 2 * COLUMNS + column < used)
+            panel.tick_params(labelsize=8, labelleft=index % COLUMNS == 0)
+            panel.set_visible(index < used)
