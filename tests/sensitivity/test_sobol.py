@@ -36,6 +36,17 @@ def test_shares_of_a_linear_map() -> None:
     assert found.lost == ()
 
 
+def test_two_that_act_only_together_have_no_share_alone() -> None:
+    mean = PRIOR.mean
+
+    def product(parameters: Mapping[str, float]) -> Outcome:
+        return {"Z": float((np.log(parameters["a"]) - mean[0]) * (np.log(parameters["b"]) - mean[1]))}
+
+    found = sobol_indices(PRIOR, product, 4 * SAMPLES, seed=0)
+    assert found.first[:2, 0] == pytest.approx([0.0, 0.0], abs=0.15)
+    assert found.total[:2, 0] == pytest.approx([1.0, 1.0], abs=0.1)
+
+
 def test_the_same_seed_gives_the_same_indices() -> None:
     first, second = (sobol_indices(PRIOR, Linear(), 16, seed=3) for _ in range(2))
     assert (first.total == second.total).all()
