@@ -11,7 +11,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 
 from heartfit.calibration.design import Design
 from heartfit.calibration.gaussian import Gaussian
@@ -108,8 +107,8 @@ def update(
     names, z = tuple(observed), np.array(list(observed.values()))
     scale = _scale(moments, names)
     correlation = _normalised(moments.cov_zz, noise, scale)
-    factor = _factorise(correlation, names)
-    gain = cho_solve(factor, (moments.cov_xz / scale).T).T / scale
+    _require_definite(correlation, names)
+    gain = np.linalg.solve(correlation, (moments.cov_xz / scale).T).T / scale
     shift = gain @ (z - moments.mean)
     covariance = prior.covariance - (gain * scale) @ correlation @ (gain * scale).T
     step = shift / prior.sd
@@ -154,7 +153,7 @@ def _normalised(cov_zz: np.ndarray, noise: np.ndarray | None, scale: np.ndarray)
     return total / np.outer(scale, scale)
 
 
-def _factorise(correlation: np.ndarray, names: tuple[str, ...]) -> tuple[np.ndarray, bool]:
+def _require_definite(correlation: np.ndarray, names: tuple[str, ...]) -> None:
     smallest = float(np.linalg.eigvalsh(correlation).min())
     if smallest < -COLLINEAR:
         raise CalibrationError(NEGATIVE.format(what=f"covariance of {', '.join(names)}"))
@@ -163,7 +162,6 @@ def _factorise(correlation: np.ndarray, names: tuple[str, ...]) -> tuple[np.ndar
             f"calibration: {', '.join(names)} are collinear over the prior (smallest eigenvalue {smallest:.1e} of "
             "their normalised covariance): observe fewer, estimate more parameters, or give the observations noise"
         )
-    return cho_factor(correlation)
 
 
 def _positive(covariance: np.ndarray, prior: np.ndarray) -> np.ndarray:

@@ -10,7 +10,6 @@ The pericardium slides; it is stiffer towards the apex, where it is tied to the 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from heartfit.geometry.arrays import Floats
 from heartfit.geometry.mesh import VentricularMesh
@@ -58,7 +57,7 @@ class Support:
     def passive_scale(self, mesh: VentricularMesh) -> Floats:
         """Factor (m,) on the passive moduli: the annuli are collagen, not muscle, but carry muscle's tension."""
         rings = mesh.points[np.unique(mesh.surfaces["base"])]
-        distance, _ = cKDTree(rings).query(mesh.points[mesh.tets].mean(axis=1))
+        distance = _distances(mesh.points[mesh.tets].mean(axis=1), rings)
         ramp = np.clip((self.annulus_width - distance) / (self.annulus_width - self.annulus_core), 0.0, 1.0)
         scale: Floats = self.annulus**ramp
         return scale
@@ -88,3 +87,9 @@ def _lump(blocks: Floats, triangles: np.ndarray, nodes: int) -> Floats:
     for corner in range(3):
         np.add.at(result, triangles[:, corner], blocks / 3.0)
     return result
+
+
+def _distances(points: Floats, others: Floats) -> Floats:
+    """How far (n,) each point is from the nearest of the others: sooner done than a tree is imported."""
+    squares = (points**2).sum(axis=1)[:, None] + (others**2).sum(axis=1) - 2.0 * points @ others.T
+    return np.sqrt(np.maximum(squares.min(axis=1), 0.0))

@@ -20,7 +20,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import stdtrit
 
 from heartfit.geometry.arrays import Floats
 
@@ -56,6 +55,8 @@ class Scatter:
 
     def reach(self, level: float = 0.95) -> Floats:
         """How far (m,) from the mean the components of the next vector lie with probability ``level``."""
+        from scipy.special import stdtrit  # every job knows noise models, few ask how far they reach
+
         quantile = stdtrit(self.count - 1, 0.5 * (1.0 + level))
         reach: Floats = quantile * np.sqrt(np.diag(self.predictive))
         return reach
