@@ -16,12 +16,8 @@ pathvars:
 rule all:
     default_target: True
     input:
-        expand("<results>/tables/{name}.md", name=TABLES),
-        expand("<results>/figures/{picture}", picture=CASE_PICTURES),
-        expand("<results>/figures/{about}.png", about=PICTURES),
-        # asked for by name, or Snakemake would not miss a beat that was deleted
-        [beats_of(case, setting) for case in CASES for setting in SETTINGS],
-        surroundings(SETTINGS),
+        whole_study(),
+        "<results>/tables/costs.md",
 
 
 include: "workflow/rules/resources.smk"
@@ -36,3 +32,4 @@ include: "workflow/rules/verification.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/meaning.smk"
 include: "workflow/rules/alternatives.smk"
+include: "workflow/rules/costs.smk"

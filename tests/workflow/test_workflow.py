@@ -49,7 +49,9 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
         "plot_septal_flash",
     }
     assert readers(run.stdout, "images/cine") == {"register_volunteer", "plot_contours"}
-    assert counts["try_acquisition"] == 24 + 4 + 6 * 3
+    assert counts["try_acquisition"] == 21 + 3 + 6 * 2
+    assert counts["build_template"] == 3
+    assert counts["tabulate_costs"] == 1
     assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
     beating = {"generate_volunteer", "draw_volunteer", "simulate_point", "simulate_calibrated"}
     beating |= {"simulate_surrounding", "study_sphere", "compare_alternatives", "cover_spheres"}

@@ -169,3 +169,15 @@ def scanner_of(wildcards):
 def measured_images(_):
     """The short-axis images of the measured heart, where there are any."""
     return str(PLAN.images) if PLAN.images else []
+
+
+def whole_study():
+    """All that the study makes, but for what it took."""
+    return [
+        *expand("<results>/tables/{name}.md", name=TABLES),
+        *expand("<results>/figures/{picture}", picture=CASE_PICTURES),
+        *expand("<results>/figures/{about}.png", about=PICTURES),
+        # asked for by name, or Snakemake would not miss a beat that was deleted
+        *(beat for case in CASES for setting in SETTINGS for beat in beats_of(case, setting)),
+        *surroundings(SETTINGS),
+    ]

@@ -1,0 +1,94 @@
+"""What the study takes: time and memory of its jobs by stage, beside the paper's calibrations.
+
+References
+----------
+Marchesseau et al. 2012, section 4: about 20 minutes a case, its 2n+1 simulations being run in parallel on a cluster.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from heartfit.tables.figures import clean, colour
+
+PAPER_MINUTES = 9 * 20.0
+STAGES = {
+    "kernels": r"^compile_kernels",
+    "sensitivity": r"^sensitivity/",
+    "registration error": r"^registration_error/",
+    "spheres": r"^(compare_alternatives|cover_spheres)",
+    "meshes": r"^templates/|/build_mesh$",
+    "true beats": r"/(generate_volunteer|record_pressure)$",
+    "images": r"/image_volunteer$",
+    "registration": r"/(register|register_cine|extract_curves)$",
+    "calibration": r"/(draw_sigma_points|simulate_point_\d+|update_parameters|simulate_calibrated)$",
+}
+"""What the names of a stage's jobs look like."""
+
+OTHERS, WHOLE = "tables and figures", "whole study"
+WALL, CPU, SHARE, MEMORY = "wall (s)", "CPU (s)", "share (%)", "largest memory (MB)"
+AGAINST_PAPER = "of the paper's 9 x 20 min (%)"
+
+
+@dataclass(frozen=True)
+class Cost:
+    """A job by its name: time on the wall, CPU time as sampled, s, and the most memory it held, MB."""
+
+    job: str
+    wall: float
+    cpu: float
+    memory: float
+
+
+def stage_of(job: str) -> str:
+    """The stage to which a job belongs by its name."""
+    return next((stage for stage, pattern in STAGES.items() if re.search(pattern, job)), OTHERS)
+
+
+def cost_table(costs: Sequence[Cost]) -> pd.DataFrame:
+    """One row per stage, the dearest first, and the whole: sums over the jobs, and the largest memory of one.
+
+    Jobs run beside each other, so that the study takes the sum on the wall over the number of cores.
+    """
+    by_stage = groupby(sorted(costs, key=lambda cost: stage_of(cost.job)), lambda cost: stage_of(cost.job))
+    whole = sum(cost.wall for cost in costs)
+    rows = [_row(stage, list(group), whole) for stage, group in by_stage]
+    rows.sort(key=lambda row: -float(row[WALL]))
+    return pd.DataFrame([*rows, _row(WHOLE, costs, whole)])
+
+
+def _row(stage: str, costs: Sequence[Cost], whole: float) -> dict[str, str | int | float]:
+    wall = sum(cost.wall for cost in costs)
+    return {
+        "stage": stage,
+        "jobs": len(costs),
+        WALL: wall,
+        CPU: sum(cost.cpu for cost in costs),
+        SHARE: 100.0 * wall / whole,
+        MEMORY: max(cost.memory for cost in costs),
+        AGAINST_PAPER: 100.0 * wall / (60.0 * PAPER_MINUTES),
+    }
+
+
+def plot_costs(table: pd.DataFrame) -> Figure:
+    """Bars of the time on the wall and the CPU time of each stage."""
+    stages, whole = table[:-1][::-1], table.iloc[-1]
+    figure = Figure(figsize=(6.5, 0.34 * len(stages) + 1.2), layout="constrained")
+    axes = figure.subplots()
+    for index, what in enumerate((WALL, CPU)):
+        places = [place + 0.19 - 0.38 * index for place in range(len(stages))]
+        axes.barh(places, stages[what] / 60.0, height=0.36, color=colour(index), label=what.split(" ")[0])
+    labels = [f"{stage} ({jobs})" for stage, jobs in zip(stages["stage"], stages["jobs"], strict=True)]
+    axes.set_yticks(range(len(stages)), labels)
+    axes.set_xlabel("all jobs one after the other (min)")
+    minutes = whole[WALL] / 60.0
+    axes.set_title(
+        f"{whole['jobs']} jobs, {minutes:.0f} min; the paper's: {PAPER_MINUTES:.0f} min", fontsize=10
+    )
+    axes.legend(frameon=False, fontsize=9, loc="lower right")
+    clean(axes)
+    return figure

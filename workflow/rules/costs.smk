@@ -1,0 +1,20 @@
+# after everything else, whose benchmarks it reads: a job's benchmark is a product of its rule, but all of them by name
+# would be a second list of all jobs
+rule tabulate_costs:
+    input:
+        whole_study(),
+    output:
+        printed("costs"),
+        expand("<results>/figures/costs.{kind}", kind=("png", "pdf")),
+    log:
+        "<logs>/tabulate_costs.log",
+    benchmark:
+        "<benchmarks>/tabulate_costs.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        results=STUDY.results,
+        code=code("tabulate_costs.py"),
+    script:
+        "../scripts/tabulate_costs.py"
