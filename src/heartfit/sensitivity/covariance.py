@@ -7,7 +7,7 @@ With z = ln theta, prior standard deviations s_i and points at h s_i on either s
 
 The squares of a column of A add up to one: each is the share of that observation's variance, to first order,
 which the parameter is to blame for. The unscented transform would put the points of n = 14 parameters at
-h = sqrt(14) = 3.7: the heart does not beat at e^(3.7 s) of some of them. The covariance of an odd pair does not
+h = sqrt(14) = 3.7, where alpha is 4.5 times its mean or a quarter of it. The covariance of an odd pair does not
 depend on the weight of the centre, so h is free; one standard deviation is where the calibration looks too.
 """
 
