@@ -6,8 +6,8 @@ causes alone (first order) and with others (total):
     S_i = Var(E[Z | X_i]) / Var(Z),   T_i = 1 - Var(E[Z | all but X_i]) / Var(Z).
 
 SALib samples by Saltelli's scheme, N (n + 2) beats, and estimates the indices. Of outputs with one NaN it makes
-indices that are all zero, without a word, so nothing but whole blocks of finite outputs is handed to it: the n + 2 beats
-of a base sample are left out together if one of them failed.
+indices that are all zero, without a word, so nothing but whole blocks of finite outputs is handed to it: the n + 2
+beats of a base sample are left out together if one of them failed.
 
 References: Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018; Herman and Usher 2017, doi:10.21105/joss.00097 (SALib).
 """
