@@ -37,7 +37,7 @@ NOTES = {
     ),
     "costs": (
         "Snakemake samples CPU time and memory each half second, after 15 s each half minute, so what follows the last "
-        "sample of a job is missing. The paper's are 9 cases of about 20 minutes, their 2n+1 runs in parallel on a cluster; "
-        "compare the stage calibration, which has two settings for each case and one case more."
+        "sample of a job is missing. The paper's are 9 cases of about 20 minutes, their 2n+1 runs in parallel on a "
+        "cluster; compare the stage calibration, which has two settings for each case and one case more."
     ),
 }
