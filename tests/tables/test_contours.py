@@ -6,37 +6,17 @@ import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
 from PIL import Image
+from tests.tables.imaged_beat import FRAMES, PERIOD, SYSTOLE, beating, images
 
 from heartfit.errors import InputError
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.sequence import ImageSequence
 from heartfit.io.animations import write_animation
 from heartfit.tables.contours import animate_contours, plot_contours
 from heartfit.tables.overlay import Overlay
 
-FRAMES, SYSTOLE, PERIOD = 8, 3, 0.8
 MEGABYTES = 1e6
-
-
-def beating(mesh: VentricularMesh, frames: int = FRAMES) -> Motion:
-    """The mesh shrinks towards its centre, most in one phase."""
-    size = 1.0 - 0.2 * np.exp(-((np.arange(frames) - SYSTOLE * frames / FRAMES) ** 2))
-    size[0] = 1.0
-    centre = mesh.points.mean(axis=0)
-    positions = centre + size[:, None, None] * (mesh.points - centre)
-    return Motion(np.arange(frames) * PERIOD / frames, PERIOD, positions)
-
-
-def images(mesh: VentricularMesh, frames: int = FRAMES) -> ImageSequence:
-    """Noise in voxels of 2 mm about the mesh."""
-    low = mesh.points.min(axis=0) - 0.02
-    size = (np.ptp(mesh.points, axis=0) + 0.04) // 2e-3
-    grid = Grid((int(size[0]), int(size[1]), int(size[2])), np.full(3, 2e-3), low, np.eye(3))
-    voxels = np.random.default_rng(0).random((frames, *grid.shape)).astype(np.float32)
-    return ImageSequence(grid, voxels, np.arange(frames) * PERIOD / frames, PERIOD)
 
 
 def test_end_diastole_and_end_systole_are_drawn_with_their_outlines(ventricle: VentricularMesh) -> None:

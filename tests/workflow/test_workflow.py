@@ -48,7 +48,9 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
         "build_volunteer_mesh",
         "plot_septal_flash",
     }
-    assert readers(run.stdout, "images/cine") == {"register_volunteer", "plot_contours"}
+    assert readers(run.stdout, "images/cine") == {"register_volunteer", "plot_contours", "plot_overlay"}
+    assert readers(run.stdout, "verification/motion") == {"plot_overlay"}
+    assert counts["plot_overlay"] == PATIENTS + 1
     assert counts["try_acquisition"] == 21 + 3 + 6 * 2
     assert counts["build_template"] == 3
     assert counts["tabulate_costs"] == 1

@@ -55,6 +55,7 @@ PICTURES = [
     "sobol",
     *(f"sensitivity{about}_{setting}" for about in ("", "_curves") for setting in SETTINGS),
     *(f"{case}_contours" for case in VIRTUAL + IMAGED),
+    *(f"{case}_{SETTINGS[-1]}_overlay" for case in DYSSYNCHRONY),
     *(f"{case}_cine_{about}" for case in IMAGED for about in ("outlines", "volume")),
 ]
 CASE_PICTURES = [
@@ -84,6 +85,11 @@ def code(script):
 def printed(*names):
     """The files of tables by name."""
     return expand("<results>/tables/{name}.{suffix}", name=names, suffix=("csv", "md", "tex"))
+
+
+def verified(*names):
+    """The files of a case's calibrated beat by name."""
+    return [f"<results>/{{case}}/{{setting}}/verification/{name}" for name in names]
 
 
 def one_of(cases):

@@ -120,6 +120,29 @@ rule plot_contours:
         "../scripts/plot_contours.py"
 
 
+rule plot_overlay:
+    input:
+        mesh="<results>/{case}/geometry/mesh.vtu",
+        registered="<results>/{case}/registration/motion.npz",
+        calibrated="<results>/{case}/{setting}/verification/motion.npz",
+        images=images_of,
+    output:
+        expand("<results>/figures/{{case}}_{{setting}}_overlay.{suffix}", suffix=("png", "pdf")),
+    log:
+        "<logs>/{case}/{setting}/plot_overlay.log",
+    benchmark:
+        "<benchmarks>/{case}/{setting}/plot_overlay.tsv"
+    wildcard_constraints:
+        case=one_of(VIRTUAL + IMAGED),
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code("plot_overlay.py"),
+    script:
+        "../scripts/plot_overlay.py"
+
+
 rule plot_activation:
     input:
         "<results>/{case}/geometry/mesh.vtu",

@@ -1,12 +1,11 @@
 rule simulate_calibrated:
     input:
         mesh="<results>/{case}/geometry/mesh.vtu",
+        registered="<results>/{case}/registration/motion.npz",
         posterior="<results>/{case}/{setting}/calibration/posterior.json",
         kernels="<results>/kernels.json",
     output:
-        beat="<results>/{case}/{setting}/verification/beat.json",
-        curves="<results>/{case}/{setting}/verification/beat.csv",
-        shape="<results>/{case}/{setting}/verification/shape.csv",
+        verified("beat.json", "beat.csv", "shape.csv", "motion.npz"),
     log:
         "<logs>/{case}/{setting}/simulate_calibrated.log",
     benchmark:

@@ -1,4 +1,4 @@
-"""The carried mesh over the images: at end diastole and end systole, and beating (Fig. 5 of the paper)."""
+"""The carried mesh over the images: at end diastole and end systole, and beating."""
 
 from collections.abc import Iterable
 
@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
 from heartfit.imaging.sequence import ImageSequence
-from heartfit.tables.overlay import OUTLINES, Overlay, Panel
+from heartfit.tables.overlay import OUTLINES, Overlay, Panel, draw_key, draw_phases
 
 SIDES = {"lv": ("left ventricle", OUTLINES["lv_endo"][1]), "rv": ("right ventricle", OUTLINES["rv_endo"][1])}
 DOTS_PER_INCH = 90
@@ -25,14 +25,9 @@ def plot_contours(sequence: ImageSequence, mesh: VentricularMesh, motion: Motion
     mesh: at end diastole; motion: the same mesh in every phase, at the times of the frames. Raises InputError if the
     times are others.
     """
-    overlay = Overlay(sequence, mesh, motion)
     figure = Figure(figsize=(10, 7), layout="constrained")
-    phases = {"end diastole": 0, "end systole": int(overlay.volumes["lv"].argmin())}
-    for row, (name, phase) in zip(figure.subplots(2, len(overlay.views)), phases.items(), strict=True):
-        for axes, (what, view) in zip(row, overlay.views.items(), strict=True):
-            Panel(axes, overlay, view).show(phase)
-            axes.set_title(f"{name}, {1e3 * motion.times[phase]:.0f} ms: {what}", fontsize=9)
-    _key(figure)
+    draw_phases(figure, Overlay(sequence, mesh, motion))
+    draw_key(figure, dict(OUTLINES.values()))
     figure.suptitle(title, fontsize=11)
     return figure
 
@@ -50,7 +45,7 @@ def animate_contours(
     *left, right = figure.subplots(1, 3)
     panels = [Panel(axes, overlay, view) for axes, view in zip(left, overlay.views.values(), strict=False)]
     dots = _curves(right, overlay)
-    _key(figure)
+    draw_key(figure, dict(OUTLINES.values()))
     figure.suptitle(title, fontsize=10)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")  # so that nothing moves but the heart
@@ -79,9 +74,3 @@ def _curves(axes: Axes, overlay: Overlay) -> dict[str, Line2D]:
     axes.legend(frameon=False, fontsize=8, loc="lower right")
     axes.spines[["top", "right"]].set_visible(False)
     return dots
-
-
-def _key(figure: Figure) -> None:
-    """The names of the outlines, below all panels."""
-    lines = [Line2D([], [], color=colour, label=label) for label, colour in OUTLINES.values()]
-    figure.legend(handles=lines, loc="outside lower center", ncols=len(lines), frameon=False, fontsize=9)

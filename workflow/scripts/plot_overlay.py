@@ -1,0 +1,18 @@
+"""Draw the calibrated simulation and the registered mesh over the images, at end diastole and end systole."""
+
+from itertools import repeat
+from pathlib import Path
+
+from heartfit.io.images import read_images
+from heartfit.io.log import record
+from heartfit.io.meshes import read_mesh, read_motion
+from heartfit.io.simulated_motion import read_simulated_motion
+from heartfit.io.tables import write_figure
+from heartfit.tables.calibrated_overlay import plot_overlay
+
+record(snakemake.log[0])
+files, names = snakemake.input, snakemake.wildcards
+images, mesh = read_images(Path(files.images)), read_mesh(Path(files.mesh))
+registered, calibrated = read_motion(Path(files.registered)), read_simulated_motion(Path(files.calibrated))
+figure = plot_overlay(images, mesh, registered, calibrated, f"{names.case}, {names.setting} setting")
+list(map(write_figure, map(Path, snakemake.output), repeat(figure)))
