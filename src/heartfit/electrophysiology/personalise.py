@@ -14,6 +14,9 @@ LAYER, WALL = (0.4, 1.5), (0.3, 1.0)
 TOLERANCE = 5e-4
 """Of the duration, s."""
 
+BISECTIONS = 20
+"""More than the tolerance asks for in the widest range."""
+
 Family = Callable[[float], Conduction]
 
 
@@ -47,12 +50,13 @@ def _bisected(
 ) -> Conduction:
     """The member whose duration is the one given: it falls with the speed, from the slower to the faster of two."""
     slow, fast = speeds
-    while True:
+    for _ in range(BISECTIONS):
         middle = (slow * fast) ** 0.5
         excess = total_duration(mesh, family(middle)) - duration
         if abs(excess) < TOLERANCE:
-            return family(middle)
+            break
         slow, fast = (middle, fast) if excess > 0.0 else (slow, middle)
+    return family(middle)
 
 
 def _require_within_reach(mesh: VentricularMesh, slow: Conduction, fast: Conduction, duration: float) -> None:
