@@ -25,7 +25,11 @@ def test_what_is_fixed_must_be_told_where_it_scatters(pooled) -> None:
     without, told = (pooled["parameters", way] for way in ("R of the measurement", "R and R_fixed"))
     assert without.high < 0.9
     assert told.low < 0.95 < told.high
-    assert pooled["parameters", "R and R_fixed, 2 steps"].covered == pytest.approx(told.covered, abs=0.01)
+
+
+def test_a_second_step_changes_nothing_on_a_linear_map(pooled) -> None:
+    one, two = (pooled["parameters", f"R and R_fixed{steps}"] for steps in ("", ", 2 steps"))
+    assert two.covered == pytest.approx(one.covered, abs=0.01)
 
 
 def test_without_noise_the_intervals_are_too_short(pooled) -> None:

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Self
 
 from pydantic import Field, PositiveFloat, PositiveInt, model_validator
 
+from heartfit.configuration.numerics import TimeScheme
 from heartfit.configuration.setting import Prior, Setting
 from heartfit.configuration.strict import Strict
 from heartfit.observation.operator import CurveFeatures, PressureFeatures, VolumeFeatures
-from heartfit.simulation import Numerics
 
 if TYPE_CHECKING:
     from heartfit.twins.draw import Twins
@@ -25,6 +25,7 @@ class SphereStudy(Strict):
     period: float = Field(gt=0.3, lt=2.0, description="s")
     cavity: float = Field(gt=5e-5, lt=4e-4, description="m^3, at end diastole")
     wall: float = Field(gt=2e-5, lt=4e-4, description="m^3")
+    numerics: TimeScheme
     noise: dict[str, PositiveFloat] = Field(description="relative standard deviation by observation")
     setting: Setting
 
@@ -42,7 +43,6 @@ class SphereStudy(Strict):
         prior: Mapping[str, Prior],
         features: Mapping[str, CurveFeatures],
         pressure: float,
-        numerics: Numerics,
     ) -> "Twins":
         """How hearts are drawn and seen by these features, under this end-diastolic pressure, Pa."""
         from heartfit.twins.draw import Twins  # spheres need a root finder, which no other job does
@@ -51,7 +51,12 @@ class SphereStudy(Strict):
         seen = self.setting.seeing_pressure() if "lv_pressure" in features else self.setting
         setting = seen.with_prior(prior)
         model = SphericalModel(
-            setting.base_heart(self.period), self.cavity, self.wall, pressure, features, numerics
+            setting.base_heart(self.period),
+            self.cavity,
+            self.wall,
+            pressure,
+            features,
+            self.numerics.numerics(),
         )
         names = [name for operator in features.values() for name in operator.names]
         noise = {name: self.noise[name] for name in names}

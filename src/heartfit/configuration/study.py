@@ -175,8 +175,7 @@ class Study(Strict):
         """Hearts of the sphere study by what is measured of them."""
         features = self.observation.trial_features(self.observation.frames)
         seen = {"volume": {"lv_volume": features["lv_volume"]}, "volume and pressure": features}
-        pressure, numerics = self.end_diastolic_pressure.lv, self.numerics.numerics()
+        pressure = self.end_diastolic_pressure.lv
         return {
-            name: self.sphere_study.twins(self.prior, operators, pressure, numerics)
-            for name, operators in seen.items()
+            name: self.sphere_study.twins(self.prior, operators, pressure) for name, operators in seen.items()
         }

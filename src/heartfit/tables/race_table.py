@@ -58,14 +58,14 @@ def _row(name: str, method: str, simulations: int, marks: Sequence[Mark]) -> dic
 def plot_race(table: pd.DataFrame) -> Figure:
     """Errors of observations and parameters over the number of simulations, one row per group of hearts."""
     groups = list(table.groupby("measured", sort=False))
-    figure = Figure(figsize=(10, 3.6 * len(groups)), layout="constrained")
+    figure = Figure(figsize=(10, 0.5 + 3.4 * len(groups)), layout="constrained")
     panels = figure.subplots(len(groups), 2, squeeze=False)
     for row, (name, rows) in zip(panels, groups, strict=True):
         for axes, what in zip(row, ERRORS, strict=True):
             _methods(axes, rows, what)
         row[0].set_title(f"measured: {name}", fontsize=10, loc="left")
     handles, labels = panels[0, 1].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", frameon=False, fontsize=9, ncols=len(labels))
+    figure.legend(handles, labels, loc="outside upper center", frameon=False, fontsize=9, ncols=4)
     return figure
 
 

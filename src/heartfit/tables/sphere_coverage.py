@@ -26,6 +26,7 @@ NEAREST = 4.0
 def sphere_coverage_table(seen: Mapping[str, Sequence[Coverage]]) -> pd.DataFrame:
     """One row per group of hearts, world, noise and parameter: the share in the 95 % interval, and its own interval.
 
+    Errors of the estimates are in standard deviations of their posteriors: mean 0 and deviation 1 if all is said.
     A calibration that failed is not covered. The row "all" pools the parameters; its trials are the hearts.
     """
     return pd.DataFrame(
@@ -39,6 +40,8 @@ def sphere_coverage_table(seen: Mapping[str, Sequence[Coverage]]) -> pd.DataFram
 
 
 def _row(name: str, coverage: Coverage, parameter: str, share: Share) -> dict[str, Any]:
+    own = [parameter in (POOLED, each) for each in coverage.names]
+    scores = coverage.scores[:, own]
     return {
         "measured": name,
         "unknown": coverage.world,
@@ -47,6 +50,8 @@ def _row(name: str, coverage: Coverage, parameter: str, share: Share) -> dict[st
         "covered (%)": 100.0 * share.covered,
         "low (%)": 100.0 * share.low,
         "high (%)": 100.0 * share.high,
+        "mean error (posterior sd)": float(np.nanmean(scores)),
+        "sd of error (posterior sd)": float(np.nanstd(scores)),
         "hearts": share.sequences,
         "failed": int(np.isnan(coverage.scores).any(axis=1).sum()),
     }

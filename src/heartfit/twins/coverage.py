@@ -48,7 +48,7 @@ class Coverage:
 
 
 def cover(twins: Twins, hearts: int) -> list[Coverage]:
-    """One step under each noise in each world; the last noise again after two steps, where something is unknown."""
+    """One step under each noise in each world; where other parameters are unknown, two steps too."""
     forward, spare = Remembered(twins.model), fixed_noise(twins)
     return [coverage for world in WORLDS for coverage in _of_world(twins, forward, spare, hearts, world)]
 
@@ -60,7 +60,7 @@ def _of_world(twins: Twins, forward: Forward, spare: Floats, hearts: int, world:
         "R of the measurement": (lambda twin: twin.noise, 1),
         "R and R_fixed": (lambda twin: twin.noise + spare, 1),
     }
-    if world != "nothing":
+    if world == "parameters":
         ways[f"R and R_fixed, {STEPS} steps"] = (lambda twin: twin.noise + spare, STEPS)
     for way, (noise, steps) in ways.items():
         scores = [_scores(twins.prior, forward, twin, noise(twin), steps) for twin in drawn]

@@ -1,0 +1,29 @@
+"""The page of other methods has every row of its tables; the hearts in 3-D are problems as those of the spheres are."""
+
+import numpy as np
+from benchmarks.alternatives import HEARTS, ROOT, SETTING
+from benchmarks.alternatives_page import page
+
+from heartfit.io.configuration import read_cases, read_study
+from heartfit.tables.race_table import race_table
+from heartfit.tables.sphere_coverage import sphere_coverage_table
+from heartfit.twins.coverage import Coverage
+from heartfit.twins.race import Mark
+
+
+def test_the_page_has_every_method_and_every_noise() -> None:
+    race = race_table({"volume": [Mark(0, "unscented, R = 0", 9, 2.5, 0.5)]})
+    shares = sphere_coverage_table({"volume": [Coverage("nothing", "R = 0", ("sigma_0",), np.zeros((8, 1)))]})
+    study = read_study([ROOT / "config" / "config.yaml"]).sphere_study
+    text = page(race, shares, study)
+    assert f"{study.covered} spheres each" in text
+    assert "| volume     | unscented, R = 0 | 9" in text
+    assert "| volume     | nothing   | R = 0   | 100.0 " in text
+    assert "{" not in text
+
+
+def test_the_hearts_in_3d_are_volunteers_of_the_study() -> None:
+    study = read_study([ROOT / "config" / "config.yaml"])
+    cases = {case.case: case for case in read_cases(ROOT / study.cases)}
+    assert all(cases[name].kind == "virtual" and not cases[name].catheter for name in HEARTS)
+    assert SETTING in study.settings
