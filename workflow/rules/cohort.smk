@@ -3,11 +3,7 @@ rule generate_volunteer:
         template="<results>/templates/generator.vtu",
         kernels="<results>/kernels.json",
     output:
-        mesh="<results>/{case}/cohort/heart.vtu",
-        motion="<results>/{case}/cohort/motion.npz",
-        beat="<results>/{case}/cohort/beat.json",
-        curves="<results>/{case}/cohort/beat.csv",
-        truth="<results>/{case}/cohort/truth.json",
+        **{role: f"<results>/{{case}}/cohort/{file}" for role, file in HIDDEN.items()},
     log:
         "<logs>/{case}/generate_volunteer.log",
     benchmark:

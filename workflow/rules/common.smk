@@ -35,6 +35,13 @@ GROUPS = Groups(
     patients=tuple(name for name in VIRTUAL if not CASES[name].healthy),
 )
 DYSSYNCHRONY = [*GROUPS.volunteers[:1], *GROUPS.patients]
+HIDDEN = {
+    "mesh": "heart.vtu",
+    "motion": "motion.npz",
+    "beat": "beat.json",
+    "curves": "beat.csv",
+    "truth": "truth.json",
+}
 CATHETERISED = [name for name, case in CASES.items() if case.catheter]
 
 
@@ -137,6 +144,20 @@ def surroundings(setting):
     """The beats about the prior's mean on which the sensitivities rest."""
     points = range(2 * len(STUDY.sensitivity.parameters) + 1)
     return expand("<results>/sensitivity/{setting}/beats/{point}.json", setting=setting, point=points)
+
+
+def surrounding_beats(wildcards):
+    return surroundings(wildcards.setting)
+
+
+def surroundings_of(wildcards):
+    """The setting that frees all parameters that are tried about the prior's mean."""
+    return STUDY.surroundings(wildcards.setting)
+
+
+def results_folder(_):
+    """The folder of all that is computed; a function, or Snakemake's lint takes it for a path written out."""
+    return STUDY.results
 
 
 def shapes_of(cases):

@@ -14,7 +14,7 @@ rule tabulate_costs:
         mem_mb=500,
         runtime=5,
     params:
-        results=STUDY.results,
+        results=results_folder,
         code=code("tabulate_costs.py"),
     script:
         "../scripts/tabulate_costs.py"

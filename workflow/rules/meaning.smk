@@ -22,7 +22,7 @@ rule make_cards:
         mem_mb=1000,
         runtime=5,
     params:
-        results=STUDY.results,
+        results=results_folder,
         calibrated=CALIBRATED,
         groups=GROUPS,
         stated=stated(GROUPS),
@@ -45,7 +45,7 @@ rule compare_groups:
         mem_mb=1000,
         runtime=5,
     params:
-        results=STUDY.results,
+        results=results_folder,
         calibrated=CALIBRATED,
         groups=GROUPS,
         stated=stated(GROUPS),

@@ -4,14 +4,6 @@ REFERENCE_MESH = f"<results>/{SENSITIVITY.case}/geometry/mesh.vtu"
 SPHERE = STUDY.sphere()
 
 
-def surrounding_beats(wildcards):
-    return surroundings(wildcards.setting)
-
-
-def surroundings_of(wildcards):
-    return STUDY.surroundings(wildcards.setting)
-
-
 use rule draw_sigma_points as draw_surroundings with:
     output:
         "<results>/sensitivity/{setting}/points.json",
