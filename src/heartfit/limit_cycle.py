@@ -14,8 +14,8 @@ from heartfit.geometry.arrays import Floats
 
 SHIFT = 0.85
 """Part of the periodic pressure shift that is taken: a higher pressure lowers the stroke volume, which undoes the rest.
-With it 14 of 16 coarse hearts drift by less than 1 % in their second beat, but of the study's points a fifth: it is not tuned
-to them."""
+With it 14 of 16 coarse hearts drift by less than 1 % in their second beat, of the study's sigma points a fifth: it is
+not tuned to them."""
 
 
 @dataclass(frozen=True, eq=False)
