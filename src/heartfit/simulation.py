@@ -77,6 +77,7 @@ class _Run:
 
     def to_limit_cycle(self) -> Beat:
         state = self._start()
+        before: Recurrence | None = None
         while True:
             history = [state]
             for n in range(self.steps):
@@ -91,7 +92,8 @@ class _Run:
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
                 self.watch(history)
                 return self._beat(history)
-            state = state.raised(cycle.shifts(self.heart.circulation.trees(), self.heart.period))
+            state = state.raised(cycle.shifts(self.heart.circulation.trees(), self.heart.period, before))
+            before = cycle
 
     @property
     def dt(self) -> float:

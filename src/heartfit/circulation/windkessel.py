@@ -52,21 +52,28 @@ class Windkessel:
         """State at the end of a step with inflow ``inflow``."""
         return WindkesselState(*advanced(*self.constants(), state.P_c, state.q_L, inflow, dt))  # type: ignore[call-arg]
 
-    def periodic_shift(self, start: WindkesselState, end: WindkesselState, period: float) -> float:
-        r"""By how much P_c, Pa, after a beat is short of where the inflow of that beat would hold it.
+    def lack(
+        self, start: WindkesselState, end: WindkesselState, period: float, surplus: float = 0.0
+    ) -> float:
+        r"""By how much P_c, Pa, at the start of a beat is short of where the inflow of beats like it would hold it.
 
-        What is missing decays with :math:`\tau` from beat to beat: of :math:`P^* - P_c(0)` the part
-        :math:`e^{-T/\tau}` is left at the end, which is :math:`(P_c(T) - P_c(0)) / (e^{T/\tau} - 1)`.
+        Over a beat it decays by :math:`a = e^{-T/\tau}`, so that the inflow holds
+        :math:`P_c(0) + (P_c(T) - P_c(0)) / (1 - a)`, less what the ``surplus``, m^3, of this beat's stroke over those
+        to come would hold.
         """
-        return (end.P_c - start.P_c) / math.expm1(period / self.tau)
+        return (end.P_c - start.P_c) / -math.expm1(-period / self.tau) - self._held(surplus, period)
 
     def periodic_start(self, stroke: float, period: float) -> WindkesselState:
         r"""The state in which beats begin whose stroke volume, m^3, is ejected at once at EJECTION.
 
         .. math:: P_c = P_{ve} + \frac{V_s R_p}{\tau} \frac{e^{-(T - t_e)/\tau}}{1 - e^{-T/\tau}}
         """
+        return WindkesselState(self.P_ve + self._held(stroke, period))
+
+    def _held(self, stroke: float, period: float) -> float:
+        """P_c - P_ve, Pa, as beats of this stroke volume begin."""
         decayed = math.exp((EJECTION - period) / self.tau) / -math.expm1(-period / self.tau)
-        return WindkesselState(self.P_ve + stroke * self.R_p / self.tau * decayed)
+        return stroke * self.R_p / self.tau * decayed
 
 
 @njit(cache=True, error_model="numpy")

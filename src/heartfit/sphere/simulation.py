@@ -65,6 +65,7 @@ class _Run:
 
     def to_limit_cycle(self) -> Beat:
         state, length = self.heart.start(), self.period / self.steps
+        before: Recurrence | None = None
         course = self.heart.course(length * np.arange(float(self.steps)), length)
         curves = np.empty((self.steps + 1, 3 * len(self.heart.spheres) + len(self.heart.branches)))
         while True:
@@ -75,7 +76,8 @@ class _Run:
             self.drift = cycle.drift()
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
                 return self._beat(curves)
-            _raise(state, cycle.shifts(self.heart.trees, self.period))
+            _raise(state, cycle.shifts(self.heart.trees, self.period, before))
+            before = cycle
 
     def _beat_of(self, course: Course, state: State, curves: Floats) -> None:
         done = self._steps(course, state, curves, 0)
