@@ -40,6 +40,16 @@ def test_one_switch_turns_it_off(kind: type[Mechanism]) -> None:
     assert kind().turned_off() != kind()
 
 
+@each(KINDS)
+def test_a_search_knows_its_size(kind: type[Mechanism]) -> None:
+    """One to two scales are an admissible mechanism."""
+    switch = kind.switch()
+    assert switch.scale is not None
+    assert switch.scale > 0.0
+    for x in (1.0, 2.0):
+        assert replace(kind(), **{switch.name: switch.at(x)}) != kind().turned_off()  # type: ignore[type-var]
+
+
 @each(FLOWS | PRESSURES)
 def test_switched_off_it_leaves_no_trace(
     kind: type[Mechanism], spherical_heart: Heart, spheres: SphericalBody

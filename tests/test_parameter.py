@@ -4,10 +4,11 @@ from dataclasses import FrozenInstanceError, dataclass
 
 import pytest
 
+from heartfit.calibration.gaussian import Gaussian
 from heartfit.circulation.windkessel import Windkessel
 from heartfit.heart import Heart
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
-from heartfit.parameter import parameter, parameters_of, require_admissible
+from heartfit.parameter import Parameter, parameter, parameters_of, require_admissible
 
 
 @dataclass(frozen=True)
@@ -60,3 +61,25 @@ def test_every_calibrated_parameter_has_a_prior_around_an_admissible_value() -> 
             if declared.sd is not None:
                 assert 0.0 < declared.sd < 1.0
                 assert declared.value > max(declared.low, 0.0)
+
+
+def test_a_search_takes_a_switch_about_off_and_another_parameter_about_its_value() -> None:
+    switch = Parameter("leak", 3.0, "m^2", "A", "a leak", off=1.0, low=1.0, scale=0.5)
+    signed = Parameter("late", 3.0, "s", "d", "a delay", off=0.0, low=-1.0, scale=0.5)
+    place = Parameter("angle", 3.0, "rad", "a", "where", low=-9.0, scale=0.5)
+    assert [switch.at(x) for x in (-1.0, 0.0, 2.0)] == [1.0, 1.0, 2.0]
+    assert [signed.at(x) for x in (-1.0, 0.0, 2.0)] == [-0.5, 0.0, 1.0]
+    assert [place.at(x) for x in (-1.0, 0.0, 2.0)] == [2.5, 3.0, 4.0]
+    assert [each.one_sided for each in (switch, signed, place)] == [True, False, False]
+
+
+def test_a_search_takes_a_prior_as_a_calibration_does() -> None:
+    modulus = Parameter("c", 3.0, "Pa", "c", "a modulus", sd=0.2)
+    belief = Gaussian.of_relative({"c": 3.0}, {"c": 0.2})
+    for x in (-1.0, 0.0, 1.5):
+        assert modulus.at(x) == pytest.approx(belief.physical(belief.mean + x * belief.sd)["c"])
+
+
+def test_what_has_neither_scale_nor_prior_cannot_be_searched() -> None:
+    with pytest.raises(ValueError, match="parameter K cannot be searched: declare its scale or its sd"):
+        Parameter("K", 1.0, "Pa", "K", "a modulus").at(0.0)

@@ -12,10 +12,12 @@ HEADER = """# Parameters
 
 Every parameter of the standard heart and of the mechanisms that can be added to it. This page is written by
 `heartfit parameters` from the declarations in the code. "sd" is the relative standard deviation of the prior;
-the paper's fourteen are marked with *; "off" is the value at which a mechanism vanishes.
+the paper's fourteen are marked with *; "off" is the value at which a mechanism vanishes, "scale" the standard
+deviation, in the unit, that a search for causes gives it about that value: ± where it may have either sign. A scale
+without an off value is that of a parameter of a mechanism about its own value.
 
-| name | symbol | value | unit | sd | off | meaning | declared in |
-|---|---|---|---|---|---|---|---|
+| name | symbol | value | unit | sd | off | scale | meaning | declared in |
+|---|---|---|---|---|---|---|---|---|
 """
 
 
@@ -64,6 +66,7 @@ def _row(path: str, entry: Parameter) -> str:
         entry.unit,
         "" if entry.sd is None else f"{100 * entry.sd:g} %",
         "" if entry.off is None else f"{entry.off:g}",
+        "" if entry.scale is None else f"{'' if entry.one_sided else '±'}{entry.scale:g}",
         entry.meaning,
         f"`{path}`",
     )

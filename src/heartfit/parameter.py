@@ -7,6 +7,7 @@ from these declarations.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
+from math import exp
 from typing import Any
 
 from heartfit.errors import InputError
@@ -18,6 +19,8 @@ class Parameter:
 
     ``sd`` is the relative standard deviation of its log-normal prior (``None``: never calibrated), ``off`` the
     value at which a mechanism vanishes, ``low`` the bound below which the value makes no physical sense.
+    ``scale``, in ``unit``, is the standard deviation that a search for causes gives a parameter instead: normal about
+    ``off`` where it has one, about ``value`` otherwise, and half-normal where nothing below ``off`` makes sense.
     """
 
     name: str
@@ -28,6 +31,26 @@ class Parameter:
     sd: float | None = None
     off: float | None = None
     low: float = 0.0
+    scale: float | None = None
+
+    @property
+    def one_sided(self) -> bool:
+        """Whether it switches a mechanism whose sign is known: nothing below its off value makes sense."""
+        return self.off is not None and self.low >= self.off
+
+    def at(self, x: float) -> float:
+        r"""The value ``x`` standard deviations of the search's prior from its centre, never below ``low``.
+
+        .. math:: \theta = \theta_0 + s x \text{ with a scale } s, \qquad
+                  \theta = \theta_0 e^{\mathrm{sd}\, x} \text{ otherwise.}
+
+        Raises ``InputError`` where neither is declared.
+        """
+        if self.scale is not None:
+            return max(self.low, (self.value if self.off is None else self.off) + self.scale * x)
+        if self.sd is None:
+            raise InputError(f"parameter {self.name} cannot be searched: declare its scale or its sd")
+        return self.value * exp(self.sd * x)
 
 
 def parameter(
@@ -39,10 +62,12 @@ def parameter(
     sd: float | None = None,
     off: float | None = None,
     low: float = 0.0,
+    scale: float | None = None,
 ) -> Any:
     """A dataclass field that declares a parameter; see :class:`Parameter`."""
-    declared = {"unit": unit, "symbol": symbol, "meaning": meaning, "sd": sd, "off": off, "low": low}
-    return field(default=value, metadata={"parameter": declared})
+    known = {"unit": unit, "symbol": symbol, "meaning": meaning}
+    prior = {"sd": sd, "off": off, "low": low, "scale": scale}
+    return field(default=value, metadata={"parameter": known | prior})
 
 
 def parameters_of(part: Any) -> Iterator[Parameter]:

@@ -24,16 +24,10 @@ def test_an_offset_is_added_to_every_sample(offset: float) -> None:
     assert shown == pytest.approx(pressure(TIMES) + offset, rel=1e-15)
 
 
-def test_a_late_pressure_is_that_of_earlier_times() -> None:
-    shown = CatheterDelay(0.0137).distort(TIMES, pressure(TIMES), PERIOD)
-    assert shown == pytest.approx(pressure(TIMES - 0.0137), abs=1e-9)
-
-
-def test_a_catheter_does_not_see_the_future() -> None:
-    with pytest.raises(
-        ValueError, match=r"CatheterDelay\.lag = -0\.01 s: expected a finite value of at least 0"
-    ):
-        CatheterDelay(-0.01)
+@pytest.mark.parametrize("lag", [0.0137, -0.008])
+def test_a_late_pressure_is_that_of_earlier_times(lag: float) -> None:
+    shown = CatheterDelay(lag).distort(TIMES, pressure(TIMES), PERIOD)
+    assert shown == pytest.approx(pressure(TIMES - lag), abs=1e-9)
 
 
 @pytest.mark.parametrize("damping", [0.15, 0.7, 2.0])

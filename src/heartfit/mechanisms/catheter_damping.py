@@ -27,7 +27,13 @@ class CatheterDamping(Sensor):
 
     measures = ("lv_pressure",)
     response: float = parameter(
-        0.0106, unit="s", symbol="r", meaning="response time, 1 / (2 pi natural frequency)", sd=0.3, off=0.0
+        0.0106,
+        unit="s",
+        symbol="r",
+        meaning="response time, 1 / (2 pi natural frequency)",
+        sd=0.3,
+        off=0.0,
+        scale=0.015,
     )
     damping: float = parameter(0.3, unit="1", symbol=r"\zeta", meaning="damping ratio", sd=0.4, low=0.01)
 

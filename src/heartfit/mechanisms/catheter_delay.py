@@ -13,18 +13,24 @@ from heartfit.periodic import filtered
 @mechanism
 @dataclass(frozen=True)
 class CatheterDelay(Sensor):
-    r"""Left ventricular pressure that arrives late by :math:`d_p \ge 0`, through tubing and amplifier.
+    r"""Left ventricular pressure that is late by :math:`d_p`: through tubing and amplifier.
 
     .. math:: p'(t) = p(t - d_p), \qquad p'_k = e^{-2 \pi i k d_p / T} \, p_k
 
-    for harmonic k of the period T.
+    for harmonic k of the period T. Early, :math:`d_p < 0`, it is where the ECG that triggers is later still.
     Source: ours; the resonance of the same tubing is :class:`CatheterDamping
     <heartfit.mechanisms.catheter_damping.CatheterDamping>`.
     """
 
     measures = ("lv_pressure",)
     lag: float = parameter(
-        0.01, unit="s", symbol="d_p", meaning="by how much the pressure is late", sd=0.5, off=0.0
+        0.01,
+        unit="s",
+        symbol="d_p",
+        meaning="by how much the pressure seems late",
+        off=0.0,
+        low=-0.5,
+        scale=0.02,
     )
 
     def __post_init__(self) -> None:

@@ -20,7 +20,13 @@ class CatheterOffset(Sensor):
 
     measures = ("lv_pressure",)
     offset: float = parameter(
-        400.0, unit="Pa", symbol="p_0", meaning="pressure shown at no pressure", off=0.0, low=-5e3
+        400.0,
+        unit="Pa",
+        symbol="p_0",
+        meaning="pressure shown at no pressure",
+        off=0.0,
+        low=-5e3,
+        scale=600.0,
     )
 
     def __post_init__(self) -> None:

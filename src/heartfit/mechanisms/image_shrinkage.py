@@ -26,7 +26,13 @@ class ImageShrinkage(Sensor):
 
     measures = ("lv_volume", "rv_volume")
     shrinkage: float = parameter(
-        0.1, unit="1", symbol="s", meaning="fraction of the motion that is lost", off=0.0, low=-1.0
+        0.1,
+        unit="1",
+        symbol="s",
+        meaning="fraction of the motion that is lost",
+        off=0.0,
+        low=-1.0,
+        scale=0.08,
     )
 
     def __post_init__(self) -> None:

@@ -26,7 +26,13 @@ class ImageSmoothing(Sensor):
 
     measures = ("lv_volume", "rv_volume")
     smoothing: float = parameter(
-        0.015, unit="s", symbol=r"\tau_V", meaning="standard deviation of the time window", sd=0.5, off=0.0
+        0.015,
+        unit="s",
+        symbol=r"\tau_V",
+        meaning="standard deviation of the time window",
+        sd=0.5,
+        off=0.0,
+        scale=0.035,
     )
 
     def __post_init__(self) -> None:

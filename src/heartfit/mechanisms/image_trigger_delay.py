@@ -24,7 +24,13 @@ class ImageTriggerDelay(Sensor):
 
     measures = ("lv_volume", "rv_volume")
     delay: float = parameter(
-        0.02, unit="s", symbol="d_V", meaning="by how much the images seem late", off=0.0, low=-0.5
+        0.02,
+        unit="s",
+        symbol="d_V",
+        meaning="by how much the images seem late",
+        off=0.0,
+        low=-0.5,
+        scale=0.03,
     )
 
     def __post_init__(self) -> None:

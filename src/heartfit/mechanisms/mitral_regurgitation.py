@@ -22,7 +22,13 @@ class MitralRegurgitation(Flow):
     upstream = "lv"
     downstream = "left_atrium"
     area: float = parameter(
-        0.2e-4, unit="m^2", symbol="A", meaning="effective regurgitant orifice", sd=0.5, off=0.0
+        0.2e-4,
+        unit="m^2",
+        symbol="A",
+        meaning="effective regurgitant orifice",
+        sd=0.5,
+        off=0.0,
+        scale=0.15e-4,
     )
 
     def __post_init__(self) -> None:

@@ -1,0 +1,33 @@
+"""The registry of mechanisms: the folder ``heartfit/mechanisms``."""
+
+import importlib
+import pkgutil
+from typing import TypeVar
+
+from heartfit.mechanism.base import Mechanism
+from heartfit.mechanism.blood import Flow, Pressure
+from heartfit.mechanism.instrument import Sensor
+
+ROLES: tuple[type[Mechanism], ...] = (Flow, Pressure, Sensor)
+
+M = TypeVar("M", bound=type[Mechanism])
+
+_REGISTRY: dict[str, type[Mechanism]] = {}
+
+
+def mechanism(cls: M) -> M:
+    """Register a mechanism under its class name; ``TypeError`` without a role or with a name taken."""
+    if not issubclass(cls, ROLES):
+        raise TypeError(f"{cls.__name__} plays no role: derive it from one of {[r.__name__ for r in ROLES]}")
+    cls.switch()
+    if _REGISTRY.setdefault(cls.__name__, cls) is not cls:
+        raise TypeError(f"mechanism {cls.__name__} is registered twice: rename one of them")
+    return cls
+
+
+def registered() -> dict[str, type[Mechanism]]:
+    """All mechanisms of the folder ``heartfit/mechanisms``, by name."""
+    package = importlib.import_module("heartfit.mechanisms")
+    for module in pkgutil.iter_modules(package.__path__):
+        importlib.import_module(f"heartfit.mechanisms.{module.name}")
+    return dict(sorted(_REGISTRY.items()))
