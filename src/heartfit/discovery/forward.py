@@ -1,0 +1,43 @@
+"""A forward model that counts its runs and knows its slopes."""
+
+import numpy as np
+
+from heartfit.discovery.hypothesis import Hypothesis
+from heartfit.geometry.arrays import Floats
+
+DIFFERENCE = 0.05
+"""Step of a finite difference in prior standard deviations: far above a simulation's tolerance, far below its bends."""
+SHORTER = (1.0, 0.5, 0.25, 0.0)
+"""Shares of the way from the centre of the priors at which a start is tried, should its simulation fail."""
+
+
+class Counted:
+    """The forward model of a hypothesis, and how many simulations it took."""
+
+    def __init__(self, hypothesis: Hypothesis) -> None:
+        self.hypothesis, self.runs = hypothesis, 0
+
+    def __call__(self, x: Floats) -> Floats | None:
+        self.runs += 1
+        return self.hypothesis.forward(x)
+
+    def started(self, start: Floats) -> tuple[Floats, Floats] | None:
+        """The start (d,), or the nearest shorter one whose simulation is completed, and what it predicts (n,)."""
+        for share in SHORTER:
+            predicted = self(share * start)
+            if predicted is not None:
+                return share * start, predicted
+        return None
+
+    def jacobian(self, x: Floats, predicted: Floats) -> Floats:
+        """(n, d); a coordinate in whose two directions the simulation fails has a column of zeros."""
+        return np.column_stack([self._column(x, predicted, index) for index in range(x.size)])
+
+    def _column(self, x: Floats, predicted: Floats, index: int) -> Floats:
+        for difference in (DIFFERENCE, -DIFFERENCE):
+            moved = x.copy()
+            moved[index] += difference
+            seen = self(moved) if (moved >= self.hypothesis.lower).all() else None
+            if seen is not None:
+                return (seen - predicted) / difference
+        return np.zeros_like(predicted)

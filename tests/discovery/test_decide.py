@@ -1,0 +1,54 @@
+"""Each branch of the verdict on evidences made by hand, none = 0."""
+
+import pytest
+
+from heartfit.discovery.decide import Decision, Evidences, Verdict, decide
+from heartfit.discovery.rules import STRICT
+
+A, B, C, AB = ("a",), ("b",), ("c",), ("a", "b")
+
+
+def evidences(
+    a: float,
+    b: float = 0.0,
+    rival: float = -5.0,
+    on_top: float = 0.0,
+    pair: float | None = None,
+    left: float = 0.0,
+) -> Evidences:
+    """on_top and left: what the process gains on top of the best single effect and of the pair."""
+    pairs = {} if pair is None else {AB: pair}
+    best = A if a >= b else B
+    above = {best: max(a, b) + on_top} | {name: value + left for name, value in pairs.items()}
+    return Evidences(0.0, {A: a, B: b, C: -1.0}, rival, above, pairs)
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        (evidences(4.9), Decision(Verdict.NONE)),
+        (evidences(5.0), Decision(Verdict.NAMED, A)),
+        (evidences(1.0, rival=5.0), Decision(Verdict.UNKNOWN)),
+        (evidences(8.0, rival=6.5), Decision(Verdict.UNKNOWN)),
+        (evidences(8.0, rival=6.0), Decision(Verdict.NAMED, A)),
+        (evidences(9.0, on_top=4.1), Decision(Verdict.UNKNOWN)),
+        (evidences(9.0, on_top=4.0), Decision(Verdict.NAMED, A)),
+        (evidences(100.0, rival=90.0, on_top=35.0), Decision(Verdict.NAMED, A)),
+        (evidences(100.0, rival=90.0, on_top=36.0), Decision(Verdict.UNKNOWN)),
+        (evidences(100.0, rival=90.1, on_top=35.0), Decision(Verdict.UNKNOWN)),
+        (evidences(12.0, 9.5), Decision(Verdict.GROUP, A, (B,))),
+        (evidences(9.5, 12.0), Decision(Verdict.GROUP, B, (A,))),
+        (evidences(12.0, 9.0), Decision(Verdict.NAMED, A)),
+        (evidences(12.0, pair=18.9), Decision(Verdict.NAMED, A)),
+        (evidences(12.0, pair=19.0), Decision(Verdict.TWO, AB)),
+        (evidences(12.0, pair=19.0, left=4.0), Decision(Verdict.NAMED, A)),
+        (evidences(12.0, rival=30.0, on_top=30.0, pair=50.0), Decision(Verdict.TWO, AB)),
+    ],
+)
+def test_the_rules(given, expected) -> None:
+    assert decide(given) == expected
+
+
+def test_a_model_of_another_structure_asks_for_more() -> None:
+    assert decide(evidences(9.9), STRICT) == Decision(Verdict.NONE)
+    assert decide(evidences(10.0), STRICT) == Decision(Verdict.NAMED, A)
