@@ -49,7 +49,7 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
         "plot_septal_flash",
     }
     assert readers(run.stdout, "images/cine") == {"register_volunteer", "plot_contours", "plot_overlay"}
-    assert readers(run.stdout, "verification/motion") == {"plot_overlay"}
+    assert readers(run.stdout, "verification/motion") == {"plot_overlay", "plot_residual"}
     assert counts["plot_overlay"] == PATIENTS + 1
     assert counts["try_acquisition"] == 21 + 3 + 6 * 2
     assert counts["build_template"] == 3

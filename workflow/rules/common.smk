@@ -64,6 +64,7 @@ PICTURES = [
     *(f"{case}_contours" for case in VIRTUAL + IMAGED),
     *(f"{case}_{SETTINGS[-1]}_overlay" for case in DYSSYNCHRONY),
     *(f"{case}_cine_{about}" for case in IMAGED for about in ("outlines", "volume")),
+    *(f"residual_{case}_{setting}" for case in CASES for setting in SETTINGS),
 ]
 CASE_PICTURES = [
     f"{case}_{setting}{about}.{kind}"
@@ -182,6 +183,22 @@ def images_of(wildcards):
 def noise_of(wildcards):
     """The noise model of the volunteers' images; none was made for those of a measured heart."""
     return [NOISE_MODEL] if wildcards.case in VIRTUAL else []
+
+
+def sequences_of_known_truth(wildcards):
+    """What was learnt of the strain that registration finds in such images; nothing of a measured heart's."""
+    numbers = TRIED["baseline"] if wildcards.case in VIRTUAL else ()
+    return expand("<results>/registration_error/baseline/{number}.json", number=numbers)
+
+
+def calibrated_beats():
+    """The calibrated beat of a case, its motion and the parameters it has."""
+    folder = "<results>/{case}/{setting}"
+    return {
+        "beats": [f"{folder}/verification/beat.json"],
+        "motions": [f"{folder}/verification/motion.npz"],
+        "posteriors": [f"{folder}/calibration/posterior.json"],
+    }
 
 
 def pressure_of(wildcards):
