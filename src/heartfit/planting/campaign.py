@@ -1,0 +1,44 @@
+"""Which cases a benchmark plants: kinds in fixed numbers, shuffled, so that any first part of it is a fair sample."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from heartfit.planting.case import Plan
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """How many of each kind: nulls and pairs in all, singles and outsiders of each effect and size.
+
+    ``first_seed`` is the seed of the first case; each further one has the next. ``pair_scales`` is the size of both
+    effects of a pair.
+    """
+
+    first_seed: int
+    nulls: int
+    singles: int
+    outsiders: int
+    pairs: int
+    scales: Sequence[float]
+    pair_scales: float
+
+    def plans(self, library: Sequence[str], outside: Sequence[str]) -> list[Plan]:
+        """All cases, given the names of the library's mechanisms and of the outsiders."""
+        rng = np.random.default_rng(self.first_seed)
+        kinds = [Plan(0, "none")] * self.nulls
+        sizes = list(self.scales)
+        kinds += [Plan(0, "single", (name,), s) for name, s in product(library, sizes)] * self.singles
+        kinds += [Plan(0, "outside", (name,), s) for name, s in product(outside, sizes)] * self.outsiders
+        kinds += [self._pair(library, rng) for _ in range(self.pairs)]
+        order = rng.permutation(len(kinds)).tolist()
+        return [
+            Plan(self.first_seed + seed, kinds[i].kind, kinds[i].names, kinds[i].scales)
+            for seed, i in enumerate(order)
+        ]
+
+    def _pair(self, library: Sequence[str], rng: np.random.Generator) -> Plan:
+        first, second = rng.choice(sorted(library), 2, replace=False).tolist()
+        return Plan(0, "two", (first, second), self.pair_scales)

@@ -1,0 +1,111 @@
+"""A planted case: what is measured of a hidden heart, and the answer, apart."""
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from heartfit.beat import Beat
+from heartfit.mechanism import Mechanism
+from heartfit.observation.curve import Curve
+from heartfit.planting.effects import Effect, Inadmissible, described, draw_effect, plantable
+from heartfit.planting.hidden import NUMERICS, HiddenHeart, draw_hidden
+from heartfit.planting.measuring import Study, measured
+from heartfit.planting.outsiders import OUTSIDERS
+
+Kind = Literal["none", "single", "two", "outside"]
+
+EDV, EJECTION_FRACTION, PEAK = (80e-6, 300e-6), (0.15, 0.80), (8e3, 30e3)
+"""What a patient who is examined may have: m^3, 1, Pa."""
+PRELOAD = (1.3, 1.6)
+"""Resting atrial pressure of the second condition over that of the first: raised legs."""
+REST = "rest"
+ATTEMPTS = 200
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What to plant: nothing, one or two mechanisms of the registry or an outsider, by name, of ``scales`` each."""
+
+    seed: int
+    kind: Kind
+    names: tuple[str, ...] = ()
+    scales: float = 0.0
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What was planted, how often a draw was refused and why, and the truth: standard deviates of the parameters."""
+
+    seed: int
+    kind: Kind
+    effects: tuple[Effect, ...]
+    rejected: Mapping[str, int]
+    truth: Mapping[str, float]
+    volume_noise: float
+
+
+@dataclass(frozen=True, eq=False)
+class PlantedCase:
+    """Curves (lv_volume, lv_pressure) by condition, and the answer, which no diagnosis may see."""
+
+    curves: Mapping[str, Mapping[str, Curve]]
+    answer: Answer = field(repr=False)
+
+
+def plant(plan: Plan, second_condition: bool = False) -> PlantedCase:
+    """The case of this plan; draws that no patient resembles are counted and drawn anew.
+
+    Conditions are "rest" and, where asked for, "preload" with fuller atria. Raises RuntimeError after 200 draws.
+    """
+    rejected: Counter[str] = Counter()
+    for attempt in range(ATTEMPTS):
+        try:
+            return _planted(plan, np.random.default_rng([plan.seed, attempt]), second_condition, rejected)
+        except Inadmissible as refused:
+            rejected[str(refused)] += 1
+    raise RuntimeError(
+        f"seed {plan.seed}: {ATTEMPTS} draws were refused, {dict(rejected)}: choose another one"
+    )
+
+
+def _planted(
+    plan: Plan, rng: np.random.Generator, second_condition: bool, rejected: Mapping[str, int]
+) -> PlantedCase:
+    healthy, study = draw_hidden(rng), Study.draw(rng)
+    planted = [draw_effect(cls, plan.scales, rng) for cls in _classes(plan)]
+    hidden = healthy.with_effects(planted)
+    loads = {REST: 1.0} | ({"preload": float(rng.uniform(*PRELOAD))} if second_condition else {})
+    beats = {name: _plausible(hidden.loaded(factor)) for name, factor in loads.items()}
+    curves = {name: measured(beat, hidden.heart.sensors, study, rng) for name, beat in beats.items()}
+    answer = Answer(
+        plan.seed, plan.kind, described(planted, plan.scales), dict(rejected), healthy.deviates, study.noise
+    )
+    return PlantedCase(curves, answer)
+
+
+def _classes(plan: Plan) -> list[type[Mechanism]]:
+    outside = {cls.__name__: cls for cls in OUTSIDERS}
+    known = outside if plan.kind == "outside" else plantable()
+    return [known[name] for name in plan.names]
+
+
+def _plausible(hidden: HiddenHeart) -> Beat:
+    """The beat; raises Inadmissible with the reason for one that no patient resembles."""
+    beat = hidden.beat()
+    if not beat.completed:
+        raise Inadmissible("no beat")
+    if beat.diagnostics["drift"] > NUMERICS.drift:
+        raise Inadmissible("not periodic")
+    volume, pressure = beat.volume["lv"], beat.pressure["lv"]
+    seen = {
+        "end-diastolic volume": (volume.max(), EDV),
+        "ejection fraction": (1.0 - volume.min() / volume.max(), EJECTION_FRACTION),
+        "peak pressure": (pressure.max(), PEAK),
+    }
+    for name, (value, (low, high)) in seen.items():
+        if not low <= value <= high:
+            raise Inadmissible(name)
+    return beat

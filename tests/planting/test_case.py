@@ -1,0 +1,127 @@
+"""Planted cases: what is planted is what was asked for, by its seed, and nothing that no patient resembles."""
+
+import numpy as np
+import pytest
+
+from heartfit.heart import Heart
+from heartfit.mechanism import registered
+from heartfit.planting import case as cases
+from heartfit.planting.campaign import Campaign
+from heartfit.planting.case import Plan, plant
+from heartfit.planting.effects import Inadmissible, draw_effect, plantable
+from heartfit.planting.hidden import draw_hidden
+from heartfit.planting.outsiders import OUTSIDERS, joined
+
+LEAK = Plan(7, "single", ("MitralRegurgitation",), 2.0)
+
+
+def values(planted, curve="lv_volume"):
+    return planted.curves["rest"][curve].values
+
+
+def test_a_plan_gives_the_same_case_and_another_seed_another():
+    assert np.array_equal(values(plant(LEAK)), values(plant(LEAK)))
+    other = plant(Plan(8, "single", LEAK.names, 2.0))
+    assert not np.array_equal(values(other)[:20], values(plant(LEAK))[:20])
+
+
+def test_the_answer_says_what_was_planted_and_the_curves_do_not():
+    planted = plant(LEAK)
+    (effect,) = planted.answer.effects
+    switch = registered()["MitralRegurgitation"].switch()
+    assert (effect.name, effect.unit, effect.scales) == ("MitralRegurgitation", "m^2", 2.0)
+    assert effect.amplitude == pytest.approx(2.0 * switch.scale)
+    assert set(planted.curves) == {"rest"}
+    assert set(planted.curves["rest"]) == {"lv_volume", "lv_pressure"}
+    assert "Regurgitation" not in repr(planted)
+
+
+def test_a_second_condition_is_the_same_heart_fuller():
+    planted = plant(Plan(7, "none"), second_condition=True)
+    rest, fuller = (planted.curves[name]["lv_volume"].values.max() for name in ("rest", "preload"))
+    assert fuller > rest
+
+
+@pytest.mark.parametrize("name", plantable())
+def test_every_mechanism_of_the_registry_can_be_planted(name):
+    effect = draw_effect(plantable()[name], 2.0, np.random.default_rng(0))
+    assert abs(getattr(effect, effect.switch().name) - effect.switch().off) > 0.0
+
+
+def test_both_signs_are_drawn_where_there_are_two():
+    drawn = [
+        draw_effect(plantable()["ImageTriggerDelay"], 2.0, np.random.default_rng(seed)).delay
+        for seed in range(20)
+    ]
+    assert min(drawn) < 0.0 < max(drawn)
+    leaks = [
+        draw_effect(plantable()["MitralRegurgitation"], 2.0, np.random.default_rng(s)) for s in range(20)
+    ]
+    assert min(leak.area for leak in leaks) > 0.0
+
+
+def test_the_kick_that_every_heart_has_is_not_planted():
+    assert "AtrialKick" not in plantable()
+
+
+@pytest.mark.parametrize("outsider", OUTSIDERS, ids=lambda cls: cls.__name__)
+def test_an_outsider_is_not_in_the_library_and_is_seen(outsider):
+    assert outsider.__name__ not in registered()
+    without = plant(Plan(3, "none"))
+    planted = plant(Plan(3, "outside", (outsider.__name__,), 2.5))
+    moved = max(np.ptp(values(planted, c)) / np.ptp(values(without, c)) for c in ("lv_volume", "lv_pressure"))
+    assert planted.answer.effects[0].name == outsider.__name__
+    assert np.isfinite(moved)
+
+
+@pytest.mark.parametrize("outsider", OUTSIDERS, ids=lambda cls: cls.__name__)
+def test_an_outsider_that_is_off_changes_no_bit_of_a_heart(outsider):
+    hidden = draw_hidden(np.random.default_rng(2))
+    off = outsider().turned_off()
+    beat = hidden.with_effects([off]).beat()
+    assert np.allclose(beat.volume["lv"], hidden.beat().volume["lv"], rtol=1e-9)
+    if "lv_volume" in getattr(off, "measures", ()):
+        assert np.array_equal(off.distort(beat.time, beat.volume["lv"], beat.period), beat.volume["lv"])
+
+
+def test_a_second_twitch_is_a_second_share_of_the_depolarisation():
+    control = joined(Heart(), OUTSIDERS[-1](share=0.4)).tissue.control
+    start = np.linspace(0.0, 0.8, 801)
+    _, attach = control.mean(start, 1e-3, np.zeros(1), 0.829)
+    second = attach[(start > 0.625) & (start < 0.71)]
+    assert np.allclose(second, 0.4 * control.k_ATP)
+
+
+def test_what_no_patient_resembles_is_counted_and_drawn_anew(monkeypatch):
+    monkeypatch.setattr(cases, "EJECTION_FRACTION", (0.55, 0.8))
+    planted = [plant(Plan(seed, "none")) for seed in range(6)]
+    assert sum(each.answer.rejected.get("ejection fraction", 0) for each in planted) > 0
+    fractions = [1.0 - values(each).min() / values(each).max() for each in planted]
+    assert min(fractions) > 0.5
+
+
+def test_a_seed_that_never_gives_a_patient_is_told(monkeypatch):
+    monkeypatch.setattr(cases, "PEAK", (0.0, 1.0))
+    monkeypatch.setattr(cases, "ATTEMPTS", 3)
+    with pytest.raises(RuntimeError, match="seed 1: 3 draws"):
+        plant(Plan(1, "none"))
+
+
+def test_a_mechanism_that_refuses_its_draw_is_inadmissible():
+    shrinkage = plantable()["ImageShrinkage"]
+    with pytest.raises(Inadmissible):
+        draw_effect(shrinkage, 1e3, np.random.default_rng(0))
+
+
+def test_a_campaign_plants_what_it_says_with_a_seed_each():
+    plans = Campaign(1000, 4, 2, 1, 3, (2.0, 2.5), 2.5).plans(("A", "B", "C"), ("X",))
+    kinds = [plan.kind for plan in plans]
+    assert {kind: kinds.count(kind) for kind in set(kinds)} == {
+        "none": 4,
+        "single": 12,
+        "outside": 2,
+        "two": 3,
+    }
+    assert [plan.seed for plan in plans] == list(range(1000, 1021))
+    assert kinds != sorted(kinds)
+    assert all(len(set(plan.names)) == 2 for plan in plans if plan.kind == "two")

@@ -1,0 +1,48 @@
+"""What is measured of a hidden heart: its errors have the sizes and memories they are stated to have."""
+
+import numpy as np
+import pytest
+
+from heartfit.planting import measuring
+from heartfit.planting.hidden import draw_hidden
+from heartfit.planting.measuring import Study, autoregressive, measured, smooth
+
+BEAT = draw_hidden(np.random.default_rng(1)).beat()
+
+
+def test_errors_of_neighbouring_frames_correlate_as_stated():
+    error = autoregressive(40000, 0.6, np.random.default_rng(0))
+    assert error.std() == pytest.approx(1.0, abs=0.02)
+    for lag in (1, 2):
+        assert np.mean(error[lag:] * error[:-lag]) == pytest.approx(0.6**lag, abs=0.03)
+
+
+def test_roughness_has_variance_one_its_length_and_the_period():
+    rng, times = np.random.default_rng(0), np.array([0.0, 0.05, 0.86])
+    drawn = np.array([smooth(times, 0.86, 0.05, rng) for _ in range(4000)])
+    correlation = np.corrcoef(drawn.T)
+    assert drawn.std(axis=0) == pytest.approx(1.0, abs=0.05)
+    assert correlation[0, 1] == pytest.approx(np.exp(-0.5), abs=0.1)
+    assert correlation[0, 2] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_a_study_draws_frames_and_noise_within_their_bounds():
+    studies = [Study.draw(np.random.default_rng(seed)) for seed in range(100)]
+    assert {each.frames for each in studies} == set(range(25, 31))
+    assert all(0.01 <= each.noise <= 0.03 for each in studies)
+
+
+def test_curves_are_the_beat_with_errors_of_the_stated_size(monkeypatch):
+    study, rng = Study(28, 0.02), np.random.default_rng(0)
+    seen = [measured(BEAT, (), study, rng) for _ in range(60)]
+    monkeypatch.setattr(measuring, "PRESSURE_NOISE", 0.0)
+    monkeypatch.setattr(measuring, "VOLUME_ROUGHNESS", 0.0)
+    monkeypatch.setattr(measuring, "PRESSURE_ROUGHNESS", 0.0)
+    true = measured(BEAT, (), Study(28, 0.0), rng)
+    volume = np.array([each["lv_volume"].values for each in seen]) - true["lv_volume"].values
+    pressure = np.array([each["lv_pressure"].values for each in seen]) - true["lv_pressure"].values
+    expected = np.hypot(0.02 * BEAT.volume["lv"].max(), 0.6e-6)
+    assert len(true["lv_volume"].values) == 28
+    assert volume.std() == pytest.approx(expected, rel=0.1)
+    assert pressure.std() == pytest.approx(np.hypot(300.0 / np.sqrt(10.0), 150.0), rel=0.1)
+    assert np.diff(true["lv_pressure"].times) == pytest.approx(0.01)
