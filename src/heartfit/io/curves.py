@@ -31,6 +31,7 @@ PLACES = {
 }
 KINDS = {f"{place}_{kind}": kind for kind, places in PLACES.items() for place in places}
 COLUMNS = {f"{name}_{UNITS[kind][0]}": name for name, kind in KINDS.items()}
+COLUMNS["aortic_pressure_kpa"] = "aorta_pressure"  # as it is spoken
 FLOW = re.compile(r"(\w+_flow)_ml_per_s")  # any branch: a mechanism may add one
 
 
@@ -65,7 +66,7 @@ def read_table_of_curves(
     Raises InputError for a missing file, time column or period, an unknown column, and for text, NaN or nothing where
     a number belongs.
     """
-    times, values, period = _read_sampled(path, period)
+    times, values, period = read_sampled(path, period)
     for name, array in values.items():
         if np.isnan(array).any():
             row = int(np.flatnonzero(np.isnan(array))[0]) + 1
@@ -73,8 +74,8 @@ def read_table_of_curves(
     return times, values, period
 
 
-def _read_sampled(path: Path, period: float | None) -> tuple[np.ndarray, dict[str, np.ndarray], float]:
-    """The same, NaN where a cell is empty."""
+def read_sampled(path: Path, period: float | None) -> tuple[np.ndarray, dict[str, np.ndarray], float]:
+    """What :func:`read_table_of_curves` returns, NaN where a cell is empty."""
     table = _read_csv(path)
     numbers = {column: _numbers(path, table[column]) for column in table.columns}
     values = {
@@ -106,7 +107,7 @@ def _spread(curve: Curve, times: np.ndarray) -> np.ndarray:
 
 def read_curves(path: Path, period: float | None = None) -> dict[str, Curve]:
     """Curves by name, SI, each where it was sampled; raises InputError that names the file for what a curve refuses."""
-    times, values, period = _read_sampled(path, period)
+    times, values, period = read_sampled(path, period)
     makers = {"volume": Curve.of_volume, "pressure": Curve.of_pressure, "flow": Curve}
     sampled = {name: ~np.isnan(array) for name, array in values.items()}
     try:
@@ -164,5 +165,7 @@ def _period(path: Path) -> float:
         r"^#\s*period_s\s*=\s*([0-9.eE+-]+)\s*$", Path(path).read_text(encoding="utf-8"), re.MULTILINE
     )
     if not found:
-        raise InputError(f"{path}: no period; expected a first line such as '# period_s = 0.829'")
+        raise InputError(
+            f"{path}: no period; expected a first line such as '# period_s = 0.829', or the period beside the file"
+        )
     return float(found[1])

@@ -74,20 +74,14 @@ class Curve:
     def of_volume(cls, times: ArrayLike, values: ArrayLike, period: float) -> Self:
         """A cavity's volume in m^3; raises InputError for what no human ventricle can hold."""
         curve = cls(np.asarray(times), np.asarray(values), period)
-        _check_range(curve.values, VOLUMES, "volume", "m^3", VOLUME_MISTAKES)
+        require_volumes(curve.values)
         return curve
 
     @classmethod
     def of_pressure(cls, times: ArrayLike, values: ArrayLike, period: float) -> Self:
         """A pressure in Pa; raises InputError for what no human heart bears."""
         curve = cls(np.asarray(times), np.asarray(values), period)
-        _check_range(curve.values, PRESSURES, "pressure", "Pa", PRESSURE_MISTAKES)
-        if np.abs(curve.values).max() < 200.0:
-            raise InputError(
-                f"pressure: the largest value is {np.abs(curve.values).max():g} Pa; expected kilopascals in "
-                "a beat: "
-                "probably kPa or mmHg taken for Pa: convert it"
-            )
+        require_pressures(curve.values)
         return curve
 
     def __call__(self, times: ArrayLike) -> np.ndarray:
@@ -102,6 +96,21 @@ class Curve:
         """The curve at `frames` equidistant times from time zero."""
         times = np.arange(frames) * (self.period / frames)
         return replace(self, times=times, values=self(times))
+
+
+def require_volumes(values: np.ndarray) -> None:
+    """Raise InputError for volumes, m^3, that no human ventricle can hold."""
+    _check_range(values, VOLUMES, "volume", "m^3", VOLUME_MISTAKES)
+
+
+def require_pressures(values: np.ndarray) -> None:
+    """Raise InputError for pressures of a beat, Pa, that no human heart bears."""
+    _check_range(values, PRESSURES, "pressure", "Pa", PRESSURE_MISTAKES)
+    if np.abs(values).max() < 200.0:
+        raise InputError(
+            f"pressure: the largest value is {np.abs(values).max():g} Pa; expected kilopascals in a beat: probably "
+            "kPa or mmHg taken for Pa: convert it"
+        )
 
 
 def _check_range(

@@ -1,0 +1,59 @@
+"""The sphere of the search: its centre, its size, and beats that an instrument does not cost."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.diagnosis.centre import HUMAN
+from heartfit.diagnosis.free import FREE
+from heartfit.diagnosis.recording import Recording, Samples
+from heartfit.diagnosis.twin import Twin
+from heartfit.mechanisms.catheter_offset import CatheterOffset
+from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+
+TIMES = {"lv_volume": np.arange(26) / 30, "lv_pressure": np.arange(86) / 100}
+CENTRE = np.zeros(len(FREE))
+
+
+def test_the_centre_is_a_human_heart():
+    volume, pressure = np.split(Twin(HUMAN, TIMES).predicted(CENTRE, ()), [26])
+    assert volume.max() == pytest.approx(HUMAN.filled, rel=0.02)
+    assert 40e-6 < volume.min() < 60e-6
+    assert 14e3 < pressure.max() < 17e3
+
+
+def test_size_changes_volumes_and_no_pressure():
+    frames = np.arange(26) / 30
+    large = Recording(HUMAN.heart.period, {"lv_volume": Samples(frames, np.full(26, 2.0 * HUMAN.filled))})
+    small, twice = (Twin(each, TIMES) for each in (HUMAN, HUMAN.of_the_size_of(large)))
+    ratio = twice.predicted(CENTRE, ()) / small.predicted(CENTRE, ())
+    assert ratio[:26] == pytest.approx(2.0, rel=1e-3)  # the mass of the wall alone breaks the similarity
+    assert ratio[26:] == pytest.approx(1.0, rel=0.1)
+
+
+def test_an_instrument_costs_no_simulation_and_a_mechanism_does():
+    twin = Twin(HUMAN, TIMES)
+    true = twin.predicted(CENTRE, ())
+    offset = twin.predicted(CENTRE, (CatheterOffset(500.0),))
+    assert twin.simulations == 1
+    assert offset[26:] - true[26:] == pytest.approx(500.0)
+    assert np.array_equal(twin.predicted(CENTRE, (MitralRegurgitation(0.0),)), true)
+    leaking = twin.predicted(CENTRE, (MitralRegurgitation(3e-5),))
+    assert twin.simulations == 3
+    assert leaking[26:].max() < true[26:].max()
+
+
+def test_the_trigger_moves_the_recording_and_not_the_heart():
+    twin, late = Twin(HUMAN, TIMES), CENTRE.copy()
+    late[-1] = 1.0
+    twin.predicted(CENTRE, ())
+    shifted = Twin(HUMAN, {name: at + 0.008 for name, at in TIMES.items()}).predicted(CENTRE, ())
+    assert twin.predicted(late, ()) == pytest.approx(shifted, rel=1e-9)
+    assert twin.simulations == 1
+
+
+def test_coordinates_beyond_what_a_heart_can_be_predict_nothing():
+    assert Twin(HUMAN, TIMES).predicted(np.where(np.arange(len(FREE)) == 15, 60.0, 0.0), ()) is None
+    weak = replace(HUMAN, heart=HUMAN.heart.with_parameters({"c_1": 1.0}))
+    assert Twin(weak, TIMES).predicted(CENTRE, ()) is None
