@@ -13,7 +13,7 @@ HEIGHTS = (
     ("errors",),
     ("parameter",),
     ("geometry",),
-    ("branch", "imaging", "periodic"),
+    ("branch", "imaging", "load", "periodic"),
     ("electrophysiology",),
     ("mechanism",),
     ("mechanics",),

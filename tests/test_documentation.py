@@ -5,20 +5,20 @@ from pathlib import Path
 
 import pytest
 
-from heartfit import mechanism
+from heartfit.mechanism import registry
 
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 def test_the_example_of_a_mechanism_is_one(monkeypatch):
-    monkeypatch.setattr(mechanism, "_REGISTRY", {})
+    monkeypatch.setattr(registry, "_REGISTRY", {})
     (example,) = re.findall(
         r"```python\n(.*?)```", (ROOT / "docs" / "write_a_mechanism.md").read_text(), re.DOTALL
     )
     names = {"__name__": "example"}
     exec(compile(example, "write_a_mechanism.md", "exec"), names)
-    leak = names["AorticRegurgitation"]()
+    leak = names["SeptalDefect"]()
     assert leak.flow(0.0, 8e3)[0] > 0.0
     assert leak.turned_off().flow(0.0, 8e3)[0] == 0.0
 

@@ -1,10 +1,15 @@
-r"""The law of a branch of the circuit as data: flow and slope from four coefficients.
+r"""The law of a branch of the circuit as data: flow and slope from five coefficients.
 
 .. math:: q(\Delta p) = K \Delta p + A \sqrt{2/\rho}\, \Delta p\, (\Delta p^2 + \epsilon^2)^{-1/4},
 
 a conductance K beside an orifice of area A, each with one value for forward (:math:`\Delta p > 0`) and one for
-backward flow. The orifice is Bernoulli's, its root smoothed over :math:`\epsilon` = 20 Pa. Valves and leaks are such
-branches, so one function serves them all, in Python and in compiled beats.
+backward flow. The orifice is Bernoulli's, its root smoothed over :math:`\epsilon` = 20 Pa. A narrowing in series takes
+:math:`b q^2` of the forward drop, which leaves a conductance
+
+.. math:: q = \frac{2 K \Delta p}{1 + \sqrt{1 + 4 b K^2 \Delta p}}
+
+and an orifice smaller. Valves and leaks are such branches, so one function serves them all, in Python and in compiled
+beats.
 """
 
 from typing import NamedTuple
@@ -12,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
 
 BLOOD_DENSITY = 1060.0
@@ -24,26 +30,44 @@ SMOOTHING = 20.0
 class Branch(NamedTuple):
     """Coefficients of a branch: conductances, m^3/(s Pa), and orifice areas, m^2, forward and backward.
 
-    Each is a number, or an array over times.
+    ``loss``, Pa s^2/m^6, is the b of a narrowing in series with the forward conductance. Each is a number, or an array
+    over times.
     """
 
     conductance: float | Floats = 0.0
     area: float | Floats = 0.0
     back_conductance: float | Floats = 0.0
     back_area: float | Floats = 0.0
+    loss: float | Floats = 0.0
 
     def flow(self, drop: float) -> tuple[float, float]:
         """Flow, m^3/s, at the pressure drop, Pa, and its derivative by the drop."""
         flow, slope = branch_flow(np.array([[self]]), 0, 0, drop)
         return float(flow), float(slope)
 
+    def narrowed(self, inverse_square: float) -> "Branch":
+        r"""The branch in series with a narrowing of area B, given :math:`a = 1/B^2`, 1/m^4.
+
+        Bernoulli's losses add: :math:`b = \rho a / 2`, and :math:`1/A'^2 = 1/A^2 + a` of an orifice. Raises InputError
+        where a conductance lies beside an orifice: the two in series with a narrowing have no closed form.
+        """
+        if np.any(self.conductance) and np.any(self.area):
+            raise InputError(
+                "branch: a conductance beside an orifice cannot be narrowed; expected one of them"
+            )
+        area = self.area / np.sqrt(1.0 + inverse_square * np.square(self.area))
+        return self._replace(area=area, loss=self.loss + 0.5 * BLOOD_DENSITY * inverse_square)
+
 
 @njit(cache=True, error_model="numpy", inline="always")
 def branch_flow(laws, t, k, drop):  # type: ignore[no-untyped-def]
-    """Flow and slope of branch k at time t of the ``laws`` (.., .., 4); increases with the drop."""
+    """Flow and slope of branch k at time t of the ``laws`` (.., .., 5); increases with the drop."""
     way = 0 if drop > 0.0 else 2
     conductance, area = laws[t, k, way], laws[t, k, way + 1]
     flow, slope = conductance * drop, conductance
+    if drop > 0.0 and laws[t, k, 4] != 0.0:
+        root = np.sqrt(1.0 + 4.0 * laws[t, k, 4] * conductance * flow)
+        flow, slope = 2.0 * flow / (1.0 + root), slope / root
     if area != 0.0:
         factor = area * np.sqrt(2.0 / BLOOD_DENSITY)
         smooth = drop * drop + SMOOTHING * SMOOTHING

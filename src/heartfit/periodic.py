@@ -1,4 +1,4 @@
-"""Linear filters of a periodic curve, applied to its harmonics."""
+"""Periodic curves: linear filters, applied to their harmonics, and a bump."""
 
 from collections.abc import Callable
 
@@ -27,6 +27,17 @@ def filtered(times: Floats, values: Floats, period: float, response: Response) -
     change = (response(frequency) - 1.0) * np.fft.rfft(values)
     shown: Floats = values + np.fft.irfft(change, values.size)
     return shown
+
+
+def bump(time: Floats, centre: float, width: float, period: float) -> Floats:
+    r"""Smooth bump of height one at ``time`` (any shape), s, once in every period.
+
+    .. math:: \cos^2 \frac{\pi (t - t_c)}{w} \quad \text{for } |t - t_c| < \frac{w}{2}, \quad 0 \text{ otherwise,}
+
+    with ``centre`` :math:`t_c` and ``width`` w from foot to foot, s.
+    """
+    away = np.mod(time - centre + 0.5 * period, period) - 0.5 * period
+    return np.where(np.abs(away) < 0.5 * width, np.cos(np.pi * away / width) ** 2, 0.0)
 
 
 def _require_equidistant(times: Floats, period: float) -> None:

@@ -18,13 +18,14 @@ from typing import Any, Protocol
 import numpy as np
 
 from heartfit.circulation.circuit import Circuit
+from heartfit.circulation.enclosure import Enclosed
 from heartfit.circulation.network import Circulation, NetworkStep
 from heartfit.circulation.windkessel import WindkesselState
 from heartfit.geometry.arrays import Floats
 from heartfit.mechanics.acceleration import Anderson
 from heartfit.mechanics.body import StepFailed
 from heartfit.mechanics.time_step import TimeStep
-from heartfit.mechanism import Mechanism
+from heartfit.mechanism import External, Mechanism
 
 EXTRAPOLATION: tuple[tuple[float, ...], ...] = ((), (1.0,), (2.0, -1.0))
 """Weights of the known velocities in the predicted one."""
@@ -112,7 +113,7 @@ class CoupledStep:
     """The equations of one step of wall and circuit."""
 
     def __init__(
-        self, body: Body, step: Any, network: NetworkStep, time_step: TimeStep, state: HeartState
+        self, body: Any, step: Any, network: NetworkStep, time_step: TimeStep, state: HeartState
     ) -> None:
         self._body, self.step, self._network, self._state = body, step, network, state
         self._time_step = time_step
@@ -172,7 +173,9 @@ class Coupling:
     def __init__(
         self, body: Body, circulation: Circulation, mechanisms: Sequence[Mechanism], tolerances: Tolerances
     ) -> None:
-        self.body, self.circulation, self.mechanisms = body, circulation, mechanisms
+        self.circulation, self.mechanisms = circulation, mechanisms
+        loaded = any(isinstance(m, External) for m in mechanisms)
+        self.body = Enclosed(body, mechanisms) if loaded else body
         self.tolerances = tolerances
         self.iterations = self.factorisations = 0
         self._factor: Any = None

@@ -11,15 +11,15 @@ from dataclasses import dataclass, field
 import numpy as np
 from numba import njit
 
-from heartfit.branch import inertial_flow
+from heartfit.branch import Branch, inertial_flow
 from heartfit.circulation.valves import LinearValve, Valve
 from heartfit.circulation.windkessel import PULMONARY, Windkessel, WindkesselState
 from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import COMPARTMENTS, Flow, Mechanism, Pressure
+from heartfit.mechanism import COMPARTMENTS, Flow, Mechanism, Narrowing, Pressure
 from heartfit.parameter import parameter
 
 ATRIOVENTRICULAR, ARTERIAL = LinearValve(open=4e-6), LinearValve(open=5e-6)
-ATRIA = COMPARTMENTS[4:]
+ARTERIES, ATRIA = COMPARTMENTS[2:4], COMPARTMENTS[4:]
 VALVES = {
     "mitral": ("left_atrium", "lv"),
     "aortic": ("lv", "aorta"),
@@ -57,29 +57,40 @@ class Circulation:
 
     def atrial(self, time: Floats | float, period: float, mechanisms: Sequence[Mechanism]) -> Floats:
         """Pressures (2, ...) of the left and right atrium at ``time`` (...)."""
-        still = np.zeros(np.shape(time))
-        added = [
-            sum((m.pressure(atrium, time, period) for m in mechanisms if isinstance(m, Pressure)), still)  # type: ignore[arg-type]
-            for atrium in ATRIA
-        ]
+        added = added_pressures(ATRIA, time, period, mechanisms)
         return np.array([self.left_atrium + added[0], self.right_atrium + added[1]])
 
 
+def added_pressures(
+    compartments: Sequence[str], time: Floats | float, period: float, mechanisms: Sequence[Mechanism]
+) -> Floats:
+    """Pressures (k, ...) that mechanisms add to the k compartments at ``time`` (...)."""
+    added = np.zeros((len(compartments), *np.shape(time)))
+    for each in (m for m in mechanisms if isinstance(m, Pressure)):
+        for k, name in enumerate(compartments):
+            if name in each.compartments:
+                added[k] += each.pressure(name, time, period)  # type: ignore[arg-type]
+    return added
+
+
 class Network:
-    """The branches of a circulation with its mechanisms: valves first, then whatever leaks."""
+    """The branches of a circulation with its mechanisms: valves, some narrowed, then whatever leaks."""
 
     def __init__(self, circulation: Circulation, mechanisms: Sequence[Mechanism]) -> None:
-        self._valves = [getattr(circulation, name).law() for name in VALVES]
+        valves = {name: getattr(circulation, name).law() for name in VALVES}
+        for each in (m for m in mechanisms if isinstance(m, Narrowing)):
+            valves[each.valve] = valves[each.valve].narrowed(each.inverse_square())
+        self._valves = list(valves.values())
         self._leaks = [m for m in mechanisms if isinstance(m, Flow)]
         self.names = [*VALVES, *(type(leak).__name__ for leak in self._leaks)]
         ends = [*VALVES.values(), *((leak.upstream, leak.downstream) for leak in self._leaks)]
         self.ends = np.array([[COMPARTMENTS.index(end) for end in pair] for pair in ends])
 
     def laws(self, time: Floats | float) -> Floats:
-        """Coefficients (branches, 4, ...) of the branches at ``time`` (...); see :class:`~heartfit.branch.Branch`."""
+        """Coefficients (branches, 5, ...) of the branches at ``time`` (...); see :class:`~heartfit.branch.Branch`."""
         time = np.asarray(time)
         laws = [*self._valves, *(leak.law(time) for leak in self._leaks)]
-        result = np.empty((len(laws), 4, *time.shape))
+        result = np.empty((len(laws), len(Branch._fields), *time.shape))
         for k, law in enumerate(laws):
             for c, coefficient in enumerate(law):
                 result[k, c] = coefficient
@@ -95,6 +106,7 @@ class NetworkStep:
         self._circulation, network = circulation, Network(circulation, mechanisms)
         self.dt, self._names = dt, network.names
         self.atrial = circulation.atrial(time, period, mechanisms)
+        self._arterial = added_pressures(ARTERIES, time, period, mechanisms)
         self.ends, self.laws = network.ends, network.laws(time)[None]
         self.moving = np.zeros((3, len(self.ends)))
 
@@ -112,7 +124,9 @@ class NetworkStep:
     def windkessels(self, trees: Sequence[WindkesselState]) -> Floats:
         """Rows (a, b) of the arterial pressures a + b q at the end of the step, aorta first."""
         sides = zip(self._circulation.trees(), trees, strict=True)
-        return np.array([tree.affine(held, self.dt) for tree, held in sides])
+        rows = np.array([tree.affine(held, self.dt) for tree, held in sides])
+        rows[:, 0] += self._arterial
+        return rows
 
     def advance(
         self, trees: Sequence[WindkesselState], pressures: Floats
@@ -127,7 +141,7 @@ class NetworkStep:
 def net_outflow(ends, laws, moving, atria, t, p, out, slope):  # type: ignore[no-untyped-def]
     """Fill the net outflow (.., 2 v), in row 0, of v ventricles and their arteries and its Jacobian (2 v, 2 v).
 
-    p (2 v,) are their pressures, ``atria`` (.., 2) those of the atria and ``laws`` (.., k, 4) those of the branches
+    p (2 v,) are their pressures, ``atria`` (.., 2) those of the atria and ``laws`` (.., k, 5) those of the branches
     with the given ``ends`` (k, 2) at many times, of which t is the one. ``moving`` (3, k) are the inertances of the
     branches per length of the step, the flows it starts from and, filled, the flows.
     """

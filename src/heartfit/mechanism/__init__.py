@@ -6,8 +6,19 @@ is the registry: a file dropped there is a candidate everywhere.
 """
 
 from heartfit.mechanism.base import Mechanism
-from heartfit.mechanism.blood import COMPARTMENTS, Flow, Pressure
+from heartfit.mechanism.blood import COMPARTMENTS, External, Flow, Narrowing, Pressure
 from heartfit.mechanism.instrument import Sensor
 from heartfit.mechanism.registry import ROLES, mechanism, registered
 
-__all__ = ["COMPARTMENTS", "ROLES", "Flow", "Mechanism", "Pressure", "Sensor", "mechanism", "registered"]
+__all__ = [
+    "COMPARTMENTS",
+    "ROLES",
+    "External",
+    "Flow",
+    "Mechanism",
+    "Narrowing",
+    "Pressure",
+    "Sensor",
+    "mechanism",
+    "registered",
+]

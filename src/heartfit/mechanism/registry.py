@@ -5,10 +5,10 @@ import pkgutil
 from typing import TypeVar
 
 from heartfit.mechanism.base import Mechanism
-from heartfit.mechanism.blood import Flow, Pressure
+from heartfit.mechanism.blood import External, Flow, Narrowing, Pressure
 from heartfit.mechanism.instrument import Sensor
 
-ROLES: tuple[type[Mechanism], ...] = (Flow, Pressure, Sensor)
+ROLES: tuple[type[Mechanism], ...] = (Flow, Narrowing, Pressure, External, Sensor)
 
 M = TypeVar("M", bound=type[Mechanism])
 

@@ -21,6 +21,7 @@ class AtrialKick(Pressure):
     Source: the atrial parameters (base, maximum, times) of the paper's group; the shape is ours.
     """
 
+    compartments = ("left_atrium", "right_atrium")
     rise: float = parameter(
         1700.0, unit="Pa", symbol="P", meaning="left atrial pressure rise", sd=0.3, off=0.0, scale=600.0
     )
@@ -36,7 +37,7 @@ class AtrialKick(Pressure):
             )
 
     def pressure(self, compartment: str, time: Floats, period: float) -> Floats:
-        share = {"left_atrium": 1.0, "right_atrium": self.right}.get(compartment, 0.0)
+        share = {"left_atrium": 1.0, "right_atrium": self.right}[compartment]
         return share * self.rise * self._shape(np.mod(time, period))
 
     def _shape(self, time: Floats) -> Floats:

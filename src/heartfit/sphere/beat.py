@@ -7,6 +7,7 @@ from numba import njit
 
 from heartfit.circulation.circuit import ABOUT, GAP, ONE_MILLILITRE, STORED, WEIGHT, solve_circuit
 from heartfit.geometry.arrays import Floats, Integers
+from heartfit.load import outside
 from heartfit.mechanics.sphere import LARGEST_STRETCH, SMALLEST_STRETCH
 from heartfit.sphere import rows as at
 from heartfit.sphere import step as steps
@@ -31,7 +32,8 @@ class Course(NamedTuple):
     """What is prescribed in n steps of equal ``length``, s, with m fibres and k branches.
 
     Means over the steps of the control's size ``rate`` and positive part ``attach`` (n, m), 1/s; at their ends the
-    atrial pressures ``atria`` (n, 2), Pa, and the ``laws`` (n, k, 4) of the branches, whose ends are ``ends`` (k, 2).
+    pressures ``atria`` (n, 2) of the atria and ``waves`` (n, 2) in the arteries, Pa, the ``loads`` (n, l, v, 4) of v
+    sides and the ``laws`` (n, k, 5) of the branches, whose ends are ``ends`` (k, 2).
     """
 
     length: float
@@ -39,6 +41,8 @@ class Course(NamedTuple):
     rate: Floats
     attach: Floats
     atria: Floats
+    waves: Floats
+    loads: Floats
     laws: Floats
     ends: Integers
 
@@ -53,21 +57,60 @@ class State(NamedTuple):
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def respond(passive, active, eta, density, step, sides, fibres, system, p):  # type: ignore[no-untyped-def]
-    """Outcome of deforming the walls to their trial stretches: pressures and the linear response of the volumes."""
+def respond(passive, active, eta, density, step, sides, fibres, p):  # type: ignore[no-untyped-def]
+    """Outcome of deforming the walls to their trial stretches: the pressures p that they hold, and their response."""
     for v in range(sides.shape[1]):
         if not SMALLEST_STRETCH < sides[at.X, v] < LARGEST_STRETCH:
             return at.OVERSTRETCHED
         p[v], stiffness, volume, area = cavity_pressure(passive, active, eta, density, step, sides, fibres, v)
         if not abs(stiffness) > 0.0:
             return at.SOFT
-        sides[at.P, v], sides[at.STIFFNESS, v] = p[v], stiffness
-        system[v, GAP], system[v, ABOUT] = (volume - sides[at.START_VOLUME, v]) / ONE_MILLILITRE, p[v]
-        system[v, WEIGHT], system[v, STORED + v] = (
-            step.effective / ONE_MILLILITRE,
-            area / stiffness / ONE_MILLILITRE,
+        sides[at.STIFFNESS, v], sides[at.VOLUME, v], sides[at.COMPLIANCE, v] = (
+            stiffness,
+            volume,
+            area / stiffness,
         )
     return at.DONE
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def press(loads, n, sides, p):  # type: ignore[no-untyped-def]
+    """Add what lies outside to the pressures; how much stiffer against a common pressure the loads make the walls."""
+    count, mean, stiffer = sides.shape[1], 0.0, 1.0
+    for v in range(count):
+        mean += sides[at.VOLUME, v] / count
+    for v in range(count):
+        pressure, sides[at.LOADING, v] = outside(loads, n, v, mean)
+        p[v] += pressure
+        stiffer += sides[at.LOADING, v] * sides[at.COMPLIANCE, v] / count
+    return stiffer
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def linearise(step, stiffer, sides, system, p):  # type: ignore[no-untyped-def]
+    """Response of the volumes to the pressures of the cavities, the loads giving way to all that swells."""
+    count = sides.shape[1]
+    for v in range(count):
+        sides[at.P, v] = p[v]
+        system[v, GAP], system[v, ABOUT] = (
+            (sides[at.VOLUME, v] - sides[at.START_VOLUME, v]) / ONE_MILLILITRE,
+            p[v],
+        )
+        system[v, WEIGHT] = step.effective / ONE_MILLILITRE
+        for w in range(count):
+            crowded = sides[at.LOADING, v] * sides[at.COMPLIANCE, w] / (stiffer * count)
+            system[v, STORED + w] = sides[at.COMPLIANCE, v] * ((v == w) - crowded) / ONE_MILLILITRE
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def move(stiffer, sides, p):  # type: ignore[no-untyped-def]
+    """Move the stretches to where the walls, so linearised, and their loads hold the pressures."""
+    count, swelling = sides.shape[1], 0.0
+    for v in range(count):
+        swelling += sides[at.COMPLIANCE, v] * (p[v] - sides[at.P, v]) / (stiffer * count)
+    for v in range(count):
+        across = p[v] - sides[at.P, v] - sides[at.LOADING, v] * swelling
+        sides[at.X, v] += across / sides[at.STIFFNESS, v]
 
 
 @njit(cache=True, error_model="numpy")
@@ -78,7 +121,7 @@ def advance(tissue, course, state, curves, first):  # type: ignore[no-untyped-de
     start, the others with those after each step. A step that fails leaves the state as it was at its start.
     """
     passive, active, starling, eta, density = tissue
-    length, second_order, rate, attach, atria, laws, ends = course
+    length, second_order, rate, attach, atria, waves, loads, laws, ends = course
     sides, fibres, branches, last = state
     count, total, moving = sides.shape[1], 0, branches[at.PER_STEP :]
     p, system = np.empty(2 * count), np.zeros((2 * count, 3 + 2 * count))
@@ -88,18 +131,19 @@ def advance(tissue, course, state, curves, first):  # type: ignore[no-untyped-de
         step = steps.time_step(length, second_order, last[0])
         steps.begin_sides(step, sides)
         steps.begin_branches(step, branches)
-        steps.begin_arteries(step, sides, system)
+        steps.begin_arteries(step, waves, n, sides, system)
         steps.begin_fibres(active, starling, step, rate, attach, n, sides, fibres)
         steps.predict(step, last, sides, p)
         outcome = at.UNSOLVED
         for _ in range(ITERATIONS):
             total += 1
-            outcome = respond(passive, active, eta, density, step, sides, fibres, system, p)
+            outcome = respond(passive, active, eta, density, step, sides, fibres, p)
             if outcome != at.DONE:
                 break
+            stiffer = press(loads, n, sides, p)
+            linearise(step, stiffer, sides, system, p)
             size = solve_circuit(ends, laws, moving, atria, n, system, p, room, jacobian)
-            for v in range(count):
-                sides[at.X, v] += (p[v] - sides[at.P, v]) / sides[at.STIFFNESS, v]
+            move(stiffer, sides, p)
             if size < TOLERANCE:
                 steps.follow(sides, fibres)
                 break
@@ -108,7 +152,7 @@ def advance(tissue, course, state, curves, first):  # type: ignore[no-untyped-de
             outcome = at.TORN
         if outcome != at.DONE:
             return n, outcome, total
-        steps.commit_sides(step, sides, p)
+        steps.commit_sides(step, waves, n, sides, p)
         steps.commit_branches(branches)
         steps.commit_fibres(active, step, sides, fibres)
         last[1], last[0] = last[0], length

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from heartfit.circulation.network import Network, net_outflow
+from heartfit.circulation.enclosure import VENTRICLES, load_table
+from heartfit.circulation.network import ARTERIES, Network, added_pressures, net_outflow
 from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
 from heartfit.mechanics.kinematics import StepFailed
@@ -60,8 +61,11 @@ class SphericalHeart:
         heart, end = self.heart, start + length
         rate, attach = heart.tissue.control.mean(start[:, None], length, self._activation, heart.period)
         atria = np.ascontiguousarray(self.atria(end).T)
+        waves = np.ascontiguousarray(added_pressures(ARTERIES, end, heart.period, heart.mechanisms).T)
+        loads = load_table(heart.mechanisms, VENTRICLES[: len(self.spheres)], end, heart.period)
         laws = np.ascontiguousarray(np.moveaxis(self._network.laws(end)[self._kept], -1, 0))
-        return Course(length, self._second_order, rate, attach, atria, laws, self._network.ends[self._kept])
+        ends = self._network.ends[self._kept]
+        return Course(length, self._second_order, rate, attach, atria, waves, loads, laws, ends)
 
     def atria(self, time: Floats) -> Floats:
         """Pressures (2, t) of both atria at ``time`` (t,)."""

@@ -17,9 +17,12 @@ START_VOLUME, START_PLANE, START_RADIAL = range(29, 32)
 """Starting values of the cavity volume and of the squares of the stretch in the plane and along the radius."""
 
 X, X_BEFORE, P, STIFFNESS, STRESS = range(32, 37)
-"""Trial stretch and the one before it, cavity pressure and its derivative; mean fibre stress of the last step."""
+"""Trial stretch and the one before it, cavity pressure and its derivative at no load; mean stress of the last step."""
 
-SIDE_ROWS = 37
+VOLUME, COMPLIANCE, LOADING = range(37, 40)
+"""Trial volume, its derivative by the pressure across the wall, that of the pressure outside by the mean volume."""
+
+SIDE_ROWS = 40
 
 # a fibre: state as in bcs, drive, and response to a trial stretch: mean stress, its slope, increment of e_c, its slope
 E_C, K_C, LAMBDA, RATE, U, U_PLUS, N_0, SIGMA, SLOPE, INCREMENT, TURN = range(11)

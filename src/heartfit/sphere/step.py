@@ -53,8 +53,8 @@ def begin_branches(step, branches):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def begin_arteries(step, sides, system):  # type: ignore[no-untyped-def]
-    """Equations of the arteries, p - a - b q = 0, with their own compliance beside the Windkessel."""
+def begin_arteries(step, waves, n, sides, system):  # type: ignore[no-untyped-def]
+    """Equations of the arteries, p - a - b q = 0, with the waves in them and their own compliance."""
     count = sides.shape[1]
     for v in range(count):
         a, b = affine(
@@ -67,6 +67,7 @@ def begin_arteries(step, sides, system):  # type: ignore[no-untyped-def]
             sides[at.START + at.Q_L, v],
             step.effective,
         )
+        a += waves[n, v]
         stiff = sides[at.OWN_COMPLIANCE, v] / step.effective
         b = b / (1.0 + b * stiff)
         a += b * stiff * (sides[at.START + at.ARTERY, v] - a)
@@ -124,7 +125,7 @@ def follow(sides, fibres):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def commit_sides(step, sides, p):  # type: ignore[no-untyped-def]
+def commit_sides(step, waves, n, sides, p):  # type: ignore[no-untyped-def]
     """Take the solution over into the memory of the sides."""
     count = sides.shape[1]
     for v in range(count):
@@ -136,7 +137,7 @@ def commit_sides(step, sides, p):  # type: ignore[no-untyped-def]
         tree = sides[at.R_P, v], sides[at.TAU, v], sides[at.Z_C, v], sides[at.L, v], sides[at.P_VE, v]
         held = sides[at.START + at.P_C, v], sides[at.START + at.Q_L, v]
         a, b = affine(*tree, *held, step.effective)
-        inflow = (p[count + v] - a) / b
+        inflow = (p[count + v] - waves[n, v] - a) / b
         sides[at.NOW + at.P_C, v], sides[at.NOW + at.Q_L, v] = advanced(*tree, *held, inflow, step.effective)
         sides[at.NOW + at.SPEED, v] = (sides[at.X, v] - sides[at.START + at.STRETCH, v]) / step.effective
         sides[at.NOW + at.STRETCH, v], sides[at.NOW + at.ARTERY, v] = sides[at.X, v], p[count + v]
