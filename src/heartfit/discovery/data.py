@@ -37,6 +37,11 @@ class Noise:
     roughness_memory: float = 0.05
     length: float = 0.07
 
+    @property
+    def middle(self) -> float:
+        """The level to expect of a measurement not yet made."""
+        return self.levels[len(self.levels) // 2]
+
     def covariance(self, times: Floats, period: float, level: float) -> Floats:
         """Sigma (k, k) at one of the levels."""
         apart = np.abs(times[:, None] - times)

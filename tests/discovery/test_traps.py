@@ -1,0 +1,146 @@
+"""Four ways to see an effect where there is none, each beside the search that does not fall for it.
+
+All hearts here are oscillators without an effect: whatever is named or called unknown is a false alarm.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.discovery import oscillator
+
+from heartfit.discovery.bench import Bench
+from heartfit.discovery.decide import Verdict
+from heartfit.discovery.explanation import Explanation
+from heartfit.discovery.forward import Counted
+from heartfit.discovery.hypothesis import Coordinate, Hypothesis
+from heartfit.discovery.optimise import fit
+from heartfit.discovery.rules import RULES
+from heartfit.discovery.search import search
+
+SEEDS = range(8)
+
+
+def truth(seed: int) -> np.ndarray:
+    """Base coordinates as scattered as the prior says."""
+    return np.random.default_rng(2000 + seed).standard_normal(4)
+
+
+def share_of_alarms(frozen: int) -> float:
+    """How often anything is found while the first ``frozen`` base coordinates are held at the prior's mean."""
+
+    def held(given: Hypothesis) -> Hypothesis:
+        fixed = np.zeros(frozen)
+        return Hypothesis(
+            given.effects, given.coordinates[frozen:], lambda x: given.forward(np.concatenate([fixed, x]))
+        )
+
+    verdicts = [
+        search(
+            oscillator.observed(oscillator.curves(truth(seed)), seed),
+            held(oscillator.NONE),
+            [held(each) for each in oscillator.SINGLES],
+            lambda names: held(oscillator.combined(names)),
+        ).decision.verdict
+        for seed in SEEDS
+    ]
+    return np.mean([each != Verdict.NONE for each in verdicts])
+
+
+def test_parameters_that_are_held_invent_effects() -> None:
+    assert share_of_alarms(frozen=2) > 0.8
+    assert share_of_alarms(frozen=0) == 0.0
+
+
+def test_the_residual_of_one_step_is_no_evidence() -> None:
+    """Of right models, one step from the prior's mean leaves what any effect explains; a converged fit does not."""
+    alarms = {"one step": 0, "converged": 0}
+    for seed in SEEDS:
+        data = oscillator.observed(oscillator.curves(truth(seed)), seed)
+        bench = Bench(data)
+        rival = max(
+            each.log_evidence for each in (bench.explain(each, each.at(1.0)) for each in oscillator.SINGLES)
+        )
+        for name, runs in (("one step", 1 + 4 + 1), ("converged", 400)):
+            found = fit(Counted(oscillator.NONE), data.values, bench.whitening, np.zeros(4), limit=runs)
+            at_step = replace(found, jacobian=Counted(oscillator.NONE).jacobian(found.x, found.predicted))
+            assert found.converged == (name == "converged")
+            alarms[name] += rival - laplace_there(at_step, bench) > RULES.detected
+    assert alarms["one step"] >= 7
+    assert alarms["converged"] == 0
+
+
+def laplace_there(found: object, bench: Bench) -> float:
+    """ln Z as if the fit had converged: without what the linear model still promises."""
+    seen = Explanation.of(found, bench.data.values, bench.whitening)
+    step = seen.posterior.mean - found.x
+    return seen.log_evidence - 0.5 * step @ np.linalg.solve(seen.posterior.covariance, step)
+
+
+def bent(x: float) -> np.ndarray:
+    """Going down from 0 the frequency rises to a hump; only beyond a valley on the other side it rises without end."""
+    frequency = 1.0 - (x + 0.5) ** 2 if x < 0.5 else 3.0 * (x - 0.5)
+    return oscillator.curves(np.array([0.0, frequency, 0.0, 0.0]))
+
+
+def test_a_base_fit_in_a_side_minimum_is_found_out() -> None:
+    """None alone ends on the hump; an effect that does the same starts beyond the valley, and none follows."""
+    frequency, lure = Coordinate("frequency"), Coordinate("lure", amplitude=True)
+    none = Hypothesis((), (frequency,), lambda x: bent(x[0]))
+    lured = Hypothesis(("lure",), (frequency, lure), lambda x: bent(x[0] + x[1]))
+    data = oscillator.observed(bent(1.5), 0)
+    alone = fit(Counted(none), data.values, Bench(data).whitening, np.zeros(1))
+    found = search(data, none, [lured], oscillator.combined)
+    assert alone.objective - found.survey.none.fit.objective > RULES.detected
+    assert found.decision.verdict == Verdict.NONE
+
+
+def test_a_simulation_that_fails_is_no_curve() -> None:
+    """An effect whose simulation fails from some amplitude on is fitted below it, one that always fails is set aside.
+
+    Had the simulation handed out where it stopped, no choice of coordinates would explain the data.
+    """
+    drift = oscillator.single("drift")
+    failing = replace(drift, forward=lambda x: drift.forward(x) if x[4] < 0.7 else None)
+    dead = replace(oscillator.single("gain"), forward=lambda x: None)
+    data = oscillator.observed(oscillator.curves(truth(1), drift=0.4), 1)
+    found = search(data, oscillator.NONE, [failing, dead], oscillator.combined)
+    assert found.survey.failed == (("gain",),)
+    assert found.decision.verdict == Verdict.NONE
+    stopped = np.where(oscillator.TIMES < 0.7, 1.0, 0.0)
+    handed_out = np.tile(stopped, 2) * oscillator.curves(truth(1)) + 5.0 * np.tile(1.0 - stopped, 2)
+    fallen = search(
+        oscillator.observed(handed_out, 1), oscillator.NONE, oscillator.SINGLES, oscillator.combined
+    )
+    assert fallen.decision.verdict == Verdict.UNKNOWN
+
+
+@pytest.mark.parametrize("effect", list(oscillator.EFFECTS))
+def test_intervals_hold_what_was_hidden(effect) -> None:
+    """95 % of 60; fewer than 51 would be a chance below 1 in 1000."""
+    hidden, held = oscillator.single(effect), 0
+    for seed in range(60):
+        random = np.random.default_rng(3000 + seed)
+        x = np.array(
+            [
+                *random.standard_normal(4),
+                abs(random.standard_normal()) if hidden.one_sided[4] else random.standard_normal(),
+            ]
+        )
+        found = Bench(oscillator.observed(hidden.forward(x), seed)).explain(hidden, hidden.at(1.0))
+        _, low, high = found.interval(effect)
+        held += low <= x[4] <= high
+    assert held >= 51
+
+
+def test_false_alarms_without_an_effect_are_rare() -> None:
+    verdicts = [
+        search(
+            oscillator.observed(oscillator.curves(truth(seed)), seed),
+            oscillator.NONE,
+            oscillator.SINGLES,
+            oscillator.combined,
+        ).decision.verdict
+        for seed in range(100, 300)
+    ]
+    assert sum(each != Verdict.NONE for each in verdicts) <= 4
