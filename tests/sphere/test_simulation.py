@@ -15,7 +15,11 @@ from heartfit.heart import Heart
 from heartfit.mechanics import statics
 from heartfit.mechanics.sphere import Sphere, SphericalBody
 from heartfit.mechanism import Flow
+from heartfit.mechanisms.aortic_stenosis import AorticStenosis
+from heartfit.mechanisms.arterial_reflection import ArterialReflection
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+from heartfit.mechanisms.pericardium import Pericardium
+from heartfit.mechanisms.septal_load import SeptalLoad
 from heartfit.parameter import parameter
 from heartfit.simulation import Numerics, simulate
 from heartfit.sphere import simulation
@@ -44,9 +48,10 @@ class Shunt(Flow):
 
 @pytest.fixture(scope="module")
 def heart(spherical_heart: Heart) -> Heart:
-    """Orifices, length dependence and two mechanisms, one of them between the ventricles and variable in time."""
+    """Orifices, length dependence and a mechanism of every kind, one between the ventricles and variable in time."""
     circulation = Circulation(mitral=OrificeValve(area=5e-4), aortic=OrificeValve())
     heart = replace(spherical_heart, circulation=circulation) + MitralRegurgitation() + Shunt()
+    heart = heart + AorticStenosis() + ArterialReflection() + Pericardium(volume=80e-6) + SeptalLoad()
     return heart.with_parameters({"slope": 0.5})
 
 

@@ -1,0 +1,135 @@
+"""Pressure on the outside of the ventricles: closed forms, and what must not change."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from tests.shrinking import assert_derivative
+
+from heartfit.circulation.coupling import Coupling, HeartState, Tolerances
+from heartfit.circulation.enclosure import Enclosed, EnclosedStiffness, load_table
+from heartfit.circulation.network import Circulation
+from heartfit.circulation.valves import LinearValve
+from heartfit.geometry.arrays import Floats
+from heartfit.heart import Heart
+from heartfit.load import Load, outside
+from heartfit.mechanics.body import FiniteElementBody
+from heartfit.mechanics.sphere import Sphere, SphericalBody, Stiffness
+from heartfit.mechanics.statics import inflate
+from heartfit.mechanics.time_step import TimeStep
+from heartfit.mechanism import COMPARTMENTS, External, Mechanism, Pressure
+from heartfit.mechanisms.pericardium import Pericardium
+from heartfit.mechanisms.septal_load import SeptalLoad
+from heartfit.simulation import Numerics, simulate
+from heartfit.sphere.simulation import simulate_spheres
+
+DEPTH = 1500.0
+TIGHT = Tolerances(force=1e-7, volume=1e-14, pressure=1e-4, iterations=60)
+ONE_BEAT = Numerics(time_step=0.01, max_beats=1, tolerances=TIGHT)
+
+
+@dataclass(frozen=True)
+class Water(External):
+    """A diver's heart: the same pressure around it everywhere and at all times."""
+
+    def load(self, ventricle: str, time: Floats, period: float) -> Load:
+        return Load(pulse=DEPTH)
+
+
+@dataclass(frozen=True)
+class Depth(Pressure):
+    """The same pressure in all vessels of the diver."""
+
+    compartments = COMPARTMENTS[2:]
+
+    def pressure(self, compartment: str, time: Floats, period: float) -> Floats:
+        return DEPTH + 0.0 * time
+
+
+DIVING: tuple[Mechanism, ...] = (Water(), Depth())
+
+
+def test_loads_add_up_with_their_slope() -> None:
+    loads = np.array([[[Load(pulse=300.0)], [Load(50.0, 200.0, 1e-4, 2e-5)]]])
+    pressure, slope = outside(loads, 0, 0, 1.3e-4)
+    assert pressure == pytest.approx(350.0 + 200.0 * np.exp(1.5))
+    assert slope == pytest.approx(200.0 * np.exp(1.5) / 2e-5)
+    x, step = np.array([1.3e-4]), np.array([1e-5])
+    assert_derivative(lambda V: np.array([outside(loads, 0, 0, V[0])[0]]), slope * step, x, step)
+
+
+def test_a_septal_load_is_the_left_ventricles_alone() -> None:
+    time = np.linspace(0.0, 0.8, 9)
+    table = load_table((SeptalLoad(), Pericardium()), ("lv", "rv"), time, 0.8)
+    assert table.shape == (9, 2, 2, 4)
+    assert table[:, 0, 0, 0].max() > 0.5 * SeptalLoad().pressure
+    assert not table[:, 0, 1, 0].any()
+    assert (table[:, 1, 0] == table[:, 1, 1]).all()
+
+
+def test_the_enclosed_stiffness_is_inverted_exactly() -> None:
+    rng = np.random.default_rng(3)
+    diagonal, u, w = rng.uniform(1.0, 2.0, (3, 5))
+    right, full = rng.standard_normal((5, 3)), np.diag(diagonal) + np.outer(u, w)
+    stiffness = EnclosedStiffness(Stiffness(diagonal), u, w)
+    assert stiffness.solve(right) == pytest.approx(np.linalg.solve(full, right))
+    assert stiffness.solve(right[:, 0]) == pytest.approx(np.linalg.solve(full, right[:, 0]))
+
+
+def test_the_enclosed_sphere_resists_with_its_wall_and_its_load(spheres: SphericalBody) -> None:
+    """Forces over the gradient of the volume are pressures; the load's exponential is that of the mean volume."""
+    sac = Pericardium(pressure=900.0, volume=80e-6)
+    x, step = np.array([[1e-3], [2e-3]]), TimeStep(0.0, 0.01, 0.8)
+    bare = spheres.step(spheres.rest(), step).forces(x)
+    enclosed = Enclosed(spheres, (sac,)).step(spheres.rest(), step).forces(x)
+    outer = 900.0 * np.exp((spheres.volumes(x).mean() - 80e-6) / sac.scale)
+    assert (enclosed - bare) / spheres.volume_gradients(x).diagonal() == pytest.approx([outer, outer])
+
+
+@pytest.mark.parametrize("coupled", [True, False])
+def test_a_diving_heart_beats_as_on_land(spherical_heart: Heart, coupled: bool) -> None:
+    """The same pressure outside the walls and in all vessels leaves every volume, and raises every pressure by it."""
+    left, right = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
+    diver = replace(spherical_heart, mechanisms=(*spherical_heart.mechanisms, *DIVING))
+    body = SphericalBody(left, right, spherical_heart.tissue)
+    on_land, below = (
+        simulate(heart, body, ONE_BEAT) if coupled else simulate_spheres(heart, [left, right], ONE_BEAT)
+        for heart in (spherical_heart, diver)
+    )
+    for side in ("lv", "rv"):
+        assert below.volume[side] == pytest.approx(on_land.volume[side], abs=1e-11)
+    for name, pressure in on_land.pressure.items():
+        assert below.pressure[name][1:] - pressure[1:] == pytest.approx(DEPTH, abs=0.1), name
+
+
+def test_elements_dive_too(coarse_body: FiniteElementBody) -> None:
+    heart = Heart()
+    atria, trees = heart.circulation.atrial(0.0, heart.period, ()), heart.circulation.start(heart.period)
+    filled = inflate(coarse_body, atria)
+    first = np.array([*atria, *(tree.P_c for tree in trees)])
+    states = []
+    for mechanisms in (heart.mechanisms, (*heart.mechanisms, *DIVING)):
+        coupling = Coupling(coarse_body, heart.circulation, mechanisms, Tolerances(force=1e-5))
+        state = HeartState(filled, first, coarse_body.volumes(filled.x), trees)
+        for n in range(3):
+            state = coupling.advance(state, TimeStep(0.01 * n, 0.01, heart.period, last=state.last))
+        states.append(state)
+    on_land, below = states
+    assert below.volumes == pytest.approx(on_land.volumes, abs=1e-10)
+    assert below.pressures - on_land.pressures == pytest.approx(DEPTH, abs=1.0)
+    assert abs(on_land.volumes - coarse_body.volumes(filled.x)).min() > 1e-7, "it fills"
+
+
+def test_a_load_that_grows_and_changes_keeps_the_second_order(spherical_heart: Heart) -> None:
+    """Of the volume while a sac and a pulse press on a ventricle that fills through a tight valve."""
+    slow = replace(spherical_heart, circulation=Circulation(mitral=LinearValve(open=1e-7)), period=0.8)
+    heart = slow + Pericardium(pressure=100.0, volume=80e-6) + SeptalLoad(200.0, peak=0.06, width=0.24)
+
+    def filled(dt: float) -> float:
+        beat = simulate_spheres(heart, [Sphere.of(80e-6, 130e-6)], Numerics(time_step=dt, max_beats=1))
+        return float(beat.volume["lv"][round(0.08 / dt)])
+
+    fine = filled(0.08 / 512)
+    errors = [abs(filled(0.08 / n) - fine) for n in (8, 16, 32)]
+    assert errors[-1] > 1e-9
+    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([2.0, 2.0], abs=0.3)
