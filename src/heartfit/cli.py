@@ -55,6 +55,7 @@ def _parser() -> argparse.ArgumentParser:
     held.add_argument(
         "table", type=Path, help="the tolerances whose expected numbers are to be those of the study"
     )
+    _diagnose_arguments(commands.add_parser("diagnose", help=diagnose.__doc__, description=diagnose.__doc__))
     compared = commands.add_parser("reference", help=reference.__doc__)
     compared.set_defaults(carry_out=reference)
     compared.add_argument(
@@ -76,6 +77,29 @@ def _simulate_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--output", type=Path, default=Path("beat.json"), help="curves go into the .csv beside it"
     )
+
+
+def _diagnose_arguments(command: argparse.ArgumentParser) -> None:
+    command.set_defaults(carry_out=diagnose)
+    command.add_argument(
+        "measured",
+        type=Path,
+        help="curves (.csv): time_s, lv_volume_ml, and lv_pressure_kpa, rv_volume_ml, aortic_pressure_kpa if measured",
+    )
+    command.add_argument(
+        "--condition",
+        nargs="+",
+        default=[],
+        metavar="NAME=CSV",
+        help="the same heart under another loading, held out",
+    )
+    command.add_argument(
+        "--rr", type=float, metavar="S", help="period of the beat; that which the file states if not given"
+    )
+    command.add_argument(
+        "--strict", action="store_true", help="name nothing below a ln Bayes factor of 10 instead of 5"
+    )
+    command.add_argument("-o", "--output", type=Path, default=Path("cause"), help="folder of the cause card")
 
 
 def simulate(given: argparse.Namespace) -> int:
@@ -103,6 +127,20 @@ def _assignment(text: str) -> tuple[str, float]:
         raise InputError(f"--set {text}: expected NAME=VALUE with a number, as sigma_0=240e3") from None
     except KeyError as unknown:
         raise InputError(f"--set {text}: {unknown.args[0]}") from None
+
+
+def diagnose(given: argparse.Namespace) -> int:
+    """name what a simulation of a recorded heart gets wrong, within a minute"""
+    from heartfit.diagnosis import diagnose as diagnosis  # with what no other command needs
+    from heartfit.discovery.rules import RULES, STRICT
+    from heartfit.io.causes import write_cause_card
+    from heartfit.io.recordings import read_conditions, read_recording
+
+    recording = read_recording(given.measured, given.rr)
+    conditions = read_conditions(given.condition, recording.period)
+    found = diagnosis.diagnose(recording, conditions, rules=STRICT if given.strict else RULES)
+    print(write_cause_card(given.output, found, given.measured.stem, fingerprint(Path(diagnosis.__file__))))
+    return 0
 
 
 def check(given: argparse.Namespace) -> int:

@@ -42,16 +42,25 @@ class Centre:
         the period (Bazett 1920). Neither is a mechanism.
         """
         ratio = recording.end_diastolic_volume() / self.filled
-        slower = sqrt(recording.period / self.heart.period)
         values = self.heart.parameters()
         changed = {path: values[path] / ratio for path in PER_VOLUME} | {
             path: values[path] * ratio for path in BY_VOLUME
         }
-        changed["tissue.control.duration"] = values["tissue.control.duration"] * slower
-        heart = replace(self.heart, period=recording.period).with_parameters(changed)
         valves = tuple((name, value / ratio) for name, value in self.inertia.valves)
-        inertia = replace(self.inertia, valves=valves)
-        return Centre(heart, ratio * self.cavity, ratio * self.wall, ratio * self.filled, inertia)
+        grown = Centre(
+            self.heart.with_parameters(changed),
+            ratio * self.cavity,
+            ratio * self.wall,
+            ratio * self.filled,
+            replace(self.inertia, valves=valves),
+        )
+        return grown.beating(recording.period)
+
+    def beating(self, period: float) -> "Centre":
+        """The centre at another rate, its action potential as long as the root of the period, s."""
+        duration = self.heart.tissue.control.duration * sqrt(period / self.heart.period)
+        heart = replace(self.heart, period=period).with_parameters({"tissue.control.duration": duration})
+        return replace(self, heart=heart)
 
 
 HUMAN = Centre(

@@ -160,12 +160,20 @@ def _numbers(path: Path, column: "pd.Series") -> np.ndarray:
     return numbers
 
 
-def _period(path: Path) -> float:
+def stated_period(path: Path) -> float | None:
+    """The period, s, that a file of curves states, if it does; raises InputError for a missing file."""
+    if not Path(path).is_file():
+        raise InputError(f"{path}: no such file; expected curves as CSV: correct the path")
     found = re.search(
         r"^#\s*period_s\s*=\s*([0-9.eE+-]+)\s*$", Path(path).read_text(encoding="utf-8"), re.MULTILINE
     )
-    if not found:
+    return float(found[1]) if found else None
+
+
+def _period(path: Path) -> float:
+    period = stated_period(path)
+    if period is None:
         raise InputError(
             f"{path}: no period; expected a first line such as '# period_s = 0.829', or the period beside the file"
         )
-    return float(found[1])
+    return period

@@ -1,0 +1,76 @@
+"""What a diagnosis says: verdict, causes with their sizes, and what they gain on what was never fitted."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from heartfit.geometry.arrays import Floats
+
+Verdict = Literal["none", "named", "two", "group", "unknown", "insufficient"]
+
+
+@dataclass(frozen=True)
+class Cause:
+    """A mechanism: ln Bayes factor over none, amplitude with its 95 % interval, SI, and the unit."""
+
+    name: str
+    ln_bayes_factor: float
+    amplitude: float
+    unit: str
+    interval: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Gain:
+    """Root mean square errors, SI, of a held-out curve without and with the cause.
+
+    ratio is the second over the first, with a 95 % interval over the phases of the beat; on: what was held out.
+    """
+
+    curve: str
+    on: str
+    none: float
+    extended: float
+    ratio: float
+    interval: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """A measured curve (k,), SI, beside the fitted ones without and with the cause.
+
+    noise (k,): its standard deviation; lacking, band (k,): what the model without the cause lacks, and the standard
+    deviation of that.
+    """
+
+    curve: str
+    times: Floats
+    measured: Floats
+    none: Floats
+    extended: Floats
+    noise: Floats
+    lacking: Floats
+    band: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """The verdict and what it rests on.
+
+    mechanisms: what is named, all members of a group; alternatives: sets of mechanisms that the data do not tell from
+    the best; threshold: the ln Bayes factor below which there is none; ranking: ln Bayes factors over none of every
+    single mechanism and, as "unknown", of a discrepancy without a name; withdrawn: names that did not help on what was
+    held out.
+    """
+
+    verdict: Verdict
+    mechanisms: tuple[Cause, ...]
+    alternatives: tuple[tuple[str, ...], ...]
+    next_measurement: str
+    gain: tuple[Gain, ...]
+    simulations: int
+    period: float
+    threshold: float
+    ranking: Mapping[str, float] = field(default_factory=dict)
+    withdrawn: tuple[str, ...] = ()
+    traces: tuple[Trace, ...] = ()

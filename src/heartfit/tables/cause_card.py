@@ -1,0 +1,100 @@
+"""The cause card in words that a cardiologist reads."""
+
+import re
+from collections.abc import Iterable
+
+import numpy as np
+
+from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Trace
+
+CURVES = {
+    "lv_volume": "left ventricular volume",
+    "lv_pressure": "left ventricular pressure",
+    "aorta_pressure": "aortic pressure",
+}
+UNITS = {"m^2": ("cm²", 1e4), "m^3": ("mL", 1e6), "Pa": ("kPa", 1e-3), "s": ("ms", 1e3), "1": ("", 1.0)}
+PHASES = ((0.12, "early systole"), (0.36, "late systole"), (0.58, "early diastole"), (1.0, "late diastole"))
+"""Ends of the phases of a beat at rest, as shares of the period after the trigger."""
+
+
+def sentence(diagnosis: Diagnosis) -> str:
+    """The diagnosis in one sentence."""
+    named = " and ".join(sized(each) for each in diagnosis.mechanisms)
+    return {
+        "none": "The simulation explains the recording: nothing is missing that these data could show.",
+        "named": f"The simulation lacks {named}.",
+        "two": f"The simulation lacks {named}.",
+        "group": f"The simulation lacks one of {_names(diagnosis)}: these data do not tell them apart.",
+        "unknown": "The simulation misses something that no mechanism of the library explains.",
+        "insufficient": "These data cannot tell what the simulation misses.",
+    }[diagnosis.verdict]
+
+
+def sized(cause: Cause) -> str:
+    """ "mitral regurgitation of 0.31 cm² (0.24 to 0.39)"."""
+    unit, factor = UNITS.get(cause.unit, (cause.unit, 1.0))
+    value, low, high = (f"{factor * each:.3g}" for each in (cause.amplitude, *cause.interval))
+    return f"{spoken(cause.name)} of {f'{value} {unit}'.strip()} (95 % interval {low} to {high})"
+
+
+def spoken(name: str) -> str:
+    """ "mitral regurgitation" of MitralRegurgitation."""
+    return re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower()
+
+
+def _names(diagnosis: Diagnosis) -> str:
+    return ", ".join(spoken(each.name) for each in diagnosis.mechanisms)
+
+
+def card(diagnosis: Diagnosis, title: str) -> str:
+    """The card in Markdown: what is missed, what it is, what else it could be, what to measure, what is gained."""
+    lacking = [f"- {missed(each, diagnosis.period)}" for each in diagnosis.traces]
+    parts = [
+        f"# {title}\n\n**{sentence(diagnosis)}**",
+        "## What the simulation misses\n\n" + "\n".join(lacking),
+        "## How strongly the data speak\n\n" + _ranking(diagnosis),
+        "## What else could explain it\n\n" + _alternatives(diagnosis),
+        "## What to measure next\n\n" + (diagnosis.next_measurement or "Nothing: the data decide."),
+        "## What the named cause gains where nothing was fitted\n\n" + _gains(diagnosis.gain),
+        f"{diagnosis.simulations} simulated beats of the search.",
+    ]  # fmt: skip
+    return "\n\n".join(parts) + "\n"
+
+
+def missed(trace: Trace, period: float) -> str:
+    """Where in the beat the curve departs most from the simulation without a cause, and in which direction."""
+    curve = CURVES.get(trace.curve, trace.curve)
+    worst = int(np.argmax(np.abs(trace.lacking) / trace.band))
+    size, doubt = trace.lacking[worst], trace.band[worst]
+    unit, factor = UNITS["m^3" if trace.curve.endswith("_volume") else "Pa"]
+    if abs(size) < 2.0 * doubt:
+        return f"{curve}: nothing beyond its noise."
+    phase = trace.times[worst] % period / period
+    name = next(name for end, name in PHASES if phase <= end)
+    way = "higher" if size > 0.0 else "lower"
+    return (
+        f"{curve}: measured {factor * abs(size):.2g} ± {factor * doubt:.1g} {unit} {way} than simulated in {name}, "
+        f"{1e3 * phase * period:.0f} ms after the trigger."
+    )
+
+
+def _ranking(diagnosis: Diagnosis) -> str:
+    lines = [f"| {spoken(name)} | {value:.1f} |" for name, value in list(diagnosis.ranking.items())[:6]]
+    return "| cause | ln Bayes factor over none |\n|---|---|\n" + "\n".join(lines)
+
+
+def _alternatives(diagnosis: Diagnosis) -> str:
+    if diagnosis.withdrawn:
+        return f"{', '.join(map(spoken, diagnosis.withdrawn))} fits, but did not help on what was held out: withdrawn."
+    if not diagnosis.alternatives:
+        return "Nothing in the library within a ln Bayes factor of 3."
+    return "\n".join(f"- {' and '.join(map(spoken, each))}" for each in diagnosis.alternatives)
+
+
+def _gains(gains: Iterable[Gain]) -> str:
+    lines = [
+        f"- {CURVES.get(each.curve, each.curve)} ({each.on}): error times {each.ratio:.2f} "
+        f"(95 % interval {each.interval[0]:.2f} to {each.interval[1]:.2f})"
+        for each in gains
+    ]
+    return "\n".join(lines) or "Nothing is named."
