@@ -1,5 +1,6 @@
 """What every mechanism of the folder promises: one switch that turns it off, and its role kept."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -7,25 +8,37 @@ import pytest
 from tests.shrinking import assert_derivative
 
 from heartfit.branch import BLOOD_DENSITY
+from heartfit.errors import InputError
+from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart import Heart
 from heartfit.mechanics.body import FiniteElementBody
-from heartfit.mechanics.sphere import SphericalBody
+from heartfit.mechanics.sphere import Sphere, SphericalBody
+from heartfit.mechanics.time_step import TimeStep
 from heartfit.mechanism import (
     COMPARTMENTS,
+    Amendment,
+    Availability,
+    Delay,
     External,
     Flow,
     Mechanism,
     Narrowing,
     Pressure,
+    Relaxation,
     Sensor,
+    Stress,
     mechanism,
     registered,
 )
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+from heartfit.mechanisms.scar import Scar
 from heartfit.parameter import parameter, parameters_of
 from heartfit.simulation import Numerics, simulate
+from heartfit.sphere.simulation import simulate_spheres
 
 PERIOD = 0.829
+MUSCULAR = (Amendment, Availability, Delay, Relaxation, Stress)
+LEFT = Sphere.of(80e-6, 130e-6)
 ONE_BEAT = Numerics(time_step=0.01, max_beats=1)
 KINDS = registered()
 FLOWS = {name: kind for name, kind in KINDS.items() if issubclass(kind, Flow)}
@@ -33,6 +46,7 @@ PRESSURES = {name: kind for name, kind in KINDS.items() if issubclass(kind, Pres
 NARROWINGS = {name: kind for name, kind in KINDS.items() if issubclass(kind, Narrowing)}
 EXTERNALS = {name: kind for name, kind in KINDS.items() if issubclass(kind, External)}
 IN_THE_BLOOD = FLOWS | NARROWINGS | PRESSURES | EXTERNALS
+MUSCLES = {name: kind for name, kind in KINDS.items() if issubclass(kind, MUSCULAR)}
 SENSORS = {name: kind for name, kind in KINDS.items() if issubclass(kind, Sensor)}
 
 
@@ -42,7 +56,7 @@ def each(kinds: dict[str, type[Mechanism]]) -> pytest.MarkDecorator:
 
 def test_the_folder_is_the_registry() -> None:
     assert {"AtrialKick", "MitralRegurgitation", "ImageShrinkage"} <= KINDS.keys()
-    assert KINDS.keys() == IN_THE_BLOOD.keys() | SENSORS.keys()
+    assert KINDS.keys() == IN_THE_BLOOD.keys() | MUSCLES.keys() | SENSORS.keys()
 
 
 @each(KINDS)
@@ -76,6 +90,87 @@ def test_switched_off_it_leaves_no_trace(
     assert (off.volume["lv"] == without.volume["lv"]).all()
     assert (off.pressure["lv"] == without.pressure["lv"]).all()
     assert not np.allclose(on.volume["lv"], without.volume["lv"], rtol=1e-3)
+
+
+def forces(body: FiniteElementBody | SphericalBody, x: np.ndarray) -> np.ndarray:
+    """Internal forces of a body that is moved to and fro by ``x`` once in a period, in 20 steps."""
+    state, result = body.rest(), []
+    for n in range(20):
+        step = body.step(
+            state, TimeStep(n * PERIOD / 20, PERIOD / 20, PERIOD, True, PERIOD / 20 if n else None)
+        )
+        moved = np.sin(2.0 * np.pi * (n + 1) / 20) * x
+        result.append(step.forces(moved))
+        state = step.commit(moved)
+    return np.array(result)
+
+
+def bodies_of(
+    hearts: list[Heart], mesh: VentricularMesh
+) -> Iterator[tuple[list[FiniteElementBody] | list[SphericalBody], np.ndarray]]:
+    """Meshes and spheres made of the muscle of the hearts, and how they are moved."""
+    turn = np.array([[0.0, 0.1, 0.05], [0.05, 0.0, 0.1], [0.1, 0.05, 0.0]])
+    x = np.zeros((len(mesh.points), 4))
+    x[:, :3] = (mesh.points - mesh.points.mean(axis=0)) @ turn
+    yield [FiniteElementBody(mesh, heart.muscle) for heart in hearts], x
+    yield [SphericalBody(LEFT, LEFT, heart.muscle) for heart in hearts], np.full((2, 1), 4e-3)
+
+
+@each(MUSCLES)
+def test_muscle_that_is_switched_off_is_the_same_muscle(
+    kind: type[Mechanism], spherical_heart: Heart, ventricle: VentricularMesh
+) -> None:
+    """On the mesh, on the spheres in its slot and in their compiled beat, bit for bit."""
+    hearts = [spherical_heart, spherical_heart + kind().turned_off(), spherical_heart + kind()]
+    for bodies, x in bodies_of(hearts, ventricle):
+        without, off, on = (forces(body, x) for body in bodies)
+        assert (off == without).all()
+        assert abs(on - without).max() > 1e-3 * abs(without).max()
+    beats = [simulate_spheres(heart, [LEFT], ONE_BEAT) for heart in hearts]
+    curves = [np.array([beat.volume["lv"], beat.pressure["lv"] * 1e-8]) for beat in beats]
+    assert (curves[1] == curves[0]).all()
+    assert abs(curves[2] - curves[0]).max() > 1e-7
+
+
+@each({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Availability)})
+def test_lost_bridges_are_a_share_and_the_remote_region_keeps_its_own(kind: type[Availability]) -> None:
+    lost = kind().lost()
+    assert lost.shape == (18,)
+    assert ((lost >= 0.0) & (lost <= 1.0)).all()
+    assert lost[0] == lost.min() == 0.0 < lost.max()
+
+
+@each({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Delay)})
+def test_a_delay_never_hastens_and_leaves_the_earliest_region(kind: type[Delay]) -> None:
+    delay = kind().delay()
+    assert delay.shape == (18,)
+    assert delay[0] == delay.min() == 0.0 < delay.max()
+
+
+@each({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Relaxation)})
+def test_a_tail_slows_relaxation_and_never_reverses_it(kind: type[Relaxation]) -> None:
+    time = np.linspace(0.0, 0.8, 1601)
+    share = np.diff(kind().missing(time)) / np.diff(time)
+    assert kind().missing(np.zeros(1)) == 0.0
+    assert ((share >= 0.0) & (share < 1.0)).all()
+    assert share.any()
+
+
+@each({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Amendment)})
+def test_an_amendment_is_of_a_declared_constant(kind: type[Amendment], spherical_heart: Heart) -> None:
+    value = spherical_heart.parameters()[f"tissue.{kind.amends}"]
+    assert kind().turned_off().amended(value, PERIOD) == value
+    amended = (spherical_heart + kind()).muscle
+    for name in kind.amends.split("."):
+        amended = getattr(amended, name)
+    assert amended == kind().amended(value, PERIOD) != value
+
+
+def test_a_body_without_the_mechanisms_of_the_heart_is_refused(
+    spherical_heart: Heart, spheres: SphericalBody
+) -> None:
+    with pytest.raises(InputError, match="the ventricles lack mechanisms of the heart"):
+        simulate(spherical_heart + Scar(), spheres, ONE_BEAT)
 
 
 @each(PRESSURES)
@@ -193,7 +288,7 @@ def test_the_mitral_leak_is_an_orifice_between_left_ventricle_and_left_atrium(
 
 def test_a_mechanism_without_role_or_with_a_taken_name_is_refused() -> None:
     with pytest.raises(
-        TypeError, match=r"Stray plays no role: derive it from one of \['Flow', 'Narrowing', "
+        TypeError, match=r"Stray plays no role: derive it from one of \['Amendment', .*'Flow', .*'Sensor'\]"
     ):
 
         @mechanism

@@ -6,8 +6,8 @@ from difflib import get_close_matches
 from typing import Any
 
 from heartfit.circulation.network import Circulation
-from heartfit.mechanics.body import Tissue
-from heartfit.mechanism import Mechanism, Sensor
+from heartfit.mechanics.tissue import Tissue
+from heartfit.mechanism import Amendment, Mechanism, Sensor
 from heartfit.mechanisms.atrial_kick import AtrialKick
 from heartfit.parameter import parameters_of
 
@@ -37,6 +37,17 @@ class Heart:
     def trigger(self) -> float:
         """Simulated time of the ECG trigger, s."""
         return self.tissue.control.onset + self.tissue.control.trigger_delay
+
+    @property
+    def muscle(self) -> Tissue:
+        """The tissue with what the mechanisms make of it: what the ventricles are made of."""
+        heart = self
+        for each in self.mechanisms:
+            if isinstance(each, Amendment):
+                path = f"tissue.{each.amends}"
+                amended = each.amended(heart.parameters()[path], self.period)
+                heart = heart.with_parameters({path: amended})
+        return heart.tissue.under(self.mechanisms)
 
     @property
     def sensors(self) -> tuple[Sensor, ...]:

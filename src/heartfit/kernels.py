@@ -14,6 +14,7 @@ from heartfit.heart import Heart
 from heartfit.imaging.grid import Grid
 from heartfit.imaging.sequence import ImageSequence
 from heartfit.mechanics.body import FiniteElementBody
+from heartfit.mechanisms.fibre_stiffening import FibreStiffening
 from heartfit.registration.track import FreeForm, Tracking, track
 from heartfit.simulation import Numerics, simulate
 from heartfit.verification.block import cube
@@ -21,11 +22,11 @@ from heartfit.verification.block import cube
 
 def compile_kernels() -> Beat:
     """The beat of a cube of muscle between two cavities, which runs every kernel, those of its images too."""
-    block, heart = cube(2, 0.02), Heart()
+    block, heart = cube(2, 0.02), Heart() + FibreStiffening(modulus=0.0)
     times = activation_times(block.points, block.tets, np.asarray(block.fibres), {0: 0.0})
     block = replace(block, activation=times[block.tets].mean(axis=1))
     _image_and_track(block)
-    return simulate(heart, FiniteElementBody(block, heart.tissue), Numerics(time_step=1e-2, max_beats=1))
+    return simulate(heart, FiniteElementBody(block, heart.muscle), Numerics(time_step=1e-2, max_beats=1))
 
 
 def _image_and_track(block: VentricularMesh) -> Tracking:

@@ -49,7 +49,7 @@ def run_beat(
     heart = setting.base_heart(period).with_parameters(parameters)
     loads = np.array([pressures.lv, pressures.rv])
     try:
-        body = ventricles(mesh, heart.tissue, loads, setting.reference == "unloaded")
+        body = ventricles(mesh, heart.muscle, loads, setting.reference == "unloaded")
     except StepFailed as failure:
         return failed_beat(str(failure), period, heart.trigger, {})
     return simulate(heart, body, replace(scheme.numerics(), keep_positions=keep_positions), progress)

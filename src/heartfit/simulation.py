@@ -9,6 +9,7 @@ import numpy as np
 from heartfit.beat import Beat, failed_beat
 from heartfit.circulation.coupling import Body, Coupling, HeartState, Tolerances
 from heartfit.circulation.network import NetworkStep
+from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
 from heartfit.limit_cycle import Recurrence
@@ -49,15 +50,23 @@ def simulate(
 
     Between beats the pressures of the Windkessels, whose memory of tau is longer than a beat, are shifted
     towards where the stroke volume of the last beat would hold them. A beat counts as periodic by its own
-    drift, from start to end, which is stated.
+    drift, from start to end, which is stated. The body is made of ``heart.muscle``; raises InputError where it lacks
+    a mechanism.
     ``progress`` is called with the fraction done of ``max_beats`` after every time step, ``watch`` once with the
     states of the beat, one for each time.
     """
+    _require_muscle(heart, body)
     run = _Run(heart, body, numerics or Numerics(), progress, watch)
     try:
         return run.to_limit_cycle()
     except StepFailed as failure:
         return failed_beat(f"beat {run.beats + 1}: {failure}", heart.period, heart.trigger, run.diagnostics())
+
+
+def _require_muscle(heart: Heart, body: Body) -> None:
+    """Raise InputError when mechanisms of the heart are to act on a muscle that the body is not made of."""
+    if heart.muscle not in (heart.tissue, body.tissue):
+        raise InputError("simulate: the ventricles lack mechanisms of the heart; make them of heart.muscle")
 
 
 def _silence(_: object) -> None:

@@ -53,7 +53,7 @@ class SphericalCase:
         """The observations, or the reason why the beat failed."""
         heart = self.heart.with_parameters(parameters)
         try:
-            sphere = Sphere.unloaded(self.cavity, self.wall, self.pressure, isotropic(heart.tissue.passive))
+            sphere = Sphere.unloaded(self.cavity, self.wall, self.pressure, isotropic(heart.muscle.passive))
         except ValueError:
             return UNFILLED
         return observe_beats([simulate_spheres(heart, [sphere], self.numerics)], self.features)[0]

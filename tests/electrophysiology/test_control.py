@@ -1,9 +1,12 @@
 """The control's mean over a step: exact, periodic and independent of how activation falls between steps."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from heartfit.electrophysiology.control import Control
+from heartfit.mechanisms.slow_relaxation import SlowRelaxation
 
 CONTROL, PERIOD = Control(), 0.829
 ACTIVATION = np.linspace(0.0, 0.09, 37)
@@ -41,3 +44,17 @@ def test_an_action_potential_longer_than_the_period_is_refused() -> None:
         ValueError, match=r"action potential of 0\.34 s: expected less than the period, 0\.3 s"
     ):
         CONTROL.mean(0.0, 5e-3, ACTIVATION, 0.3)
+
+
+def test_a_tail_takes_its_share_of_the_rate_from_every_step() -> None:
+    """Beside the rate itself at 4000 times of each step, the short one after the longest pause included."""
+    tail = SlowRelaxation(slowing=0.7, transition=0.05)
+    slowed, dt = replace(CONTROL, tails=(tail,)), PERIOD / 23
+    places = (np.arange(4000) + 0.5) * dt / 4000
+    for n in range(23):
+        since = np.mod(n * dt + places[:, None] - CONTROL.onset - ACTIVATION, PERIOD) - CONTROL.duration
+        share = 1.0 - 0.7 / 1.7 * -np.expm1(-np.maximum(since, 0.0) / 0.05)
+        expected = np.where(since < 0.0, CONTROL.k_ATP, CONTROL.k_RS * share).mean(axis=0)
+        rate, attach = slowed.mean(n * dt, dt, ACTIVATION, PERIOD)
+        assert rate == pytest.approx(expected, rel=1e-3)
+        assert (attach == CONTROL.mean(n * dt, dt, ACTIVATION, PERIOD)[1]).all()

@@ -7,7 +7,7 @@ import pytest
 from tests.shrinking import assert_derivative
 
 from heartfit.mechanics.body import StepFailed, Tissue
-from heartfit.mechanics.sphere import Sphere, SphereState, SphericalBody
+from heartfit.mechanics.sphere import Sphere, SphereState, SphericalBody, of_fibres
 from heartfit.mechanics.statics import inflate
 from heartfit.mechanics.time_step import TimeStep
 
@@ -100,3 +100,15 @@ def test_the_matrix_and_the_sarcomere_resist_motion() -> None:
 def test_a_balloon_fails_with_its_stretch() -> None:
     with pytest.raises(StepFailed, match="stretched to"):
         BODY.endless_step(BODY.rest()).forces(np.full((2, 1), 0.1))
+
+
+@pytest.mark.parametrize("classes", [1, 8, 17, 40])
+def test_fibre_classes_share_the_segments_in_their_order(classes: int) -> None:
+    """Seventeen are the segments, fewer have the means of theirs; the right sphere is the right wall."""
+    regional = np.arange(18.0) ** 2
+    left, right = of_fibres(regional, classes, 2).reshape(2, -1)
+    assert left.mean() == pytest.approx(regional[1:].mean())
+    assert (right == regional[0]).all()
+    assert of_fibres(regional, classes, 1) == pytest.approx(left)
+    assert sorted(of_fibres(regional, 17, 1)) == pytest.approx(regional[1:])
+    assert of_fibres(regional, 8, 1)[0] == pytest.approx((81.0 + 64.0 + 0.125 * 14.0**2) / 2.125)

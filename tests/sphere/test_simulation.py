@@ -17,9 +17,14 @@ from heartfit.mechanics.sphere import Sphere, SphericalBody
 from heartfit.mechanism import Flow
 from heartfit.mechanisms.aortic_stenosis import AorticStenosis
 from heartfit.mechanisms.arterial_reflection import ArterialReflection
+from heartfit.mechanisms.delayed_activation import DelayedActivation
+from heartfit.mechanisms.fibre_stiffening import FibreStiffening
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.pericardium import Pericardium
+from heartfit.mechanisms.scar import Scar
 from heartfit.mechanisms.septal_load import SeptalLoad
+from heartfit.mechanisms.slow_relaxation import SlowRelaxation
+from heartfit.mechanisms.wall_viscosity import WallViscosity
 from heartfit.parameter import parameter
 from heartfit.simulation import Numerics, simulate
 from heartfit.sphere import simulation
@@ -52,6 +57,8 @@ def heart(spherical_heart: Heart) -> Heart:
     circulation = Circulation(mitral=OrificeValve(area=5e-4), aortic=OrificeValve())
     heart = replace(spherical_heart, circulation=circulation) + MitralRegurgitation() + Shunt()
     heart = heart + AorticStenosis() + ArterialReflection() + Pericardium(volume=80e-6) + SeptalLoad()
+    for each in (Scar(), DelayedActivation(), SlowRelaxation(), FibreStiffening(), WallViscosity()):
+        heart = heart + each
     return heart.with_parameters({"slope": 0.5})
 
 
@@ -77,7 +84,7 @@ def test_it_is_the_beat_of_the_coupled_path(
     """Volumes, pressures and flows of every branch, over two beats with a shift between them."""
     monkeypatch.setattr(statics, "FORCE_TOLERANCE", 1e-9)
     numerics = replace(SHORT, second_order=second_order, tolerances=TIGHT)
-    coupled = simulate(heart, SphericalBody(LEFT, RIGHT, heart.tissue), numerics)
+    coupled = simulate(heart, SphericalBody(LEFT, RIGHT, heart.muscle), numerics)
     compiled = simulate_spheres(heart, [LEFT, RIGHT], numerics)
     assert max(departures(compiled, coupled).values()) < 1e-7
     assert compiled.diagnostics["drift"] == pytest.approx(coupled.diagnostics["drift"], rel=1e-4)

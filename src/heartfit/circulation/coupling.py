@@ -25,6 +25,7 @@ from heartfit.geometry.arrays import Floats
 from heartfit.mechanics.acceleration import Anderson
 from heartfit.mechanics.body import StepFailed
 from heartfit.mechanics.time_step import TimeStep
+from heartfit.mechanics.tissue import Tissue
 from heartfit.mechanism import External, Mechanism
 
 EXTRAPOLATION: tuple[tuple[float, ...], ...] = ((), (1.0,), (2.0, -1.0))
@@ -40,6 +41,8 @@ PRESSURE_WEIGHT = 1e-4
 class Body(Protocol):
     """A pair of ventricles: finite elements, or two spheres of the same law."""
 
+    @property
+    def tissue(self) -> Tissue: ...
     def rest(self) -> Any: ...
     def volumes(self, x: Floats) -> Floats: ...
     def volume_gradients(self, x: Floats) -> Floats: ...

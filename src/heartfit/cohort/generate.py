@@ -54,8 +54,8 @@ def generate(
     heart, truth = hidden
     prepared = prepare(bare)
     mesh = assign_activation(prepared, personalised(prepared, conduction, qrs))
-    reference = unload(mesh, heart.tissue, np.array(protocol.end_diastolic_pressure))
-    body = FiniteElementBody(reference, heart.tissue)
+    reference = unload(mesh, heart.muscle, np.array(protocol.end_diastolic_pressure))
+    body = FiniteElementBody(reference, heart.muscle)
     beat = simulate(heart, body, replace(protocol.numerics, keep_positions=True))
     if not beat.completed:
         raise VolunteerError(f"the hidden heart did not beat: {beat.reason}; choose another seed or shape")

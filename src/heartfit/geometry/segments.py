@@ -9,15 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heartfit.geometry.arrays import Floats, Integers
+from heartfit.geometry.bullseye import APEX, APICAL, BASAL, RIGHT_VENTRICLE
 from heartfit.geometry.coordinates import LeftVentricularAxes, septal_faces
 from heartfit.geometry.laplace import between
 from heartfit.geometry.mesh import VentricularMesh
-
-RIGHT_VENTRICLE = 0
-APEX = 17
-# Sectors counted from the middle of the septum towards anterior.
-BASAL = np.array([2, 1, 6, 5, 4, 3])
-APICAL = np.array([14, 13, 16, 15])
 
 
 def aha_segments(mesh: VentricularMesh) -> Integers:

@@ -8,41 +8,27 @@ Find u (and the wall pressure p) with, for all :math:`\delta u`,
 Inertia, about 1e-4 of the internal forces, is left out.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from heartfit.electrophysiology.control import Control
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics import assembly, kinematics
-from heartfit.mechanics.active.bcs import BestelClementSorine, Drive
+from heartfit.mechanics.active.bcs import Drive
 from heartfit.mechanics.elements import ELEMENTS, Element
 from heartfit.mechanics.kinematics import StepFailed as StepFailed
-from heartfit.mechanics.passive.law import Passive
-from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 from heartfit.mechanics.solver import Elimination, Factor
-from heartfit.mechanics.support import Support
 from heartfit.mechanics.time_step import ENDLESS, TimeStep
+from heartfit.mechanics.tissue import Tissue as Tissue
 
 SMALLEST_JACOBIAN = 0.05
 """Relative element volume below which a trial state is refused."""
 
 CHAMBERS = ("lv", "rv")
-
-
-@dataclass(frozen=True)
-class Tissue:
-    """The slots of the wall: what it is made of, what drives it, what holds it and how it is discretised."""
-
-    passive: Passive = field(default_factory=MooneyRivlin)
-    active: BestelClementSorine = field(default_factory=BestelClementSorine)
-    control: Control = field(default_factory=Control)
-    support: Support = field(default_factory=Support)
-    element: str = "mixed"
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +53,7 @@ class FiniteElementBody:
     def __init__(
         self, reference: VentricularMesh, tissue: Tissue, elimination: Elimination | None = None
     ) -> None:
-        _require_fields(reference)
+        _require_fields(reference, tissue)
         self.reference, self.tissue = reference, tissue
         self._elimination = elimination
         self.element: Element = ELEMENTS[tissue.element]
@@ -77,7 +63,10 @@ class FiniteElementBody:
         self.stiffness = tissue.support.stiffness(reference)
         self.damping = tissue.support.damping(reference)
         self.passive_scale = tissue.support.passive_scale(reference)
-        self.activation = np.asarray(reference.activation)
+        self.activation, self.kept = np.asarray(reference.activation), np.ones(len(self.tets))
+        if tissue.regional:
+            self.activation = self.activation + tissue.delays()[reference.segments]
+            self.kept = 1.0 - tissue.losses()[reference.segments]
         self.cavities = [Cavity.of(reference, f"{chamber}_endo") for chamber in CHAMBERS]
 
     @cached_property
@@ -116,7 +105,7 @@ class FiniteElementBody:
     def step(self, state: BodyState, step: TimeStep) -> "Step":
         """The equations of ``step`` from ``state``."""
         control = self.tissue.control.mean(step.start, step.length, self.activation, step.period)
-        return Step(self, state, step, self.tissue.active.drive(step, control, state.fibres))
+        return Step(self, state, step, self.tissue.active.drive(step, control, state.fibres, self.kept))
 
     def endless_step(self, state: BodyState) -> "Step":
         """A step without end from ``state``: relaxed fibres, no viscosity, static equilibrium."""
@@ -135,8 +124,9 @@ def dyads_of(mesh: VentricularMesh) -> Floats:
     return mesh.orientation
 
 
-def _require_fields(mesh: VentricularMesh) -> None:
-    missing = [name for name in ("fibres", "activation", "longitudinal") if getattr(mesh, name) is None]
+def _require_fields(mesh: VentricularMesh, tissue: Tissue) -> None:
+    needed = ("fibres", "activation", "longitudinal", *(("segments",) if tissue.regional else ()))
+    missing = [name for name in needed if getattr(mesh, name) is None]
     if missing:
         raise InputError(f"the mesh has no {', '.join(missing)}; prepare it and assign its activation first")
 

@@ -26,6 +26,9 @@ from heartfit.mechanics.time_step import ENDLESS, TimeStep
 ACTIVATION = np.linspace(0.0, 0.07, 8)
 """Activation times of the fibres, s: a healthy QRS complex."""
 
+ORDER = [9, 8, 14, 7, 15, 10, 13, 17, 16, 11, 12, 1, 2, 3, 4, 6, 5]
+"""AHA segments as a healthy heart activates them, septum first and lateral base last; fibre classes follow them."""
+
 SMALLEST_STRETCH, LARGEST_STRETCH = 0.4, 2.0
 
 
@@ -67,6 +70,18 @@ def _cavity(radius: float, thickness: float, stretch: float) -> float:
     return 4.0 / 3.0 * np.pi * radius**3 * float(np.sign(inner)) * abs(inner) ** 3
 
 
+def of_fibres(regional: Floats, classes: int, sides: int) -> Floats:
+    """Means (sides classes,) of what is known of the regions (18,) over the fibre classes of the spheres.
+
+    A class of the left sphere is as many segments as its share of the fibres, in their order; the right sphere is the
+    right ventricular wall.
+    """
+    filled = np.concatenate([[0.0], np.cumsum(regional[ORDER])])
+    ends = np.interp(np.linspace(0.0, len(ORDER), classes + 1), np.arange(len(ORDER) + 1.0), filled)
+    means = np.diff(ends) * classes / len(ORDER)
+    return np.concatenate([means, np.full(classes, regional[0])])[: sides * classes]
+
+
 @dataclass(frozen=True, eq=False)
 class SphereState:
     """Displacements ``x`` (2, 1) of the mid-walls and fibre states (4, 2 k) at one time.
@@ -84,7 +99,9 @@ class SphericalBody:
     """A left and a right ventricle, each a sphere; see the module's equations."""
 
     def __init__(self, left: Sphere, right: Sphere, tissue: Tissue, activation: Floats = ACTIVATION) -> None:
-        self.tissue, self.activation = tissue, np.tile(activation, 2)
+        classes = len(activation)
+        self.tissue, self.kept = tissue, 1.0 - of_fibres(tissue.losses(), classes, 2)
+        self.activation = np.tile(activation, 2) + of_fibres(tissue.delays(), classes, 2)
         self.passive = isotropic(tissue.passive)
         self.radius = np.array([left.radius, right.radius])
         self.ratio = np.array([0.5 * s.thickness / s.radius for s in (left, right)])
@@ -114,7 +131,7 @@ class SphericalBody:
 
     def step(self, state: SphereState, step: TimeStep) -> "SphereStep":
         control = self.tissue.control.mean(step.start, step.length, self.activation, step.period)
-        return SphereStep(self, state, step, self.tissue.active.drive(step, control, state.fibres))
+        return SphereStep(self, state, step, self.tissue.active.drive(step, control, state.fibres, self.kept))
 
     def endless_step(self, state: SphereState) -> "SphereStep":
         none = np.zeros(len(self.activation))

@@ -7,8 +7,13 @@ from typing import TypeVar
 from heartfit.mechanism.base import Mechanism
 from heartfit.mechanism.blood import External, Flow, Narrowing, Pressure
 from heartfit.mechanism.instrument import Sensor
+from heartfit.mechanism.muscle import Amendment, Availability, Delay, Relaxation, Stress
 
-ROLES: tuple[type[Mechanism], ...] = (Flow, Narrowing, Pressure, External, Sensor)
+ROLES: tuple[type[Mechanism], ...] = (
+    *(Amendment, Availability, Delay, Relaxation, Stress),
+    *(Flow, Narrowing, Pressure, External),
+    Sensor,
+)
 
 M = TypeVar("M", bound=type[Mechanism])
 

@@ -15,10 +15,10 @@ import numpy as np
 
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats, Integers
+from heartfit.geometry.bullseye import APEX
 from heartfit.geometry.coordinates import LeftVentricularAxes
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
-from heartfit.geometry.segments import APEX
 from heartfit.mechanics.kinematics import shape_gradients
 
 DIRECTIONS = ("circumferential", "longitudinal", "radial")

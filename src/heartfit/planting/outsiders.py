@@ -110,5 +110,5 @@ def joined(heart: Heart, effect: Mechanism) -> Heart:
         return heart + effect
     control = heart.tissue.control
     known = {each.name: each.value for each in parameters_of(control)}
-    twitching = TwitchingControl(**known, share=effect.share, pause=effect.pause)
+    twitching = TwitchingControl(**known, share=effect.share, pause=effect.pause)  # type: ignore[arg-type]
     return replace(heart, tissue=replace(heart.tissue, control=twitching)) + effect

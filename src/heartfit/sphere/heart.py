@@ -12,7 +12,7 @@ from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
 from heartfit.mechanics.kinematics import StepFailed
 from heartfit.mechanics.passive.law import isotropic
-from heartfit.mechanics.sphere import LARGEST_STRETCH, Sphere
+from heartfit.mechanics.sphere import LARGEST_STRETCH, Sphere, of_fibres
 from heartfit.sphere import rows as at
 from heartfit.sphere.beat import Course, State, Tissue
 from heartfit.sphere.wall import cavity, passive_stress, tabulated
@@ -47,8 +47,12 @@ class SphericalHeart:
     ) -> None:
         self.heart, self.spheres, self.inertia, self._second_order = heart, spheres, inertia, second_order
         self.trees = heart.circulation.trees()[: len(spheres)]
-        self._activation = np.tile(activation, len(spheres))
-        passive, active = isotropic(heart.tissue.passive), heart.tissue.active
+        self.muscle, classes = heart.muscle, len(activation)
+        delays, losses = (
+            of_fibres(each, classes, len(spheres)) for each in (self.muscle.delays(), self.muscle.losses())
+        )
+        self._activation, self._bridges = np.tile(activation, len(spheres)) + delays, 1.0 - losses
+        passive, active = isotropic(self.muscle.passive), self.muscle.active
         self.tissue = Tissue(
             tabulated(passive), active.constants(), active.starling.constants(), passive.eta, inertia.density
         )
@@ -58,8 +62,8 @@ class SphericalHeart:
 
     def course(self, start: Floats, length: float) -> Course:
         """What is prescribed in steps of ``length``, s, that begin at ``start`` (n,)."""
-        heart, end = self.heart, start + length
-        rate, attach = heart.tissue.control.mean(start[:, None], length, self._activation, heart.period)
+        heart, control, end = self.heart, self.muscle.control, start + length
+        rate, attach = control.mean(start[:, None], length, self._activation, heart.period)
         atria = np.ascontiguousarray(self.atria(end).T)
         waves = np.ascontiguousarray(added_pressures(ARTERIES, end, heart.period, heart.mechanisms).T)
         loads = load_table(heart.mechanisms, VENTRICLES[: len(self.spheres)], end, heart.period)
@@ -105,8 +109,8 @@ class SphericalHeart:
         return State(sides, self._relaxed(sides[at.NOW + at.STRETCH]), self._still(), np.zeros(2))
 
     def _relaxed(self, stretch: Floats) -> Floats:
-        fibres, active = np.zeros((at.FIBRE_ROWS, len(self._activation))), self.heart.tissue.active
-        fibres[:4] = active.rest(len(self._activation))
+        fibres, active = np.zeros((at.FIBRE_ROWS, len(self._activation))), self.muscle.active
+        fibres[:4], fibres[at.KEPT] = active.rest(len(self._activation)), self._bridges
         strain = np.repeat(0.5 * (stretch**2 - 1.0), len(self._activation) // len(stretch))
         fibres[at.E_C] = active.unstressed(strain)
         return fibres

@@ -26,7 +26,10 @@ SIDE_ROWS = 40
 
 # a fibre: state as in bcs, drive, and response to a trial stretch: mean stress, its slope, increment of e_c, its slope
 E_C, K_C, LAMBDA, RATE, U, U_PLUS, N_0, SIGMA, SLOPE, INCREMENT, TURN = range(11)
-FIBRE_ROWS = 11
+KEPT = 11
+"""Share of a fibre's bridges that no mechanism takes away."""
+
+FIBRE_ROWS = 12
 
 # a branch: inertance, flow now and before the last step; inertance per length and starting flow of a step, trial flow
 INERTANCE, FLOW, FLOW_BEFORE, PER_STEP, START_FLOW, TRIAL_FLOW = range(6)

@@ -84,7 +84,8 @@ def begin_fibres(active, starling, step, rate, attach, n, sides, fibres):  # typ
     for i in range(fibres.shape[1]):
         e_c, stretch = fibres[at.E_C, i], sides[at.NOW + at.STRETCH, i // count]
         fibres[at.U, i], fibres[at.U_PLUS, i] = rate[n, i], attach[n, i]
-        fibres[at.N_0, i] = available(green_strain(additive, e_c + ahead * fibres[at.RATE, i]), starling)
+        length = green_strain(additive, e_c + ahead * fibres[at.RATE, i])
+        fibres[at.N_0, i] = fibres[at.KEPT, i] * available(length, starling)
         fibres[at.INCREMENT, i] = 0.0
         fibres[at.TURN, i] = unchanged_spring(additive, 0.5 * (stretch * stretch - 1.0), e_c)
 

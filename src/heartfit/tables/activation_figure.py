@@ -9,10 +9,10 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 
 from heartfit.geometry.arrays import Floats
+from heartfit.geometry.bullseye import RIGHT_VENTRICLE
 from heartfit.geometry.coordinates import LeftVentricularAxes
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.polygons import Polygon, bands
-from heartfit.geometry.segments import RIGHT_VENTRICLE
 from heartfit.tables.bullseye import draw_bullseye
 from heartfit.tables.painting import TIME, Side, half, paint, surface
 

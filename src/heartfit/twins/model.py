@@ -35,7 +35,7 @@ class SphericalModel:
 
     def observed(self, heart: Heart) -> Outcome:
         """What is observed of another heart in a ventricle of this shape, or why it does not beat."""
-        passive = isotropic(heart.tissue.passive)
+        passive = isotropic(heart.muscle.passive)
         try:
             sphere = Sphere.unloaded(self.cavity, self.wall, self.pressure, passive)
         except ValueError:

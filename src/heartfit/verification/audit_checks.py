@@ -88,7 +88,7 @@ def reference() -> VentricularMesh:
 def watched(time_step: float, second_order: bool = True) -> Watched:
     """The first beat at a time step, s."""
     heart, states = Heart(), list[HeartState]()
-    body = FiniteElementBody(reference(), heart.tissue)
+    body = FiniteElementBody(reference(), heart.muscle)
     beat = simulate(heart, body, _numerics(time_step, second_order), watch=states.extend)
     return Watched(beat, states, audit(body, states, heart.period, second_order))
 
@@ -97,7 +97,7 @@ def watched(time_step: float, second_order: bool = True) -> Watched:
 def limit_cycle() -> Beat:
     """The beat at which the usual criterion stops."""
     heart = Heart()
-    return simulate(heart, FiniteElementBody(reference(), heart.tissue), Numerics(time_step=LONG_STEP))
+    return simulate(heart, FiniteElementBody(reference(), heart.muscle), Numerics(time_step=LONG_STEP))
 
 
 @cache
@@ -121,7 +121,7 @@ def apart_reordered() -> float:
 def curves(mesh: VentricularMesh) -> dict[str, Floats]:
     """Every curve of the first beat from a stress-free mesh."""
     heart = Heart()
-    return simulate(heart, FiniteElementBody(mesh, heart.tissue), _numerics(LONG_STEP)).signals()
+    return simulate(heart, FiniteElementBody(mesh, heart.muscle), _numerics(LONG_STEP)).signals()
 
 
 def apart(first: dict[str, Floats], second: dict[str, Floats]) -> float:

@@ -58,7 +58,7 @@ def rows_of(
     """
     for mesh in meshes:
         size = Size(len(mesh.tets), Cavity.of(mesh, "lv_endo").volume(mesh.points), mesh.wall_volume())
-        reference = unload(mesh, heart.tissue, loads)
+        reference = unload(mesh, heart.muscle, loads)
         for scheme, second_order in SCHEMES.items():
             for step in steps:
                 numerics = Numerics(time_step=step, second_order=second_order, max_beats=1)
@@ -66,7 +66,7 @@ def rows_of(
 
 
 def _observed(heart: Heart, reference: VentricularMesh, numerics: Numerics) -> tuple[dict[str, float], float]:
-    beat = simulate(heart, FiniteElementBody(reference, heart.tissue), numerics)
+    beat = simulate(heart, FiniteElementBody(reference, heart.muscle), numerics)
     if not beat.completed:
         raise StepFailed(f"{len(reference.tets)} tetrahedra, step {numerics.time_step:g} s: {beat.reason}")
     return observe(beat_curves(beat), FEATURES), beat.diagnostics["cpu_s"]

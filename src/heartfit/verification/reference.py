@@ -65,9 +65,9 @@ def find(
 
 def _find(variant: Variant, mesh: VentricularMesh, pressures: Floats, numerics: Numerics) -> Finding:
     heart = variant.heart()
-    tissue = Heart().tissue if variant.reference == FROZEN else heart.tissue
+    tissue = Heart().tissue if variant.reference == FROZEN else heart.muscle
     reference = mesh if variant.reference == LOADED else unload(mesh, tissue, pressures)
-    curves = beat_curves(simulate(heart, FiniteElementBody(reference, heart.tissue), numerics))
+    curves = beat_curves(simulate(heart, FiniteElementBody(reference, heart.muscle), numerics))
     measured = {side: Cavity.of(mesh, f"{side}_endo").volume(mesh.points) for side in CHAMBERS}
     filled = {side: cavity_indices(curves, side)["EDV"] / measured[side] for side in CHAMBERS}
     return Finding(filled, VolumeFeatures()(curves["lv_volume"]))

@@ -92,7 +92,7 @@ class Trial:
 def attempt(heart: Heart, mesh: VentricularMesh, numerics: Numerics | None = None) -> Trial:
     """Unload the ventricles and run their first beat."""
     try:
-        body = ventricles(mesh, heart.tissue, END_DIASTOLIC_PRESSURE)
+        body = ventricles(mesh, heart.muscle, END_DIASTOLIC_PRESSURE)
     except StepFailed as failure:
         return Trial(False, None, str(failure))
     beat = simulate(heart, body, numerics or Numerics(max_beats=1))

@@ -81,10 +81,15 @@ class BestelClementSorine:
     def constants(self) -> Floats:
         return np.array([self.sigma_0, self.k_0, self.alpha, self.mu, self.E_s, self.additive])
 
-    def drive(self, step: TimeStep, control: tuple[Floats, Floats], state: Floats) -> "Drive":
-        """What drives fibres in the state (4, m) during ``step``, given the means of |u| and |u|_+."""
+    def drive(
+        self, step: TimeStep, control: tuple[Floats, Floats], state: Floats, kept: Floats | float = 1.0
+    ) -> "Drive":
+        """What drives fibres in the state (4, m) during ``step``, given the means of |u| and |u|_+.
+
+        ``kept`` (m,) is the share of each fibre's bridges that no mechanism takes away.
+        """
         ahead = 0.5 * step.length * state[3] if step.second_order else 0.0
-        n_0 = self.starling.available(green_strain(self.additive, state[0] + ahead))
+        n_0 = kept * self.starling.available(green_strain(self.additive, state[0] + ahead))
         return Drive(*control, n_0, step.length, step.second_order)
 
     def begin(self, e_old: Floats, state: Floats) -> Floats:
