@@ -2,29 +2,39 @@
 
 import base64
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
+from heartfit.diagnosis.cause import Cause
 from heartfit.errors import InputError
 from heartfit.io.curves import read_curves
-from heartfit.io.planted import MEASURED, open_seal, seal, write_planted
-from heartfit.planting.case import Plan, plant
+from heartfit.io.findings import read_planted, write_findings
+from heartfit.io.fingerprint import PACKAGE, modules_below
+from heartfit.io.planted import open_seal, seal, write_planted
+from heartfit.io.recordings import MEASURED
+from heartfit.io.scores import read_scored
+from heartfit.planting.campaign import Plan
+from heartfit.planting.case import plant
+from heartfit.planting.trial import Finding
+
+SCRIPTS = Path(__file__).parents[2] / "workflow" / "scripts"
 
 CASE = plant(Plan(5, "single", ("CatheterOffset",), 2.0), second_condition=True)
 
 
 def test_recording_and_answer_are_read_back(tmp_path):
-    write_planted(CASE, tmp_path / "measured", tmp_path / "sealed" / "5.answer")
-    assert {file.name for file in (tmp_path / "measured").iterdir()} == {MEASURED, "preload.csv"}
-    curves = read_curves(tmp_path / "measured" / MEASURED)
+    write_planted(CASE, tmp_path / "measured", tmp_path / "sealed")
+    assert {file.name for file in (tmp_path / "measured" / "5").iterdir()} == {MEASURED, "preload.csv"}
+    curves = read_curves(tmp_path / "measured" / "5" / MEASURED)
     for name, curve in CASE.curves["rest"].items():
         assert curves[name].values == pytest.approx(curve.values)
     assert open_seal(tmp_path / "sealed" / "5.answer") == CASE.answer
 
 
 def test_the_seal_is_not_read_in_passing(tmp_path):
-    write_planted(CASE, tmp_path / "measured", tmp_path / "5.answer")
-    for file in (tmp_path / "measured" / MEASURED, tmp_path / "5.answer"):
+    write_planted(CASE, tmp_path / "measured", tmp_path)
+    for file in (tmp_path / "measured" / "5" / MEASURED, tmp_path / "5.answer"):
         assert "Catheter" not in file.read_text()
 
 
@@ -43,3 +53,34 @@ def test_a_missing_answer_is_told_in_one_line(tmp_path):
     with pytest.raises(InputError, match="no sealed answer") as told:
         open_seal(tmp_path / "none")
     assert "\n" not in str(told.value)
+
+
+def test_findings_are_read_back_beside_their_answers(tmp_path):
+    write_planted(CASE, tmp_path / "measured", tmp_path / "sealed")
+    named = Cause("CatheterOffset", 7.5, 900.0, "Pa", (500.0, 1300.0))
+    finding = Finding("named", (named,), {"CatheterOffset": 7.5}, {"lv_pressure": 0.7}, 3000, 12.0)
+    write_findings(tmp_path / "findings.json", {"5": finding}, "abc")
+    (scored,) = read_scored([tmp_path / "findings.json"], [tmp_path / "sealed"])
+    assert scored.finding == finding
+    assert scored.answer == CASE.answer
+    assert scored.right
+
+
+def test_recordings_are_read_by_seed(tmp_path):
+    write_planted(CASE, tmp_path / "measured", tmp_path / "sealed")
+    (recording,) = read_planted(tmp_path / "measured").values()
+    assert set(recording.curves) == {"lv_volume", "lv_pressure"}
+    assert recording.period == CASE.curves["rest"]["lv_volume"].period
+
+
+def test_the_job_that_diagnoses_rests_on_no_code_that_plants_or_opens_a_seal():
+    diagnosing = {
+        path.relative_to(PACKAGE).as_posix() for path in modules_below(SCRIPTS / "diagnose_planted.py")
+    }
+    assert "planting/trial.py" in diagnosing
+    assert not diagnosing & {
+        f"planting/{name}.py" for name in ("case", "hidden", "measuring", "outsiders", "effects")
+    }
+    assert "io/planted.py" not in diagnosing
+    planting = {path.relative_to(PACKAGE).as_posix() for path in modules_below(SCRIPTS / "plant_effects.py")}
+    assert not {name for name in planting if name.startswith(("discovery/", "diagnosis/diagnose"))}

@@ -6,8 +6,8 @@ import pytest
 from heartfit.heart import Heart
 from heartfit.mechanism import registered
 from heartfit.planting import case as cases
-from heartfit.planting.campaign import Campaign
-from heartfit.planting.case import Plan, plant
+from heartfit.planting.campaign import Campaign, Plan
+from heartfit.planting.case import plant
 from heartfit.planting.effects import Inadmissible, draw_effect, plantable
 from heartfit.planting.hidden import draw_hidden
 from heartfit.planting.outsiders import OUTSIDERS, joined

@@ -1,19 +1,25 @@
 """The scorer counts what it is said to count, whoever the diagnoser is."""
 
+from math import comb
+
 import pytest
 
+from heartfit.diagnosis.cause import Cause
+from heartfit.observation.coverage import Share
 from heartfit.planting.case import Answer
 from heartfit.planting.effects import Effect
-from heartfit.planting.scoring import Finding, Named, Scored, rates
+from heartfit.planting.rates import RATES, doubt
+from heartfit.planting.scoring import Scored
+from heartfit.planting.trial import Finding
 
 
 def answer(kind, *names, scales=2.0):
-    effects = tuple(Effect(name, 2.0, "m^2", scales) for name in names)
+    effects = tuple(Effect(name, 2.0, 1.0, "m^2", scales) for name in names)
     return Answer(0, kind, effects, {}, {}, 0.02)
 
 
 def found(verdict, *names):
-    return Finding(verdict, tuple(Named(name, 9.0, 1.8, (1.5, 2.5)) for name in names))
+    return Finding(verdict, tuple(Cause(name, 9.0, 1.8, "m^2", (1.5, 2.5)) for name in names))
 
 
 def case(kind, planted, verdict, *said, scales=2.0):
@@ -41,49 +47,57 @@ CASES = [
 ]
 COUNTS = {
     "false alarms of nulls": (2, 4),
-    "names of nulls": (1, 4),
-    "detected at 2 scales": (4, 5),
-    "detected at 3 scales": (1, 1),
-    "named right, of the names given to singles": (1, 3),
-    "named right, of the names given to all": (2, 9),
-    "groups that hold the cause, of the groups": (1, 2),
+    "nulls that were given a name": (1, 4),
+    "singles detected at 2 scales": (4, 5),
+    "singles detected at more": (1, 1),
+    "singles named right, of the named": (1, 3),
+    "named right, of all that were named": (2, 9),
+    "singles in their group, of the groups": (1, 2),
     "outsiders detected": (2, 3),
-    "unknown, of the outsiders detected": (1, 2),
-    "pairs: both right": (1, 4),
-    "pairs: a wrong pair": (1, 4),
-    "pairs: one, and right": (1, 4),
+    "outsiders called unknown, of the detected": (1, 2),
+    "pairs with both right": (1, 4),
+    "pairs with a wrong pair": (1, 4),
+    "pairs with one name, and right": (1, 4),
 }
 
 
 def test_every_rate_counts_its_cases():
-    seen = {
-        rate.name: (round(rate.share.covered * rate.share.sequences), rate.share.sequences)
-        for rate in rates(CASES)
-    }
-    assert seen == COUNTS
+    shares = {rate.name: rate.counted(CASES) for rate in RATES}
+    counts = {name: (round(each.covered * each.sequences), each.sequences) for name, each in shares.items()}
+    assert counts == COUNTS
 
 
 def test_a_rate_of_no_case_says_nothing():
-    assert {rate.met for rate in rates([])} == {None}
+    assert {rate.counted([]) for rate in RATES} == {None}
 
 
 def test_targets_are_met_or_missed_by_the_share_itself():
-    met = {rate.name: rate.met for rate in rates(CASES) if rate.target is not None}
+    met = {rate.name: rate.met(rate.counted(CASES)) for rate in RATES if rate.target is not None}
     assert met == {
         "false alarms of nulls": False,
-        "detected at 2 scales": True,
-        "named right, of the names given to singles": False,
-        "unknown, of the outsiders detected": False,
-        "pairs: a wrong pair": False,
+        "singles detected at 2 scales": True,
+        "singles named right, of the named": False,
+        "outsiders called unknown, of the detected": False,
+        "pairs with a wrong pair": False,
     }
+
+
+@pytest.mark.parametrize(
+    ("count", "at_most"), [(0, True), (3, True), (16, True), (0, False), (9, False), (16, False)]
+)
+def test_doubt_is_the_tail_of_the_binomial(count, at_most):
+    claim, n = 0.3, 16
+    worse = range(count, n + 1) if at_most else range(count + 1)
+    tail = sum(comb(n, k) * claim**k * (1.0 - claim) ** (n - k) for k in worse)
+    assert doubt(Share.of(count, n), claim, at_most) == pytest.approx(tail)
 
 
 def test_amplitudes_are_compared_from_where_the_effect_is_off():
     scored = CASES[4]
     (effect,) = scored.answer.effects
-    assert scored.ratio(effect, off=1.0) == pytest.approx(0.8)
+    assert scored.ratio(effect) == pytest.approx(0.8)
     assert scored.covered(effect)
-    assert not scored.covered(Effect("Leak", 2.6, "m^2", 2.0))
+    assert not scored.covered(Effect("Leak", 2.6, 1.0, "m^2", 2.0))
 
 
 def test_what_is_said_is_the_name_where_one_is_given():

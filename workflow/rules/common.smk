@@ -76,6 +76,9 @@ CASE_PICTURES = [
 TABLES = ["table1", "cards", "specificity", "selection", *(f"sensitivity_{setting}" for setting in SETTINGS)]
 FRESH = range(ERROR.sequences, ERROR.sequences + ERROR.fresh)
 
+PLANTED = dict(enumerate(STUDY.discovery_benchmark.batches()))
+LIBRARY = {name: fingerprint(Path(inspect.getfile(each))) for name, each in registered().items()}
+
 
 wildcard_constraints:
     case="|".join(CASES),
@@ -83,6 +86,12 @@ wildcard_constraints:
     point=r"\d+",
     number=r"\d+",
     acquisition="|".join(map(re.escape, TRIED)),
+    batch=r"\d+",
+
+
+def planted_of(wildcards):
+    """The cases of a batch of hidden effects."""
+    return PLANTED[int(wildcards.batch)]
 
 
 def code(script):

@@ -18,6 +18,7 @@ from heartfit.configuration.imaging import (
     flat,
 )
 from heartfit.configuration.numerics import MeshSize, TimeScheme
+from heartfit.configuration.planting import DiscoveryBenchmark
 from heartfit.configuration.sensitivity import SensitivityStudy
 from heartfit.configuration.setting import Prior, Setting, require_known
 from heartfit.configuration.spheres import SphereStudy
@@ -94,6 +95,7 @@ class Study(Strict):
     registration_error: RegistrationError
     sensitivity: SensitivityStudy
     sphere_study: SphereStudy
+    discovery_benchmark: DiscoveryBenchmark
     prior: dict[str, Prior] = Field({}, description="where it differs from the declared one")
     settings: dict[str, Setting] = Field(min_length=1)
 

@@ -12,18 +12,17 @@ from pathlib import Path
 from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
 from heartfit.io.curves import write_curves
+from heartfit.io.recordings import MEASURED
 from heartfit.planting.case import REST, Answer, PlantedCase
 from heartfit.planting.effects import Effect
 
-MEASURED = "MEASURED.csv"
-"""The recording at rest; that of another condition is NAME.csv beside it."""
 
-
-def write_planted(case: PlantedCase, folder: Path, answer: Path) -> None:
-    """Write the recordings into a folder of the case's own, and seal the answer in a file elsewhere."""
+def write_planted(case: PlantedCase, measured: Path, sealed: Path) -> None:
+    """Write the recordings into the folder ``measured``/SEED, and seal the answer as ``sealed``/SEED.answer."""
+    seed = str(case.answer.seed)
     for condition, curves in case.curves.items():
-        write_curves(Path(folder, MEASURED if condition == REST else f"{condition}.csv"), curves)
-    seal(answer, case.answer)
+        write_curves(Path(measured, seed, MEASURED if condition == REST else f"{condition}.csv"), curves)
+    seal(Path(sealed, f"{seed}.answer"), case.answer)
 
 
 def seal(path: Path, answer: Answer) -> None:

@@ -9,6 +9,9 @@ from heartfit.diagnosis.recording import Recording, Samples
 from heartfit.errors import InputError
 from heartfit.io.curves import read_sampled, stated_period
 
+MEASURED = "MEASURED.csv"
+"""What the recording at rest is called where it has a folder of its own; others are NAME.csv beside it."""
+
 
 def read_recording(path: Path, period: float | None = None) -> Recording:
     """The recording, SI, with the period, s, that is given or that the file states.

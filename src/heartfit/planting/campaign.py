@@ -3,10 +3,24 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import Literal
 
 import numpy as np
 
-from heartfit.planting.case import Plan
+from heartfit.planting.effects import plantable
+from heartfit.planting.outsiders import OUTSIDERS
+
+Kind = Literal["none", "single", "two", "outside"]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What to plant: nothing, one or two mechanisms of the registry or an outsider, by name, of ``scales`` each."""
+
+    seed: int
+    kind: Kind
+    names: tuple[str, ...] = ()
+    scales: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -24,6 +38,11 @@ class Campaign:
     pairs: int
     scales: Sequence[float]
     pair_scales: float
+
+    def batches(self, size: int, first: int | None = None) -> list[list[Plan]]:
+        """The first cases, or all, with the library and the outsiders of this version, ``size`` at a time."""
+        plans = self.plans(list(plantable()), [cls.__name__ for cls in OUTSIDERS])[:first]
+        return [plans[start : start + size] for start in range(0, len(plans), size)]
 
     def plans(self, library: Sequence[str], outside: Sequence[str]) -> list[Plan]:
         """All cases, given the names of the library's mechanisms and of the outsiders."""

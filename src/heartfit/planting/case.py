@@ -3,19 +3,17 @@
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 
 from heartfit.beat import Beat
 from heartfit.mechanism import Mechanism
 from heartfit.observation.curve import Curve
+from heartfit.planting.campaign import Kind, Plan
 from heartfit.planting.effects import Effect, Inadmissible, described, draw_effect, plantable
 from heartfit.planting.hidden import NUMERICS, HiddenHeart, draw_hidden
 from heartfit.planting.measuring import Study, measured
 from heartfit.planting.outsiders import OUTSIDERS
-
-Kind = Literal["none", "single", "two", "outside"]
 
 EDV, EJECTION_FRACTION, PEAK = (80e-6, 300e-6), (0.15, 0.80), (8e3, 30e3)
 """What a patient who is examined may have: m^3, 1, Pa."""
@@ -23,16 +21,6 @@ PRELOAD = (1.3, 1.6)
 """Resting atrial pressure of the second condition over that of the first: raised legs."""
 REST = "rest"
 ATTEMPTS = 200
-
-
-@dataclass(frozen=True)
-class Plan:
-    """What to plant: nothing, one or two mechanisms of the registry or an outsider, by name, of ``scales`` each."""
-
-    seed: int
-    kind: Kind
-    names: tuple[str, ...] = ()
-    scales: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -19,10 +19,11 @@ class Inadmissible(ValueError):
 
 @dataclass(frozen=True)
 class Effect:
-    """What was planted: amplitude, SI, of a mechanism, its unit, in how many scales, and its other parameters."""
+    """What was planted: amplitude, SI, of a mechanism, where it is off, size in scales, and other parameters."""
 
     name: str
     amplitude: float
+    off: float
     unit: str
     scales: float
     others: Mapping[str, float] = field(default_factory=dict)
@@ -66,4 +67,4 @@ def described(mechanisms: Iterable[Mechanism], scales: float) -> tuple[Effect, .
 def _described(planted: Mechanism, scales: float) -> Effect:
     switch, values = planted.switch(), {each.name: each.value for each in parameters_of(planted)}
     amplitude = values.pop(switch.name)
-    return Effect(type(planted).__name__, amplitude, switch.unit, scales, values)
+    return Effect(type(planted).__name__, amplitude, switch.off or 0.0, switch.unit, scales, values)

@@ -1,0 +1,49 @@
+"""A diagnosis on trial: what it says of a recording, in the form that is scored. It knows of no answer."""
+
+import time as clock
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from heartfit.diagnosis.cause import Cause, Diagnosis
+from heartfit.diagnosis.diagnose import diagnose
+from heartfit.diagnosis.recording import Recording
+from heartfit.errors import InputError
+
+REFUSED = "refused"
+"""The verdict where the diagnosis did not take the recording."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What a diagnosis said of a case.
+
+    ``ranking``: ln Bayes factors of all single mechanisms; ``gain``: error ratios by curve on what was held out.
+    """
+
+    verdict: str
+    mechanisms: tuple[Cause, ...] = ()
+    ranking: Mapping[str, float] = field(default_factory=dict)
+    gain: Mapping[str, float] = field(default_factory=dict)
+    simulations: int = 0
+    seconds: float = 0.0
+
+    @property
+    def names(self) -> frozenset[str]:
+        return frozenset(each.name for each in self.mechanisms)
+
+    @classmethod
+    def of(cls, diagnosis: Diagnosis, seconds: float) -> "Finding":
+        """The part of a diagnosis that is scored, and the time of the processor that it took, s."""
+        gain = {each.curve: each.ratio for each in diagnosis.gain}
+        said = diagnosis.verdict, diagnosis.mechanisms, dict(diagnosis.ranking), gain
+        return cls(*said, diagnosis.simulations, seconds)
+
+
+def found(recording: Recording) -> Finding:
+    """What the search says of the recording; a refusal claims nothing."""
+    started = clock.process_time()
+    try:
+        diagnosis = diagnose(recording)
+    except InputError:
+        return Finding(REFUSED)
+    return Finding.of(diagnosis, clock.process_time() - started)

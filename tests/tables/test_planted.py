@@ -1,0 +1,100 @@
+"""Verdicts on hidden effects, printed, drawn and held to claims."""
+
+import pandas as pd
+import pytest
+
+from heartfit.diagnosis.cause import Cause
+from heartfit.io.tables import write_figure
+from heartfit.planting.case import Answer
+from heartfit.planting.effects import Effect
+from heartfit.planting.scoring import Scored
+from heartfit.planting.trial import Finding
+from heartfit.tables.planted_claims import COLUMNS, ClaimError, require_claims
+from heartfit.tables.planted_figures import plot_confusion, plot_power, plot_rates
+from heartfit.tables.planted_page import planted_page
+from heartfit.tables.planted_table import cases_table, mechanisms_table, rates_table
+
+
+def scored(seed, kind, planted, verdict, said=(), size=1e-5):
+    effects = tuple(Effect(name, 2.0 * size, 0.0, "m^2", 2.0) for name in planted)
+    named = tuple(Cause(name, 9.0, 1.8 * size, "m^2", (1.5 * size, 2.5 * size)) for name in said)
+    ranking = {"Leak": 9.0, "unknown": 2.0}
+    gain = {"lv_pressure": 0.5} if named else {}
+    return Scored(
+        Answer(seed, kind, effects, {"no beat": 1}, {}, 0.02),
+        Finding(verdict, named, ranking, gain, 3000, 20.0),
+    )
+
+
+CASES = [
+    scored(1, "none", (), "none"),
+    scored(2, "none", (), "named", ("Leak",)),
+    scored(3, "single", ("Leak",), "named", ("Leak",)),
+    scored(4, "single", ("Leak",), "unknown"),
+    scored(5, "single", ("Scar",), "none"),
+    scored(6, "outside", ("Whip",), "unknown"),
+    scored(7, "two", ("Leak", "Scar"), "two", ("Leak", "Scar")),
+]
+
+
+def claims(*rows):
+    return pd.DataFrame([(*row, "because") for row in rows], columns=COLUMNS)
+
+
+def test_rates_are_counts_with_intervals_and_targets():
+    table = rates_table(CASES).set_index("rate")
+    alarms = table.loc["false alarms of nulls"]
+    assert (alarms["count"], alarms["share (%)"]) == ("1 of 2", 50.0)
+    assert (alarms["target (%)"], alarms["met"]) == ("<= 4", "no")
+    assert alarms["low (%)"] < 50.0 < alarms["high (%)"]
+    assert "singles in their group, of the groups" not in table.index
+
+
+def test_a_mechanism_has_its_size_in_its_unit_and_the_amplitudes_that_were_told():
+    table = mechanisms_table(CASES).set_index("planted")
+    leak = table.loc["Leak"]
+    assert (leak["size"], leak["cases"], leak["detected"], leak["named right"]) == ("0.2 cm^2", 2, 2, 1)
+    assert leak["amplitude ratio, median"] == pytest.approx(0.9)
+    assert leak["in its interval"] == "1 of 1"
+    assert table.loc["Whip (outside)"]["unknown"] == 1
+
+
+def test_a_case_is_a_row():
+    table = cases_table(CASES)
+    assert len(table) == len(CASES)
+    assert table["planted"].tolist()[-1] == "Leak + Scar"
+    assert table["right"].tolist() == [False, False, True, False, False, False, True]
+
+
+def test_claims_that_the_counts_allow_are_held():
+    alarms, more = ("false alarms of nulls", 0.06, "at most"), ("singles detected at more", 0.5, "at least")
+    held = require_claims(CASES, claims(alarms, more))
+    assert held["counted"].tolist() == ["1 of 2"]
+    assert held["doubt"].tolist() == pytest.approx([1.0 - 0.94**2])
+
+
+def test_refuted_claims_are_told_one_a_line():
+    many = [scored(seed, "none", (), "unknown") for seed in range(6)]
+    with pytest.raises(ClaimError, match=r"false alarms of nulls: 6 of 6, claimed at most 0.06") as told:
+        require_claims(many, claims(("false alarms of nulls", 0.06, "at most")))
+    assert len(str(told.value).splitlines()) == 2
+
+
+@pytest.mark.parametrize("row", [("no rate", 0.1, "at most"), ("false alarms of nulls", 0.1, "about")])
+def test_a_claim_of_nothing_is_refused(row):
+    with pytest.raises(ValueError, match="expected rate, claim, bound, why"):
+        require_claims(CASES, claims(row))
+
+
+def test_the_page_tells_seeds_refusals_and_gain():
+    page = planted_page(CASES)
+    assert "(1 to 7)" in page
+    assert "7 of 14" in page
+    assert "fell to 0.50" in page
+    assert "3000 simulations and 20.0 s" in page
+
+
+@pytest.mark.parametrize("plot", [plot_rates, plot_confusion, plot_power])
+def test_it_is_drawn(plot, tmp_path):
+    write_figure(tmp_path / "figure.png", plot(CASES))
+    assert (tmp_path / "figure.png").stat().st_size > 5_000

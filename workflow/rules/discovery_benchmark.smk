@@ -1,0 +1,85 @@
+# answers are sealed apart from what was measured: diagnose_planted is given the one folder, and never the other
+rule plant_effects:
+    input:
+        kernels="<results>/kernels.json",
+    output:
+        measured=directory("<results>/discovery_benchmark/measured/{batch}"),
+        sealed=directory("<results>/discovery_benchmark/sealed/{batch}"),
+    log:
+        "<logs>/discovery_benchmark/plant_effects_{batch}.log",
+    benchmark:
+        "<benchmarks>/discovery_benchmark/plant_effects_{batch}.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        plans=planted_of,
+        library=LIBRARY,
+        stated=stated(planted_of),
+        code=code("plant_effects.py"),
+    script:
+        "../scripts/plant_effects.py"
+
+
+rule diagnose_planted:
+    input:
+        kernels="<results>/kernels.json",
+        measured="<results>/discovery_benchmark/measured/{batch}",
+    output:
+        "<results>/discovery_benchmark/findings/{batch}.json",
+    log:
+        "<logs>/discovery_benchmark/diagnose_planted_{batch}.log",
+    benchmark:
+        "<benchmarks>/discovery_benchmark/diagnose_planted_{batch}.tsv"
+    resources:
+        mem_mb=500,
+        runtime=30,
+    params:
+        library=LIBRARY,
+        code=code("diagnose_planted.py"),
+    script:
+        "../scripts/diagnose_planted.py"
+
+
+rule discovery_benchmark:
+    input:
+        findings=expand("<results>/discovery_benchmark/findings/{batch}.json", batch=PLANTED),
+        sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=PLANTED),
+    output:
+        tables=expand("<results>/discovery_benchmark/{name}.csv", name=("rates", "mechanisms", "cases")),
+        page=f"{STUDY.discovery_benchmark.page}/discovery_benchmark.md",
+        figures=expand(
+            f"{STUDY.discovery_benchmark.page}/figures/discovery_{{name}}.png",
+            name=("rates", "confusion", "power"),
+        ),
+    log:
+        "<logs>/discovery_benchmark/discovery_benchmark.log",
+    benchmark:
+        "<benchmarks>/discovery_benchmark/discovery_benchmark.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code("discovery_benchmark.py"),
+    script:
+        "../scripts/discovery_benchmark.py"
+
+
+rule check_discovery:
+    input:
+        findings=expand("<results>/discovery_benchmark/findings/{batch}.json", batch=PLANTED),
+        sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=PLANTED),
+        claims=STUDY.discovery_benchmark.claims,
+    output:
+        "<results>/discovery_benchmark/checked.csv",
+    log:
+        "<logs>/discovery_benchmark/check_discovery.log",
+    benchmark:
+        "<benchmarks>/discovery_benchmark/check_discovery.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code("check_discovery.py"),
+    script:
+        "../scripts/check_discovery.py"

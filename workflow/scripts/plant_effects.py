@@ -1,0 +1,12 @@
+"""Plant effects in hidden hearts: what was measured into one folder, the sealed answers into another."""
+
+from itertools import repeat
+from pathlib import Path
+
+from heartfit.io.log import record
+from heartfit.io.planted import write_planted
+from heartfit.planting.case import plant
+
+record(snakemake.log[0])
+folders = map(repeat, (Path(snakemake.output.measured), Path(snakemake.output.sealed)))
+list(map(write_planted, map(plant, snakemake.params.plans), *folders))
