@@ -11,8 +11,10 @@ from heartfit.branch import Branch
 from heartfit.electrophysiology.control import Control
 from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
-from heartfit.mechanism import Flow, Mechanism, Sensor
+from heartfit.load import Load
+from heartfit.mechanism import External, Flow, Mechanism, Sensor
 from heartfit.parameter import parameter, parameters_of
+from heartfit.periodic import bump
 
 
 @dataclass(frozen=True)
@@ -76,6 +78,42 @@ class CatheterWhip(Sensor):
 
 
 @dataclass(frozen=True)
+class ThoracicPulse(External):
+    """A pulse of pressure around the heart in diastole: a strained breath in every beat."""
+
+    pressure: float = parameter(
+        1000.0, unit="Pa", symbol="a", meaning="greatest pressure around the heart", off=0.0, scale=800.0
+    )
+    peak: float = parameter(0.64, unit="s", symbol="t_s", meaning="time of the maximum", scale=0.02)
+    width: float = parameter(0.25, unit="s", symbol="w", meaning="length of the pulse", low=0.05)
+
+    def load(self, ventricle: str, time: Floats, period: float) -> Load:  # noqa: ARG002
+        return Load(pulse=self.pressure * bump(time, self.peak, self.width, period))
+
+
+@dataclass(frozen=True)
+class Obliteration(External):
+    r"""A cavity whose walls meet as it empties, so that pressure is trapped in it: an obstruction by volume.
+
+    .. math:: p = a\, e^{(V_0 - V) / v}
+    """
+
+    pressure: float = parameter(
+        2000.0,
+        unit="Pa",
+        symbol="a",
+        meaning="trapped pressure at the reference volume",
+        off=0.0,
+        scale=1500.0,
+    )
+    volume: float = parameter(60e-6, unit="m^3", symbol="V_0", meaning="reference volume", sd=0.1)
+    scale: float = parameter(25e-6, unit="m^3", symbol="v", meaning="volume over which it falls e-fold")
+
+    def load(self, ventricle: str, time: Floats, period: float) -> Load:  # noqa: ARG002
+        return Load(rise=self.pressure, volume=self.volume, scale=-self.scale)
+
+
+@dataclass(frozen=True)
 class TwitchingControl(Control):
     """The control of fibres of which a share contracts a second time."""
 
@@ -101,7 +139,9 @@ class SecondTwitch(Mechanism):
     pause: float = parameter(0.15, unit="s", symbol="t_2", meaning="from the end of the first", scale=0.03)
 
 
-OUTSIDERS: tuple[type[Mechanism], ...] = (SeptalDefect, CurvedVolume, CatheterWhip, SecondTwitch)
+OUTSIDERS: tuple[type[Mechanism], ...] = (
+    SeptalDefect, CurvedVolume, CatheterWhip, ThoracicPulse, Obliteration, SecondTwitch,
+)  # fmt: skip
 
 
 def joined(heart: Heart, effect: Mechanism) -> Heart:
