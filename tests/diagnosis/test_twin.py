@@ -54,6 +54,8 @@ def test_the_trigger_moves_the_recording_and_not_the_heart():
 
 
 def test_coordinates_beyond_what_a_heart_can_be_predict_nothing():
-    assert Twin(HUMAN, TIMES).predicted(np.where(np.arange(len(FREE)) == 15, 60.0, 0.0), ()) is None
+    assert (
+        Twin(HUMAN, TIMES).predicted(np.where(np.arange(len(FREE)) == len(FREE) - 3, 60.0, 0.0), ()) is None
+    )
     weak = replace(HUMAN, heart=HUMAN.heart.with_parameters({"c_1": 1.0}))
     assert Twin(weak, TIMES).predicted(CENTRE, ()) is None

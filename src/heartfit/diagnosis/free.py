@@ -1,4 +1,4 @@
-r"""What the search leaves free of every heart: eighteen unknowns, each about a centre.
+r"""What the search leaves free of every heart: nineteen unknowns, each about a centre.
 
 .. math:: \theta = \theta_0 e^{s x} \quad\text{or}\quad \theta = \theta_0 + s x \text{ (times)}, \qquad x \sim N(0, 1) .
 
@@ -7,12 +7,13 @@ misfit that the next best mechanism explains, in every heart (docs/discovery.md)
 stress-free cavity.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import exp
 
 from heartfit.diagnosis.centre import Centre
 from heartfit.geometry.arrays import Floats
 from heartfit.mechanics.sphere import Sphere
+from heartfit.sphere.heart import Inertia
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,8 @@ PARAMETERS = (
     Free(("tissue.control.onset",), 0.008, additive=True),
     Free(("tissue.control.trigger_delay",), 0.008, additive=True),
 )
-FREE = (CAVITY, *PARAMETERS)
+INERTANCE = Free(("mitral_inertance",), 0.40)
+FREE = (CAVITY, INERTANCE, *PARAMETERS)
 UNFELT = FREE.index(PARAMETERS[-1])
 """The coordinate that the beat does not feel: it says which instant of it the recording calls zero."""
 
@@ -64,10 +66,17 @@ UNFELT = FREE.index(PARAMETERS[-1])
 def free_parameters(centre: Centre, x: Floats) -> dict[str, float]:
     """The parameters by path at the first coordinates of x, SI."""
     values = centre.heart.parameters()
-    pairs = [(each, path, z) for each, z in zip(PARAMETERS, x[1:], strict=False) for path in each.paths]
+    pairs = [(each, path, z) for each, z in zip(PARAMETERS, x[2:], strict=False) for path in each.paths]
     return {path: each.at(values[path], float(z)) for each, path, z in pairs}
 
 
 def free_sphere(centre: Centre, x: Floats) -> Sphere:
     """The sphere whose stress-free cavity is x[0] standard deviations from the centre's, of the same wall."""
     return Sphere.of(CAVITY.at(centre.cavity, float(x[0])), centre.wall)
+
+
+def free_inertia(centre: Centre, x: Floats) -> Inertia:
+    """The centre's inertia, its mitral valve x[1] standard deviations from the centre's."""
+    factor = INERTANCE.at(1.0, float(x[1]))
+    valves = [(name, value * (factor if name == "mitral" else 1.0)) for name, value in centre.inertia.valves]
+    return replace(centre.inertia, valves=tuple(valves))

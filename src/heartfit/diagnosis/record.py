@@ -17,8 +17,9 @@ VOLUME_LEVELS, VOLUME_MEMORY = (0.008, 0.0133, 0.02, 0.028), 0.065
 """Of a frame over the end-diastolic volume; s."""
 PRESSURE_LEVELS = (50.0, 100.0, 200.0)
 """Of a mean over 10 ms of one beat, Pa."""
-VOLUME_ROUGHNESS, PRESSURE_ROUGHNESS = 0.004, 150.0
-"""Over the end-diastolic volume, and Pa."""
+VOLUME_ROUGHNESS, PRESSURE_ROUGHNESS, ROUGHNESS_MEMORY = 0.004, 200.0, 0.1
+"""Over the end-diastolic volume, Pa, and s: on 12 hearts without an effect, of another model, the evidence of none is
+e^2 times that with 150 Pa and 50 ms, and the largest ln Bayes factor of an unknown effect falls from 7.4 to 3.9."""
 VOLUME_DISCREPANCY, PRESSURE_DISCREPANCY = 0.017, 500.0
 """Likewise, of a model that is wrong."""
 
@@ -55,6 +56,5 @@ def _block(recording: Recording, name: str, times: Floats) -> Block:
         return Block(name, "m^3", times, recording.period, noise)
     beats = max(1.0, np.ptp(recording.curves[name].times) / recording.period)
     levels = tuple(level / np.sqrt(beats) for level in PRESSURE_LEVELS)
-    return Block(
-        name, "Pa", times, recording.period, Noise(levels, 0.0, PRESSURE_ROUGHNESS, PRESSURE_DISCREPANCY)
-    )
+    noise = Noise(levels, 0.0, PRESSURE_ROUGHNESS, PRESSURE_DISCREPANCY, ROUGHNESS_MEMORY)
+    return Block(name, "Pa", times, recording.period, noise)

@@ -8,7 +8,7 @@ import numpy as np
 
 from heartfit.beat import Beat
 from heartfit.diagnosis.centre import Centre
-from heartfit.diagnosis.free import FREE, UNFELT, free_parameters, free_sphere
+from heartfit.diagnosis.free import FREE, UNFELT, free_inertia, free_parameters, free_sphere
 from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
 from heartfit.mechanism import Mechanism, Sensor
@@ -36,7 +36,7 @@ class Twin:
     _beats: "OrderedDict[bytes, Beat]" = field(default_factory=OrderedDict)
 
     def predicted(self, x: Floats, effects: Sequence[Mechanism]) -> Floats | None:
-        """The curves (n,), one after the other, SI, at the coordinates x (18,); None where no beat is reached."""
+        """The curves (n,), one after the other, SI, at the coordinates x (19,); None where no beat is reached."""
         try:
             heart = self._heart(x, effects)
             beat = self._beat(heart, x, effects)
@@ -58,8 +58,8 @@ class Twin:
         beat = self._beats.pop(key, None)
         if beat is None:
             self.simulations += 1
-            sphere = free_sphere(self.centre, x)
-            beat = simulate_spheres(heart, [sphere], NUMERICS, inertia=self.centre.inertia)
+            sphere, inertia = free_sphere(self.centre, x), free_inertia(self.centre, x)
+            beat = simulate_spheres(heart, [sphere], NUMERICS, inertia=inertia)
         self._beats[key] = beat
         if len(self._beats) > REMEMBERED:
             self._beats.popitem(last=False)
