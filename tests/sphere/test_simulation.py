@@ -18,7 +18,6 @@ from heartfit.mechanism import Flow
 from heartfit.mechanisms.aortic_stenosis import AorticStenosis
 from heartfit.mechanisms.arterial_reflection import ArterialReflection
 from heartfit.mechanisms.delayed_activation import DelayedActivation
-from heartfit.mechanisms.fibre_stiffening import FibreStiffening
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.pericardium import Pericardium
 from heartfit.mechanisms.scar import Scar
@@ -57,7 +56,7 @@ def heart(spherical_heart: Heart) -> Heart:
     circulation = Circulation(mitral=OrificeValve(area=5e-4), aortic=OrificeValve())
     heart = replace(spherical_heart, circulation=circulation) + MitralRegurgitation() + Shunt()
     heart = heart + AorticStenosis() + ArterialReflection() + Pericardium(volume=80e-6) + SeptalLoad()
-    for each in (Scar(), DelayedActivation(), SlowRelaxation(), FibreStiffening(), WallViscosity()):
+    for each in (Scar(), DelayedActivation(), SlowRelaxation(), WallViscosity()):
         heart = heart + each
     return heart.with_parameters({"slope": 0.5})
 

@@ -5,7 +5,11 @@ import pytest
 from tests.shrinking import assert_derivative
 
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
+from heartfit.mechanics.passive.stiffened import Stiffened
 from heartfit.mechanics.sphere import Sphere
+from heartfit.mechanism import Stress
+from heartfit.mechanisms.exponential_stiffening import ExponentialStiffening
+from heartfit.mechanisms.fibre_stiffening import FibreStiffening
 from heartfit.sphere.wall import cavity, passive_stress, tabulated, viscous
 
 STRETCHES = np.random.default_rng(4).uniform(0.5, 1.9, 200)
@@ -18,6 +22,15 @@ def test_the_tabulated_passive_law_is_the_law() -> None:
     assert abs(found[:, 0] - stress).max() < 1e-8 * law.c_1 * 100.0
     assert found[:, 0] == pytest.approx(stress, rel=1e-7, abs=1e-3)
     assert found[:, 1] == pytest.approx(stiffness, rel=1e-5)
+
+
+@pytest.mark.parametrize("added", [ExponentialStiffening(), FibreStiffening()])
+def test_a_stiffened_law_is_tabulated_too(added: Stress) -> None:
+    """An interval of the table is a sixteenth of the strain over which fibres are straightened."""
+    law = Stiffened(MooneyRivlin(), (added,))
+    stretches = STRETCHES[(STRETCHES > 0.75) & (STRETCHES < 1.3)]
+    found = [passive_stress(tabulated(law), stretch)[0] for stretch in stretches]
+    assert found == pytest.approx(law.in_plane_stress(stretches), rel=2e-6, abs=0.1)
 
 
 def test_cavity_and_its_derivatives() -> None:

@@ -82,6 +82,18 @@ def of_fibres(regional: Floats, classes: int, sides: int) -> Floats:
     return np.concatenate([means, np.full(classes, regional[0])])[: sides * classes]
 
 
+def fibres_of(tissue: Tissue, activation: Floats, sides: int) -> tuple[Floats, Floats]:
+    """When the fibres (sides k,) of so many spheres are activated, s, and which share of their bridges is kept.
+
+    ``activation`` (k,) are the times of the classes of each sphere in health.
+    """
+    times = np.tile(activation, sides)
+    if not tissue.regional:
+        return times, np.ones(len(times))
+    delays, losses = (of_fibres(each, len(activation), sides) for each in (tissue.delays(), tissue.losses()))
+    return times + delays, 1.0 - losses
+
+
 @dataclass(frozen=True, eq=False)
 class SphereState:
     """Displacements ``x`` (2, 1) of the mid-walls and fibre states (4, 2 k) at one time.
@@ -99,9 +111,8 @@ class SphericalBody:
     """A left and a right ventricle, each a sphere; see the module's equations."""
 
     def __init__(self, left: Sphere, right: Sphere, tissue: Tissue, activation: Floats = ACTIVATION) -> None:
-        classes = len(activation)
-        self.tissue, self.kept = tissue, 1.0 - of_fibres(tissue.losses(), classes, 2)
-        self.activation = np.tile(activation, 2) + of_fibres(tissue.delays(), classes, 2)
+        self.tissue = tissue
+        self.activation, self.kept = fibres_of(tissue, activation, 2)
         self.passive = isotropic(tissue.passive)
         self.radius = np.array([left.radius, right.radius])
         self.ratio = np.array([0.5 * s.thickness / s.radius for s in (left, right)])

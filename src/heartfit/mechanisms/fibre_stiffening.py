@@ -12,27 +12,32 @@ from heartfit.parameter import parameter, require_admissible
 @mechanism
 @dataclass(frozen=True)
 class FibreStiffening(Stress):
-    r"""Energy of stretched fibres.
+    r"""Fibres that are straightened over the first strain and then resist exponentially.
 
-    .. math:: W = \frac{a}{3 b} \big( e^{b x^3} - 1 \big), \qquad x = \max(\bar I_{4f} - 1, 0),
+    .. math:: \frac{dW}{dx} = a\, x\, \frac{x}{x + \delta}\, e^{b x^2}, \qquad x = \max(\bar I_{4f} - 1, 0),
 
-    titin in its stiffer isoform and the collagen along the muscle cells; shortened fibres buckle.
-    Source: the fibre term of Holzapfel and Ogden, Phil Trans R Soc A 2009, 367:3445, with the cube of x for its square:
-    the stiffness then sets in without a jump.
+    titin in its stiffer isoform and the collagen along the muscle cells; shortened fibres buckle. Healthy walls have
+    a of some 20 kPa, which the isotropic law in the slot of the tissue spreads over all directions.
+    Source: the fibre term of Holzapfel and Ogden, Phil Trans R Soc A 2009, 367:3445; the recruitment over
+    :math:`\delta`, without which the stiffness would jump at rest, is ours.
     """
 
     of = "fibre"
     modulus: float = parameter(
-        3e4, unit="Pa", symbol="a_f", meaning="scale of the fibres' energy", off=0.0, scale=3e4
+        1e4, unit="Pa", symbol="a_f", meaning="scale of the fibres' energy", off=0.0, scale=1e4
     )
     exponent: float = parameter(
         8.0, unit="1", symbol="b_f", meaning="exponent of the fibres' energy", sd=0.3, low=1e-3
+    )
+    crimp: float = parameter(
+        0.05, unit="1", symbol=r"\delta", meaning="strain over which the fibres are straightened", low=1e-4
     )
 
     def __post_init__(self) -> None:
         require_admissible(self)
 
     def slopes(self, x: Floats) -> tuple[Floats, Floats]:
-        stretched = np.maximum(x, 0.0)
-        growth = self.modulus * np.exp(self.exponent * stretched**3)
-        return growth * stretched**2, growth * (2.0 * stretched + 3.0 * self.exponent * stretched**4)
+        x = np.maximum(x, 0.0)
+        straight, growth = x / (x + self.crimp), self.modulus * np.exp(self.exponent * x**2)
+        rate = 1.0 + self.crimp / (x + self.crimp) + 2.0 * self.exponent * x**2
+        return growth * x * straight, growth * straight * rate

@@ -23,7 +23,7 @@ class SlowRelaxation(Relaxation):
     """
 
     slowing: float = parameter(
-        0.8, unit="1", symbol="a", meaning="late over early time constant, less 1", off=0.0, scale=0.8
+        0.6, unit="1", symbol="a", meaning="late over early time constant, less 1", off=0.0, scale=0.6
     )
     transition: float = parameter(
         0.04, unit="s", symbol="T", meaning="time of the transition", sd=0.4, low=1e-3

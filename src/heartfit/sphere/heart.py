@@ -12,7 +12,7 @@ from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
 from heartfit.mechanics.kinematics import StepFailed
 from heartfit.mechanics.passive.law import isotropic
-from heartfit.mechanics.sphere import LARGEST_STRETCH, Sphere, of_fibres
+from heartfit.mechanics.sphere import LARGEST_STRETCH, Sphere, fibres_of
 from heartfit.sphere import rows as at
 from heartfit.sphere.beat import Course, State, Tissue
 from heartfit.sphere.wall import cavity, passive_stress, tabulated
@@ -47,11 +47,8 @@ class SphericalHeart:
     ) -> None:
         self.heart, self.spheres, self.inertia, self._second_order = heart, spheres, inertia, second_order
         self.trees = heart.circulation.trees()[: len(spheres)]
-        self.muscle, classes = heart.muscle, len(activation)
-        delays, losses = (
-            of_fibres(each, classes, len(spheres)) for each in (self.muscle.delays(), self.muscle.losses())
-        )
-        self._activation, self._bridges = np.tile(activation, len(spheres)) + delays, 1.0 - losses
+        self.muscle = heart.muscle
+        self._activation, self._bridges = fibres_of(self.muscle, activation, len(spheres))
         passive, active = isotropic(self.muscle.passive), self.muscle.active
         self.tissue = Tissue(
             tabulated(passive), active.constants(), active.starling.constants(), passive.eta, inertia.density
