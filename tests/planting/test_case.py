@@ -125,3 +125,10 @@ def test_a_campaign_plants_what_it_says_with_a_seed_each():
     assert [plan.seed for plan in plans] == list(range(1000, 1021))
     assert kinds != sorted(kinds)
     assert all(len(set(plan.names)) == 2 for plan in plans if plan.kind == "two")
+
+
+def test_the_first_cases_are_those_of_the_whole_campaign():
+    campaign = Campaign(1000, 30, 1, 1, 4, (2.0,), 2.5)
+    (first, second, *_), (few,) = campaign.batches(3), campaign.batches(3, first=3)
+    assert few == first
+    assert [plan.seed for plan in first + second] == list(range(1000, 1006))

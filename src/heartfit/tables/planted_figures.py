@@ -65,13 +65,15 @@ def plot_rates(scored: Sequence[Scored]) -> Figure:
             100 * share.covered, place, xerr=100 * np.array(around), fmt="o", color=ARTERY, markersize=5
         )
         if rate.target is not None:
-            axes.plot([100 * rate.target] * 2, [place - 0.35, place + 0.35], color=CALIBRATED, linewidth=2.5)
+            better = "<" if rate.at_most else ">"
+            axes.plot(100 * rate.target, place, marker=better, color=CALIBRATED, markersize=9, zorder=0)
+            axes.plot([100 * rate.target] * 2, [place - 0.35, place + 0.35], color=CALIBRATED, linewidth=2)
     axes.set_yticks(
         range(len(shares)), [f"{rate.name}  (n = {share.sequences})" for rate, share in shares], fontsize=9
     )
     axes.set_xlim(-2, 102)
     axes.invert_yaxis()
-    axes.set_xlabel("share of cases (%), exact 95 % interval; vermilion: target")
+    axes.set_xlabel("share of cases (%), exact 95 % interval; vermilion: target, pointing to better")
     axes.grid(axis="x", color="0.9")
     clean(axes)
     return figure
@@ -109,6 +111,7 @@ def _power(axes: Axes, name: str, cases: Sequence[Scored]) -> None:
     axes.set_yscale("symlog", linthresh=10.0)
     axes.set_yticks([0, 5, 10, 100, 1000], ["0", "5", "10", "100", "1000"], fontsize=7)
     axes.set_ylim(-3.0, 3000.0)
+    axes.margins(x=0.12)
     axes.set_xlim(left=0.0)
     axes.tick_params(labelsize=7)
     axes.set_title(name, fontsize=8.5, loc="left")

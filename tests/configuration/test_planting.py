@@ -1,0 +1,39 @@
+"""The benchmark of hidden effects: enough of every kind, on seeds on which nothing is tuned."""
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from heartfit.configuration.planting import SCORING, DiscoveryBenchmark
+from heartfit.configuration.strict import validated
+from heartfit.errors import InputError
+from heartfit.io.configuration import read_configuration, read_study
+
+CONFIG = Path(__file__).parents[2] / "config"
+
+
+def plans(*files):
+    study = read_study([CONFIG / file for file in files])
+    return [plan for batch in study.discovery_benchmark.batches() for plan in batch]
+
+
+def test_the_benchmark_plants_what_the_project_set_itself():
+    kinds = Counter(plan.kind for plan in plans("config.yaml"))
+    assert sum(kinds.values()) >= 300
+    assert kinds["none"] >= 100
+    assert kinds["single"] >= 120
+    assert kinds["outside"] >= 40
+    assert kinds["two"] >= 40
+
+
+def test_continuous_integration_plants_forty_on_seeds_of_its_own():
+    few, many = plans("config.yaml", "planted.yaml"), plans("config.yaml")
+    assert len(few) >= 40
+    assert not {plan.seed for plan in few} & {plan.seed for plan in many}
+
+
+def test_seeds_of_tuning_are_refused():
+    content = read_configuration([CONFIG / "config.yaml"])["discovery_benchmark"]
+    with pytest.raises(InputError, match="first_seed"):
+        validated(DiscoveryBenchmark, content | {"first_seed": SCORING - 1}, "here")
