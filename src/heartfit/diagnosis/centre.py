@@ -1,6 +1,7 @@
 """Where the search begins: a heart whose left ventricle is a sphere, about which everything unknown scatters."""
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import sqrt
 
 from heartfit.diagnosis.recording import Recording
@@ -35,6 +36,11 @@ class Centre:
     filled: float
     inertia: Inertia = field(default_factory=Inertia)
 
+    @cached_property
+    def values(self) -> dict[str, float]:
+        """The parameters of the heart by path, SI."""
+        return self.heart.parameters()
+
     def of_the_size_of(self, recording: Recording) -> "Centre":
         r"""The centre for a heart of another size and rate.
 
@@ -42,10 +48,8 @@ class Centre:
         the period (Bazett 1920). Neither is a mechanism.
         """
         ratio = recording.end_diastolic_volume() / self.filled
-        values = self.heart.parameters()
-        changed = {path: values[path] / ratio for path in PER_VOLUME} | {
-            path: values[path] * ratio for path in BY_VOLUME
-        }
+        changed = {path: self.values[path] / ratio for path in PER_VOLUME}
+        changed |= {path: self.values[path] * ratio for path in BY_VOLUME}
         valves = tuple((name, value / ratio) for name, value in self.inertia.valves)
         grown = Centre(
             self.heart.with_parameters(changed),

@@ -9,7 +9,7 @@ from heartfit.diagnosis.cause import Cause, Diagnosis, Verdict
 from heartfit.diagnosis.centre import HUMAN, Centre
 from heartfit.diagnosis.held_out import Predicted, in_condition, on_half
 from heartfit.diagnosis.library import Candidate, candidates, hypothesis
-from heartfit.diagnosis.next_measurement import next_measurement
+from heartfit.diagnosis.next_measurement import PRESSURE, next_measurement
 from heartfit.diagnosis.record import data_of
 from heartfit.diagnosis.recording import Recording
 from heartfit.diagnosis.trace import traces
@@ -115,6 +115,19 @@ class Case:
         factors["unknown"] = evidences.rival - evidences.none
         return dict(sorted(factors.items(), key=lambda each: -each[1]))
 
+    def next_measurement(self, verdict: Verdict) -> str:
+        """What would decide what is open: between the members of a group, or none and the best where a name failed."""
+        if "lv_pressure" not in self.recording.curves:
+            return PRESSURE
+        of = self.findings.of
+        rivals = {
+            "group": [of(self.names), *map(of, self.findings.decision.alternatives[:2])]
+            if self.names
+            else [],
+            "unknown": list(self.findings.survey.singles[:2]),
+        }.get(verdict, [])
+        return next_measurement(self.twin.centre, self.data, self.library, rivals) if rivals else ""
+
     def diagnosis(self, held_out: list[Predicted], withdrawn: tuple[str, ...]) -> Diagnosis:
         """The verdict after what was held out has been predicted."""
         verdict: Verdict = "unknown" if withdrawn else self.verdict
@@ -122,7 +135,7 @@ class Case:
             verdict,
             () if withdrawn else self.causes(),
             self.findings.decision.alternatives,
-            next_measurement(verdict, self.recording),
+            self.next_measurement(verdict),
             tuple(gain for each in held_out for gain in each.gains()),
             self.twin.simulations,
             self.recording.period,

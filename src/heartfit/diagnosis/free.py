@@ -65,9 +65,8 @@ UNFELT = FREE.index(PARAMETERS[-1])
 
 def free_parameters(centre: Centre, x: Floats) -> dict[str, float]:
     """The parameters by path at the first coordinates of x, SI."""
-    values = centre.heart.parameters()
     pairs = [(each, path, z) for each, z in zip(PARAMETERS, x[2:], strict=False) for path in each.paths]
-    return {path: each.at(values[path], float(z)) for each, path, z in pairs}
+    return {path: each.at(centre.values[path], float(z)) for each, path, z in pairs}
 
 
 def free_sphere(centre: Centre, x: Floats) -> Sphere:

@@ -129,11 +129,9 @@ def in_condition(
 
 
 def _reloaded(centre: Centre, data: Data, effects: tuple[Candidate, ...], x: Floats) -> Floats | None:
-    values = centre.heart.parameters()
-
     def forward(change: Floats) -> Floats | None:
         pairs = zip(LOADING.items(), change.tolist(), strict=True)
-        changed = {path: values[path] * exp(sd * z) for (path, sd), z in pairs}
+        changed = {path: centre.values[path] * exp(sd * z) for (path, sd), z in pairs}
         loaded = replace(centre, heart=centre.heart.with_parameters(changed))
         return hypothesis(_twin(loaded, data), effects).forward(x)
 
