@@ -13,6 +13,8 @@ from heartfit.geometry.arrays import Floats
 
 BIN = 0.010
 """s of pressure that are averaged."""
+ROUNDING = 1e-6
+"""Of times, over the bin: a sample on the edge belongs to the later bin."""
 VOLUME_LEVELS, VOLUME_MEMORY = (0.008, 0.0133, 0.02, 0.028), 0.065
 """Of a frame over the end-diastolic volume; s."""
 PRESSURE_LEVELS = (50.0, 100.0, 200.0)
@@ -35,8 +37,8 @@ def _averaged(recording: Recording, name: str) -> Samples:
     samples = recording.curves[name]
     if name == "lv_volume" or not _dense(samples, recording.period):
         return samples
-    places = np.floor(np.mod(samples.times, recording.period) / BIN).astype(int)
     phases = np.mod(samples.times, recording.period)
+    places = np.floor(phases / BIN + ROUNDING).astype(int)
     counts = np.bincount(places)
     held = counts > 0
     times, values = (np.bincount(places, each)[held] / counts[held] for each in (phases, samples.values))

@@ -1,0 +1,67 @@
+"""A planted leak is named and sized, none is found where none is, and a volume alone is not enough."""
+
+from dataclasses import replace
+
+import pytest
+from tests.diagnosis.hearts import LEAK, healthy, recorded
+
+from heartfit.diagnosis.diagnose import diagnose
+from heartfit.io.causes import KEYS, read_cause, write_cause_card
+from heartfit.planting.case import plant
+from heartfit.tables.cause_card import card, sentence
+
+pytestmark = pytest.mark.usefixtures("few_mechanisms")
+
+
+@pytest.fixture(scope="module")
+def found(few_mechanisms):
+    return diagnose(recorded(LEAK), {"legs raised": recorded(LEAK, "preload")})
+
+
+def test_a_planted_leak_is_named_and_its_interval_covers(found):
+    (cause,), (planted,) = found.mechanisms, plant(LEAK).answer.effects
+    assert found.verdict == "named"
+    assert cause.name == planted.name
+    assert cause.ln_bayes_factor > 10.0
+    assert cause.interval[0] < planted.amplitude < cause.interval[1]
+    assert cause.unit == "m^2"
+
+
+def test_it_gains_under_a_loading_that_was_never_fitted(found):
+    assert {each.on for each in found.gain} == {"legs raised"}
+    assert all(each.ratio < 1.0 for each in found.gain)
+    assert all(each.interval[0] < each.ratio < each.interval[1] for each in found.gain)
+
+
+def test_the_card_says_it_in_words(found):
+    assert sentence(found).startswith("The simulation lacks mitral regurgitation of 0.")
+    text = card(found, "case 1")
+    assert "cm²" in text
+    assert "legs raised" in text
+    assert f"{found.simulations} simulated beats" in text
+
+
+def test_the_card_is_written_and_read(found, tmp_path):
+    assert "cause.md" in write_cause_card(tmp_path / "deep", found, "case 1", "0123")
+    content = read_cause(tmp_path / "deep" / "cause.json")
+    assert set(KEYS) <= set(content)
+    assert content["verdict"] == "named"
+    assert content["mechanisms"][0]["amplitude"] == found.mechanisms[0].amplitude
+    assert content["fingerprint"] == "0123"
+    assert (tmp_path / "deep" / "cause.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("seed", [1, 4, 6])
+def test_nothing_is_found_where_nothing_is(seed):
+    found = diagnose(healthy(seed))
+    assert found.verdict == "none"
+    assert found.mechanisms == found.gain == ()
+    assert found.next_measurement == ""
+
+
+def test_a_volume_alone_is_not_enough():
+    both = healthy(4)
+    found = diagnose(replace(both, curves={"lv_volume": both.curves["lv_volume"]}))
+    assert found.verdict == "insufficient"
+    assert "pressure" in found.next_measurement
+    assert sentence(found).startswith("These data cannot tell")

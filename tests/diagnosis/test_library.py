@@ -1,0 +1,40 @@
+"""The folder of mechanisms is the list of hypotheses."""
+
+import numpy as np
+
+from heartfit.diagnosis.centre import HUMAN
+from heartfit.diagnosis.library import BASE, candidates, hypothesis
+from heartfit.diagnosis.twin import Twin
+from heartfit.mechanism import registered
+
+FRAMES = np.arange(26) / 30
+BOTH = Twin(HUMAN, {"lv_volume": FRAMES, "lv_pressure": FRAMES})
+
+
+def test_whatever_the_heart_has_not_and_the_recording_shows_is_a_candidate():
+    assert set(candidates(BOTH)) == set(registered()) - {"AtrialKick"}
+    alone = candidates(Twin(HUMAN, {"lv_volume": FRAMES}))
+    assert set(candidates(BOTH)) - set(alone) == {"CatheterDamping", "CatheterDelay", "CatheterOffset"}
+
+
+def test_every_hypothesis_begins_with_the_same_coordinates_and_none_is_in_it():
+    none = hypothesis(BOTH)
+    assert none.coordinates == BASE
+    without = none.forward(none.at(0.0))
+    for each in candidates(BOTH).values():
+        single = hypothesis(BOTH, (each,))
+        assert single.coordinates[: len(BASE)] == BASE
+        assert single.amplitudes.sum() == 1
+        assert np.array_equal(single.forward(single.at(0.0)), without), each.name
+        assert not np.array_equal(single.forward(single.at(1.0)), without), each.name
+
+
+def test_effects_join():
+    every = candidates(BOTH)
+    pair = hypothesis(BOTH, (every["CatheterOffset"], every["MitralRegurgitation"]))
+    assert pair.effects == ("CatheterOffset", "MitralRegurgitation")
+    assert pair.amplitudes.sum() == 2
+    leak = hypothesis(BOTH, (every["MitralRegurgitation"],))
+    both, alone = pair.forward(pair.at(1.0)), leak.forward(leak.at(1.0))
+    assert np.array_equal(both[:26], alone[:26])
+    assert np.allclose(both[26:] - alone[26:], every["CatheterOffset"].unknowns[0].at(1.0))

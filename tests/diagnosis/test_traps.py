@@ -1,0 +1,85 @@
+"""Two ways to see an effect in a healthy heart, each beside the search that does not fall for it."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+from tests.diagnosis.hearts import healthy
+
+from heartfit.diagnosis.centre import HUMAN
+from heartfit.diagnosis.free import FREE
+from heartfit.diagnosis.library import candidates, hypothesis
+from heartfit.diagnosis.record import data_of
+from heartfit.diagnosis.twin import Twin
+from heartfit.discovery.bench import Bench
+from heartfit.discovery.hypothesis import Hypothesis
+from heartfit.discovery.rules import RULES
+from heartfit.geometry.arrays import Floats
+
+CALIBRATED = ("cavity", "sigma_0", "mu", "c_1", "R_p", "k_RS", "k_ATP")
+SEEN = np.array([each.name in CALIBRATED for each in FREE])
+
+
+@pytest.fixture(scope="module")
+def bench():
+    recording = healthy(4)
+    data = data_of(recording)
+    twin = Twin(HUMAN.of_the_size_of(recording), {block.curve: block.times for block in data.blocks})
+    return Bench(data), twin
+
+
+def frozen(given: Hypothesis) -> Hypothesis:
+    """The hypothesis with what is not calibrated held at the centre of its prior."""
+    free = np.concatenate([SEEN, np.ones(len(given.coordinates) - SEEN.size, dtype=bool)])
+
+    def forward(x: Floats) -> Floats | None:
+        whole = np.zeros(free.size)
+        whole[free] = x
+        return given.forward(whole)
+
+    kept = tuple(each for each, is_free in zip(given.coordinates, free, strict=True) if is_free)
+    return Hypothesis(given.effects, kept, forward)
+
+
+def best_bayes_factor(bench: Bench, hypotheses: Sequence[Hypothesis]) -> float:
+    """ln evidence of the best effect over none, which comes first."""
+    none, *effects = (bench.explain(each, each.at(float(bool(each.effects)))) for each in hypotheses)
+    return max(each.log_evidence for each in effects) - none.log_evidence
+
+
+def test_frozen_parameters_invent_an_effect(bench):
+    judge, twin = bench
+    every = candidates(twin)
+    effects = [every[name] for name in ("CatheterDelay", "CatheterOffset", "ImageTriggerDelay")]
+    hypotheses = [hypothesis(twin), *(hypothesis(twin, (each,)) for each in effects)]
+    assert best_bayes_factor(judge, hypotheses) < RULES.detected
+    assert best_bayes_factor(judge, [frozen(each) for each in hypotheses]) > 2.0 * RULES.detected
+
+
+def test_the_residual_of_one_unscented_step_is_no_evidence(bench):
+    judge, twin = bench
+    none = hypothesis(twin)
+    fitted = judge.explain(none, none.at(0.0)).fit.predicted
+    assert chi_square(judge, one_step(judge, frozen(none))) > 3.0
+    assert chi_square(judge, fitted) < 1.3
+
+
+def one_step(judge: Bench, model: Hypothesis) -> Floats:
+    """What the model predicts after one unscented step from the centre: the mean slopes over 2 n + 1 sigma points."""
+    n = len(model.coordinates)
+    reach = np.sqrt(n)
+    up, down = (
+        np.array([model.forward(side * reach * row) for row in np.eye(n)]) / reach for side in (1.0, -1.0)
+    )
+    slopes = 0.5 * (up - down).T
+    slope, gram = judge.whitening.normal(judge.data.values - model.forward(np.zeros(n)), slopes)
+    return model.forward(np.linalg.solve(np.eye(n) + gram, slope))
+
+
+def chi_square(judge: Bench, predicted: Floats) -> float:
+    """Of the whitened residual at its likeliest level of noise, over the number of values."""
+    residual = judge.data.values - predicted
+    levels = judge.whitening.likeliest(residual)
+    parts = zip(judge.whitening.roots, levels, judge.whitening.rows, strict=True)
+    white = np.concatenate([roots[level] @ residual[rows] for roots, level, rows in parts])
+    return float(np.mean(white**2))
