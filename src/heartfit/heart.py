@@ -3,13 +3,14 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from difflib import get_close_matches
+from functools import reduce
 from typing import Any
 
 from heartfit.circulation.network import Circulation
 from heartfit.mechanics.tissue import Tissue
 from heartfit.mechanism import Amendment, Mechanism, Sensor
 from heartfit.mechanisms.atrial_kick import AtrialKick
-from heartfit.parameter import parameters_of
+from heartfit.parameter import values_of
 
 FOURTEEN = (
     "sigma_0", "k_RS", "k_ATP", "k_0", "alpha", "mu", "E_s", "K", "c_1", "c_2", "R_p", "tau", "Z_c", "L",
@@ -56,7 +57,7 @@ class Heart:
 
     def parameters(self) -> dict[str, float]:
         """All parameters by dotted path below the heart; see :meth:`with_parameters` for short names."""
-        return {path: value for path, value in _walk(self)}
+        return dict(_walk(self))
 
     def with_parameters(self, values: Mapping[str, float]) -> "Heart":
         """A heart in which some parameters have other values.
@@ -65,18 +66,21 @@ class Heart:
         the paper's fourteen (R_p, tau, Z_c and L then mean the systemic circulation). Raises ``KeyError``
         for an unknown or ambiguous name, naming the nearest known ones.
         """
-        heart, known = self, tuple(self.parameters())
+        known, changes = self.parameters(), {}
         for name, value in values.items():
-            heart = _replace_at(heart, _path_of(name, known).split("."), float(value))
-        return heart
+            *parts, last = _path_of(name, known).split(".")
+            reduce(lambda branch, part: branch.setdefault(part, {}), parts, changes)[last] = float(value)
+        return _changed(self, changes)
 
     def path_of(self, name: str) -> str:
         """Dotted path of the parameter ``name``."""
-        return _path_of(name, tuple(self.parameters()))
+        return _path_of(name, self.parameters())
 
 
-def _path_of(name: str, known: tuple[str, ...]) -> str:
-    paths = [path for path in known if path == name or path.endswith(f".{name}")]
+def _path_of(name: str, known: Mapping[str, float]) -> str:
+    if name in known:
+        return name
+    paths = [path for path in known if path.endswith(f".{name}")]
     systemic = [path for path in paths if path.startswith("circulation.systemic.")]
     if len(paths) > 1 and name in FOURTEEN and systemic:
         paths = systemic
@@ -88,7 +92,7 @@ def _path_of(name: str, known: tuple[str, ...]) -> str:
 
 
 def _walk(part: Any, prefix: str = "") -> list[tuple[str, float]]:
-    found = [(f"{prefix}{declared.name}", declared.value) for declared in parameters_of(part)]
+    found = [(f"{prefix}{name}", value) for name, value in values_of(part)]
     for entry in fields(part):
         value = getattr(part, entry.name)
         if is_dataclass(value):
@@ -99,11 +103,16 @@ def _walk(part: Any, prefix: str = "") -> list[tuple[str, float]]:
     return found
 
 
-def _replace_at(part: Any, path: list[str], value: float) -> Any:
-    head, *rest = path
-    if not rest:
-        return replace(part, **{head: value})
-    if hasattr(part, head):
-        return replace(part, **{head: _replace_at(getattr(part, head), rest, value)})
-    changed = tuple(_replace_at(m, rest, value) if type(m).__name__ == head else m for m in part.mechanisms)
-    return replace(part, mechanisms=changed)
+def _changed(part: Any, changes: Mapping[str, Any]) -> Any:
+    """The part with other values, or changes of parts, by name; names that it has not are those of its mechanisms."""
+    own = {name: change for name, change in changes.items() if hasattr(part, name)}
+    new = {
+        name: _changed(getattr(part, name), change) if isinstance(change, dict) else change
+        for name, change in own.items()
+    }
+    if len(own) < len(changes):
+        kinds = {name: change for name, change in changes.items() if name not in own}
+        new["mechanisms"] = tuple(
+            _changed(each, kinds.get(type(each).__name__, {})) for each in part.mechanisms
+        )
+    return replace(part, **new)

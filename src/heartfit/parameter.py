@@ -6,7 +6,8 @@ from these declarations.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
+from functools import cache
 from math import exp
 from typing import Any
 
@@ -72,17 +73,32 @@ def parameter(
 
 def parameters_of(part: Any) -> Iterator[Parameter]:
     """The parameters that a part (class or instance) declares, with the values the instance holds."""
-    for entry in fields(part):
-        if "parameter" in entry.metadata:
-            value: Any = entry.default if isinstance(part, type) else getattr(part, entry.name)
-            yield Parameter(name=entry.name, value=value, **entry.metadata["parameter"])
+    if isinstance(part, type):
+        yield from _declared(part)
+    else:
+        yield from (replace(each, value=getattr(part, each.name)) for each in _declared(type(part)))
+
+
+def values_of(part: Any) -> Iterator[tuple[str, float]]:
+    """The parameters that an instance holds, by name."""
+    return ((each.name, getattr(part, each.name)) for each in _declared(type(part)))
+
+
+@cache
+def _declared(kind: type) -> tuple[Parameter, ...]:
+    """The declarations of a class: a search asks for them thousands of times."""
+    entries = [entry for entry in fields(kind) if "parameter" in entry.metadata]
+    return tuple(
+        Parameter(name=entry.name, value=entry.default, **entry.metadata["parameter"]) for entry in entries
+    )
 
 
 def require_admissible(part: Any) -> None:
     """Raise ``InputError`` when a parameter of ``part`` is not a finite number above its lower bound."""
-    for declared in parameters_of(part):
-        if not declared.low <= declared.value < float("inf"):
+    for declared in _declared(type(part)):
+        value = getattr(part, declared.name)
+        if not declared.low <= value < float("inf"):
             raise InputError(
-                f"{type(part).__name__}.{declared.name} = {declared.value:g} {declared.unit}: expected a finite "
+                f"{type(part).__name__}.{declared.name} = {value:g} {declared.unit}: expected a finite "
                 f"value of at least {declared.low:g} ({declared.meaning})"
             )

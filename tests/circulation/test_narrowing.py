@@ -85,7 +85,7 @@ def test_it_narrows_the_valve_that_it_names_and_no_other() -> None:
     circulation = replace(Circulation(), aortic=OrificeValve())
     plain = Network(circulation, ()).laws(0.1)
     narrowed = Network(circulation, (Tight(), AorticStenosis())).laws(0.1)
-    changed = (narrowed != plain).any(axis=1)
+    changed = (narrowed != plain).any(axis=-1)
     assert dict(zip(VALVES, changed.tolist(), strict=True)) == {
         "mitral": False,
         "aortic": True,

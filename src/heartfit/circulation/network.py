@@ -55,10 +55,14 @@ class Circulation:
         left, right = (tree.periodic_start(self.first_stroke, period) for tree in self.trees())
         return left, right
 
-    def atrial(self, time: Floats | float, period: float, mechanisms: Sequence[Mechanism]) -> Floats:
-        """Pressures (2, ...) of the left and right atrium at ``time`` (...)."""
-        added = added_pressures(ATRIA, time, period, mechanisms)
-        return np.array([self.left_atrium + added[0], self.right_atrium + added[1]])
+    def atrial(
+        self, time: Floats | float, period: float, mechanisms: Sequence[Mechanism], sides: int = 2
+    ) -> Floats:
+        """Pressures (2, ...) of the left and right atrium at ``time`` (...); or (1, ...) of the left ``sides``."""
+        added = added_pressures(ATRIA[:sides], time, period, mechanisms)
+        resting = np.array([self.left_atrium, self.right_atrium])[:sides]
+        pressures: Floats = (added.T + resting).T
+        return pressures
 
 
 def added_pressures(
@@ -74,26 +78,31 @@ def added_pressures(
 
 
 class Network:
-    """The branches of a circulation with its mechanisms: valves, some narrowed, then whatever leaks."""
+    """The branches of a circulation with its mechanisms: valves, some narrowed, then whatever leaks.
 
-    def __init__(self, circulation: Circulation, mechanisms: Sequence[Mechanism]) -> None:
-        valves = {name: getattr(circulation, name).law() for name in VALVES}
-        for each in (m for m in mechanisms if isinstance(m, Narrowing)):
-            valves[each.valve] = valves[each.valve].narrowed(each.inverse_square())
-        self._valves = list(valves.values())
-        self._leaks = [m for m in mechanisms if isinstance(m, Flow)]
-        self.names = [*VALVES, *(type(leak).__name__ for leak in self._leaks)]
-        ends = [*VALVES.values(), *((leak.upstream, leak.downstream) for leak in self._leaks)]
+    With one of the ``sides`` these are the branches among the compartments of the left heart.
+    """
+
+    def __init__(self, circulation: Circulation, mechanisms: Sequence[Mechanism], sides: int = 2) -> None:
+        held = {name for i, name in enumerate(COMPARTMENTS) if i % 2 < sides}
+        valves = {name: getattr(circulation, name).law() for name, ends in VALVES.items() if held >= {*ends}}
+        for each in mechanisms:
+            if isinstance(each, Narrowing) and each.valve in valves:
+                valves[each.valve] = valves[each.valve].narrowed(each.inverse_square())
+        leaks = [m for m in mechanisms if isinstance(m, Flow) and held >= {m.upstream, m.downstream}]
+        self._valves, self._leaks = list(valves.values()), leaks
+        self.names = [*valves, *(type(leak).__name__ for leak in leaks)]
+        ends = [*(VALVES[name] for name in valves), *((leak.upstream, leak.downstream) for leak in leaks)]
         self.ends = np.array([[COMPARTMENTS.index(end) for end in pair] for pair in ends])
 
     def laws(self, time: Floats | float) -> Floats:
-        """Coefficients (branches, 5, ...) of the branches at ``time`` (...); see :class:`~heartfit.branch.Branch`."""
+        """Coefficients (..., branches, 5) of the branches at ``time`` (...); see :class:`~heartfit.branch.Branch`."""
         time = np.asarray(time)
         laws = [*self._valves, *(leak.law(time) for leak in self._leaks)]
-        result = np.empty((len(laws), len(Branch._fields), *time.shape))
+        result = np.empty((*time.shape, len(laws), len(Branch._fields)))
         for k, law in enumerate(laws):
             for c, coefficient in enumerate(law):
-                result[k, c] = coefficient
+                result[..., k, c] = coefficient
         return result
 
 

@@ -32,7 +32,7 @@ class Course(NamedTuple):
     """What is prescribed in n steps of equal ``length``, s, with m fibres and k branches.
 
     Means over the steps of the control's size ``rate`` and positive part ``attach`` (n, m), 1/s; at their ends the
-    pressures ``atria`` (n, 2) of the atria and ``waves`` (n, 2) in the arteries, Pa, the ``loads`` (n, l, v, 4) of v
+    pressures ``atria`` (n, v) of the atria and ``waves`` (n, v) in the arteries, Pa, the ``loads`` (n, l, v, 4) of v
     sides and the ``laws`` (n, k, 5) of the branches, whose ends are ``ends`` (k, 2).
     """
 

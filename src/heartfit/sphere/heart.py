@@ -11,7 +11,6 @@ from heartfit.circulation.network import ARTERIES, Network, added_pressures, net
 from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
 from heartfit.mechanics.kinematics import StepFailed
-from heartfit.mechanics.passive.law import isotropic
 from heartfit.mechanics.sphere import LARGEST_STRETCH, Sphere, fibres_of
 from heartfit.sphere import rows as at
 from heartfit.sphere.beat import Course, State, Tissue
@@ -49,36 +48,35 @@ class SphericalHeart:
         self.trees = heart.circulation.trees()[: len(spheres)]
         self.muscle = heart.muscle
         self._activation, self._bridges = fibres_of(self.muscle, activation, len(spheres))
-        passive, active = isotropic(self.muscle.passive), self.muscle.active
+        passive, active = self.muscle.passive, self.muscle.active
         self.tissue = Tissue(
             tabulated(passive), active.constants(), active.starling.constants(), passive.eta, inertia.density
         )
-        self._network = Network(heart.circulation, heart.mechanisms)
-        self._kept = np.all(self._network.ends % 2 < len(spheres), axis=1).tolist()
-        self.branches = [name for name, kept in zip(self._network.names, self._kept, strict=True) if kept]
+        self._network = Network(heart.circulation, heart.mechanisms, len(spheres))
+        self.branches = self._network.names
 
     def course(self, start: Floats, length: float) -> Course:
         """What is prescribed in steps of ``length``, s, that begin at ``start`` (n,)."""
         heart, control, end = self.heart, self.muscle.control, start + length
         rate, attach = control.mean(start[:, None], length, self._activation, heart.period)
         atria = np.ascontiguousarray(self.atria(end).T)
-        waves = np.ascontiguousarray(added_pressures(ARTERIES, end, heart.period, heart.mechanisms).T)
+        waves = added_pressures(ARTERIES[: len(self.spheres)], end, heart.period, heart.mechanisms)
+        waves = np.ascontiguousarray(waves.T)
         loads = load_table(heart.mechanisms, VENTRICLES[: len(self.spheres)], end, heart.period)
-        laws = np.ascontiguousarray(np.moveaxis(self._network.laws(end)[self._kept], -1, 0))
-        ends = self._network.ends[self._kept]
-        return Course(length, self._second_order, rate, attach, atria, waves, loads, laws, ends)
+        laws = self._network.laws(end)
+        return Course(length, self._second_order, rate, attach, atria, waves, loads, laws, self._network.ends)
 
     def atria(self, time: Floats) -> Floats:
-        """Pressures (2, t) of both atria at ``time`` (t,)."""
-        return self.heart.circulation.atrial(time, self.heart.period, self.heart.mechanisms)
+        """Pressures (v, t) of the atria at ``time`` (t,)."""
+        heart = self.heart
+        return heart.circulation.atrial(time, heart.period, heart.mechanisms, len(self.spheres))
 
     def flows(self, p: Floats, held: Floats) -> Floats:
         """Flow (k,) of every branch as a beat starts, at the pressures p (2 v,); ``held`` where it is inert."""
         inertances = dict(self.inertia.valves)
         moving, room, zero = np.zeros((3, len(self.branches))), np.empty((len(p), len(p))), np.zeros(1)
-        laws = np.ascontiguousarray(np.moveaxis(self._network.laws(zero)[self._kept], -1, 0))
-        ends, atria = self._network.ends[self._kept], np.ascontiguousarray(self.atria(zero).T)
-        net_outflow(ends, laws, moving, atria, 0, p, np.empty((1, len(p))), room)
+        laws, atria = self._network.laws(zero), np.ascontiguousarray(self.atria(zero).T)
+        net_outflow(self._network.ends, laws, moving, atria, 0, p, np.empty((1, len(p))), room)
         massless = [inertances.get(name, 0.0) == 0.0 for name in self.branches]
         return np.where(massless, moving[2], held)
 

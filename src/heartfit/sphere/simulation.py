@@ -105,7 +105,7 @@ class _Run:
     def _beat(self, curves: Floats) -> Beat:
         heart, v = self.heart.heart, len(self.heart.spheres)
         time = np.linspace(0.0, self.period, self.steps + 1)
-        atria = self.heart.atria(time)[:v]
+        atria = self.heart.atria(time)
         curves[0, 3 * v :] = self.heart.flows(curves[0, v : 3 * v], curves[0, 3 * v :])
         signals = [*curves[:, v : 3 * v].T, *atria]
         names = [name for each in range(3) for name in COMPARTMENTS[2 * each : 2 * each + v]]

@@ -9,6 +9,7 @@ At given stretch the pressure follows without a solve, so the stretch is the onl
 Rates are those of :mod:`heartfit.mechanics.time_step`.
 """
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +17,7 @@ from numba import njit
 
 from heartfit.geometry.arrays import Floats
 from heartfit.mechanics.active.bcs import fibre_response
-from heartfit.mechanics.passive.law import Isotropic
+from heartfit.mechanics.passive.law import Passive, isotropic
 from heartfit.mechanics.sphere import LARGEST_STRETCH, SMALLEST_STRETCH
 from heartfit.sphere import rows as at
 
@@ -34,12 +35,14 @@ class Step(NamedTuple):
     gain: float
 
 
-def tabulated(passive: Isotropic) -> Floats:
+@lru_cache(maxsize=64)
+def tabulated(law: Passive) -> Floats:
     """Stress and stiffness (2, k) of any isotropic law at equal steps of stretch, for cubic interpolation.
 
     Between them the stress of the standard tissue is right to 1e-8 of itself. Towards the bounds a law may be
-    infinite: the step that gets there fails.
+    infinite: the step that gets there fails. Many hearts of a search have the same law, so tables are kept.
     """
+    passive = isotropic(law)
     stretch: Floats = np.linspace(SMALLEST_STRETCH, LARGEST_STRETCH, INTERVALS + 1)
     with np.errstate(over="ignore", invalid="ignore"):
         return np.array([passive.in_plane_stress(stretch), SPACING * passive.in_plane_stiffness(stretch)])
