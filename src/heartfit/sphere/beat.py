@@ -113,19 +113,25 @@ def move(stiffer, sides, p):  # type: ignore[no-untyped-def]
         sides[at.X, v] += across / sides[at.STIFFNESS, v]
 
 
-@njit(cache=True, error_model="numpy")
-def advance(tissue, course, state, curves, first):  # type: ignore[no-untyped-def]
-    """Take the steps from ``first`` on; index of the first that failed, its outcome and the iterations of all.
+@njit(cache=True, error_model="numpy", inline="always")
+def record(sides, branches, curves, n):  # type: ignore[no-untyped-def]
+    """Fill row n of the curves."""
+    count = sides.shape[1]
+    for v in range(count):
+        curves[n, v] = cavity(sides[at.RADIUS, v], sides[at.RATIO, v], sides[at.NOW + at.STRETCH, v])[0]
+        curves[n, count + v], curves[n, 2 * count + v] = sides[at.P, v], sides[at.NOW + at.ARTERY, v]
+    for k in range(branches.shape[1]):
+        curves[n, 3 * count + k] = branches[at.FLOW, k]
 
-    Row 0 of ``curves`` (n + 1, 3 v + k) is filled with volumes, pressures of ventricles and arteries, and flows at the
-    start, the others with those after each step. A step that fails leaves the state as it was at its start.
-    """
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _advance(tissue, course, state, curves, first, working):  # type: ignore[no-untyped-def]
+    """:func:`advance` in given arrays. Without memory of its own it counts no references, which took half its time."""
     passive, active, starling, eta, density = tissue
     length, second_order, rate, attach, atria, waves, loads, laws, ends = course
     sides, fibres, branches, last = state
-    count, total, moving = sides.shape[1], 0, branches[at.PER_STEP :]
-    p, system = np.empty(2 * count), np.zeros((2 * count, 3 + 2 * count))
-    room, jacobian = np.empty((3, 2 * count)), np.empty((2 * count, 2 * count))
+    moving, p, system, room, jacobian = working
+    total = 0
     record(sides, branches, curves, first)
     for n in range(first, rate.shape[0]):
         step = steps.time_step(length, second_order, last[0])
@@ -160,12 +166,13 @@ def advance(tissue, course, state, curves, first):  # type: ignore[no-untyped-de
     return rate.shape[0], at.DONE, total
 
 
-@njit(cache=True, error_model="numpy", inline="always")
-def record(sides, branches, curves, n):  # type: ignore[no-untyped-def]
-    """Fill row n of the curves."""
-    count = sides.shape[1]
-    for v in range(count):
-        curves[n, v] = cavity(sides[at.RADIUS, v], sides[at.RATIO, v], sides[at.NOW + at.STRETCH, v])[0]
-        curves[n, count + v], curves[n, 2 * count + v] = sides[at.P, v], sides[at.NOW + at.ARTERY, v]
-    for k in range(branches.shape[1]):
-        curves[n, 3 * count + k] = branches[at.FLOW, k]
+@njit(cache=True, error_model="numpy")
+def advance(tissue, course, state, curves, first):  # type: ignore[no-untyped-def]
+    """Take the steps from ``first`` on; index of the first that failed, its outcome and the iterations of all.
+
+    Row 0 of ``curves`` (n + 1, 3 v + k) is filled with volumes, pressures of ventricles and arteries, and flows at the
+    start, the others with those after each step. A step that fails leaves the state as it was at its start.
+    """
+    n = 2 * state.sides.shape[1]
+    equations = np.empty(n), np.zeros((n, 3 + n)), np.empty((3, n)), np.empty((n, n))
+    return _advance(tissue, course, state, curves, first, (state.branches[at.PER_STEP :], *equations))
