@@ -66,7 +66,8 @@ class Heart:
         the paper's fourteen (R_p, tau, Z_c and L then mean the systemic circulation). Raises ``KeyError``
         for an unknown or ambiguous name, naming the nearest known ones.
         """
-        known, changes = self.parameters(), {}
+        known = self.parameters()
+        changes: dict[str, Any] = {}
         for name, value in values.items():
             *parts, last = _path_of(name, known).split(".")
             reduce(lambda branch, part: branch.setdefault(part, {}), parts, changes)[last] = float(value)

@@ -73,21 +73,21 @@ def parameter(
 
 def parameters_of(part: Any) -> Iterator[Parameter]:
     """The parameters that a part (class or instance) declares, with the values the instance holds."""
-    if isinstance(part, type):
-        yield from _declared(part)
-    else:
-        yield from (replace(each, value=getattr(part, each.name)) for each in _declared(type(part)))
+    kind: Any = part if isinstance(part, type) else type(part)
+    for each in _declared(kind):
+        yield each if kind is part else replace(each, value=getattr(part, each.name))
 
 
 def values_of(part: Any) -> Iterator[tuple[str, float]]:
     """The parameters that an instance holds, by name."""
-    return ((each.name, getattr(part, each.name)) for each in _declared(type(part)))
+    kind: Any = type(part)
+    return ((each.name, getattr(part, each.name)) for each in _declared(kind))
 
 
 @cache
-def _declared(kind: type) -> tuple[Parameter, ...]:
+def _declared(kind: Any) -> tuple[Parameter, ...]:
     """The declarations of a class: a search asks for them thousands of times."""
-    entries = [entry for entry in fields(kind) if "parameter" in entry.metadata]
+    entries: list[Any] = [entry for entry in fields(kind) if "parameter" in entry.metadata]
     return tuple(
         Parameter(name=entry.name, value=entry.default, **entry.metadata["parameter"]) for entry in entries
     )
@@ -95,7 +95,8 @@ def _declared(kind: type) -> tuple[Parameter, ...]:
 
 def require_admissible(part: Any) -> None:
     """Raise ``InputError`` when a parameter of ``part`` is not a finite number above its lower bound."""
-    for declared in _declared(type(part)):
+    kind: Any = type(part)
+    for declared in _declared(kind):
         value = getattr(part, declared.name)
         if not declared.low <= value < float("inf"):
             raise InputError(

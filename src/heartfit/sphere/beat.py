@@ -124,7 +124,7 @@ def record(sides, branches, curves, n):  # type: ignore[no-untyped-def]
         curves[n, 3 * count + k] = branches[at.FLOW, k]
 
 
-@njit(cache=True, error_model="numpy", _nrt=False)
+@njit(cache=True, error_model="numpy", _nrt=False)  # type: ignore[call-overload]
 def _advance(tissue, course, state, curves, first, working):  # type: ignore[no-untyped-def]
     """:func:`advance` in given arrays. Without memory of its own it counts no references, which took half its time."""
     passive, active, starling, eta, density = tissue

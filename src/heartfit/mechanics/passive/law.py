@@ -16,6 +16,9 @@ class Passive(Protocol):
     Arrays run over m elements: ``C`` (m, 6), ``J`` (m,), ``dyads`` (m, 6); ``scale`` (m,) multiplies the moduli.
     """
 
+    def __hash__(self) -> int:
+        """Laws are values: what is tabulated of one serves every equal one."""
+
     @property
     def K(self) -> float: ...
     @property
