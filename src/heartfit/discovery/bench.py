@@ -2,11 +2,13 @@
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from heartfit.discovery.data import Data
 from heartfit.discovery.explanation import Explanation
 from heartfit.discovery.forward import Counted
 from heartfit.discovery.hypothesis import Hypothesis
-from heartfit.discovery.optimise import fit
+from heartfit.discovery.optimise import Fit, fit
 from heartfit.discovery.rival import Rival
 from heartfit.discovery.whitening import Whitening
 from heartfit.geometry.arrays import Floats
@@ -25,11 +27,11 @@ class Bench:
         self.whitening, self.rival = Whitening.of(self.data), Rival.of(self.data)
 
     def explain(
-        self, hypothesis: Hypothesis, start: Floats, slopes: Floats | None = None
+        self, hypothesis: Hypothesis, start: Floats, slopes: Floats | None = None, trusted: int = 0
     ) -> Explanation | None:
-        """The hypothesis fitted from ``start`` (d,), or None where its simulations fail."""
+        """The hypothesis as :func:`heartfit.discovery.optimise.fit` finds it, or None where its simulations fail."""
         model = Counted(hypothesis)
-        found = fit(model, self.data.values, self.whitening, start, slopes)
+        found = fit(model, self.data.values, self.whitening, start, slopes, trusted)
         self.simulations += model.runs
         return None if found is None else Explanation.of(found, self.data.values, self.whitening)
 
@@ -38,7 +40,20 @@ class Bench:
         self.simulations += 1
         return hypothesis.forward(x)
 
-    def better(self, old: Explanation, start: Floats) -> Explanation:
+    def linear(self, hypothesis: Hypothesis, x: Floats) -> Explanation | None:
+        """The hypothesis at x (d,) as it is, with its slopes; None where the simulation fails."""
+        model = Counted(hypothesis)
+        predicted = model(x)
+        if predicted is None:
+            return None
+        jacobian = model.jacobian(x, predicted)
+        self.simulations += model.runs
+        there = Fit(hypothesis, x, predicted, jacobian, np.inf, converged=False)
+        return Explanation.of(there, self.data.values, self.whitening)
+
+    def better(
+        self, old: Explanation, start: Floats, slopes: Floats | None = None, trusted: int = 0
+    ) -> Explanation:
         """The old explanation, or one of a lower objective if the fit finds it from ``start``."""
-        new = self.explain(old.fit.hypothesis, start)
+        new = self.explain(old.fit.hypothesis, start, slopes, trusted)
         return new if new is not None and new.fit.objective < old.fit.objective else old

@@ -67,8 +67,16 @@ def decide(evidences: Evidences, rules: Rules = RULES) -> Decision:
 
 def detected(evidences: Evidences, rules: Rules = RULES) -> bool:
     """Whether anything, one of the effects or an unknown one, is there."""
-    best = max(evidences.singles[evidences.single], evidences.rival)
-    return best - evidences.none >= rules.detected
+    return _gain(evidences) >= rules.detected
+
+
+def suspected(evidences: Evidences, rules: Rules = RULES) -> bool:
+    """Whether anything may be there, if the fits were better."""
+    return _gain(evidences) >= rules.suspected
+
+
+def _gain(evidences: Evidences) -> float:
+    return max(evidences.singles[evidences.single], evidences.rival) - evidences.none
 
 
 def named(evidences: Evidences, rules: Rules = RULES) -> bool:

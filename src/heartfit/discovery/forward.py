@@ -29,9 +29,9 @@ class Counted:
                 return share * start, predicted
         return None
 
-    def jacobian(self, x: Floats, predicted: Floats) -> Floats:
-        """(n, d); a coordinate in whose two directions the simulation fails has a column of zeros."""
-        return np.column_stack([self._column(x, predicted, index) for index in range(x.size)])
+    def jacobian(self, x: Floats, predicted: Floats, first: int = 0) -> Floats:
+        """Columns ``first`` and on of (n, d); one in whose two directions the simulation fails is zero."""
+        return np.column_stack([self._column(x, predicted, index) for index in range(first, x.size)])
 
     def _column(self, x: Floats, predicted: Floats, index: int) -> Floats:
         for difference in (DIFFERENCE, -DIFFERENCE):

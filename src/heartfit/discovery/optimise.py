@@ -20,15 +20,17 @@ from heartfit.discovery.hypothesis import Hypothesis
 from heartfit.discovery.whitening import Whitening
 from heartfit.geometry.arrays import Floats
 
+EASIEST = 0.1
+ROUGH = 1.0
 SHORT = 0.05
 """Prior standard deviations: a step that changes nothing one would report."""
-SLIGHT = 0.02
+SLIGHT = 0.2
 """Of the objective, in the unit of ln Z: a hundredth of what separates two verdicts."""
 DAMPING = 0.1
 """At the start, over the curvature of the prior, 1; ten times more after a step that fails, a tenth after one."""
 HARDEST = 1e6
 """Damping at which no step goes down any more."""
-FRESH = 2
+FRESH = 4
 """Accepted steps after which Broyden's Jacobian is replaced."""
 LIMIT = 400
 """Simulations after which a fit is given up: three times what the slowest of the converged ones take."""
@@ -55,17 +57,19 @@ def fit(
     whitening: Whitening,
     start: Floats,
     slopes: Floats | None = None,
+    trusted: int = 0,
     limit: int = LIMIT,
 ) -> Fit | None:
     """The most probable coordinates seen from ``start`` (d,), or None where no simulation about it is completed.
 
-    values: the data (n,); slopes: a Jacobian (n, d) to begin with, by finite differences if None.
+    values: the data (n,); slopes: a Jacobian (n, d) to begin with, by finite differences if None, of
+    which the first ``trusted`` columns are kept but for Broyden.
     """
     started = model.started(start)
     if started is None:
         return None
     jacobian = model.jacobian(*started) if slopes is None else slopes
-    descent = _Descent(model, values, whitening, *started, jacobian, fresh=slopes is None)
+    descent = _Descent(model, values, whitening, *started, jacobian, fresh=slopes is None, trusted=trusted)
     while not descent.ended and model.runs < limit:
         descent.advance()
     return descent.result()
@@ -83,11 +87,12 @@ class _Descent:
         predicted: Floats,
         slopes: Floats,
         fresh: bool,
+        trusted: int,
     ) -> None:
         self.model, self.values, self.whitening = model, values, whitening
         self.lower = model.hypothesis.lower
         self.x, self.predicted, self.objective = x, predicted, self._objective(x, predicted)
-        self.jacobian, self.fresh = slopes, fresh
+        self.jacobian, self.fresh, self.trusted = slopes, fresh, trusted
         self.damping, self.since, self.converged = DAMPING, 0, False
 
     @property
@@ -100,7 +105,13 @@ class _Descent:
         if np.abs(full).max() < SHORT or 0.5 * full @ slope < SLIGHT:
             self._believe()
         else:
-            self._try(self.x + self._step(slope, curvature, self.damping))
+            step = self._step(slope, curvature, self.damping)
+            promise = step @ slope - 0.5 * step @ curvature @ step
+            if self.fresh and promise < SLIGHT:
+                self.converged = bool(0.5 * full @ slope < ROUGH)
+                self.damping = 2 * HARDEST
+            else:
+                self._try(self.x + step)
 
     def result(self) -> Fit:
         hypothesis = self.model.hypothesis
@@ -140,12 +151,13 @@ class _Descent:
         missed = predicted - self.predicted - self.jacobian @ step
         self.jacobian = self.jacobian + np.outer(missed, step) / (step @ step)
         self.x, self.predicted, self.objective = trial, predicted, objective
-        self.damping, self.since, self.fresh = 0.1 * self.damping, self.since + 1, False
+        self.damping, self.since, self.fresh = max(0.1 * self.damping, EASIEST), self.since + 1, False
         if self.since == FRESH:
             self._refresh()
 
     def _refresh(self) -> None:
-        self.jacobian = self.model.jacobian(self.x, self.predicted)
+        anew = self.model.jacobian(self.x, self.predicted, self.trusted)
+        self.jacobian = np.column_stack([self.jacobian[:, : self.trusted], anew])
         self.since, self.fresh = 0, True
 
     def _objective(self, x: Floats, predicted: Floats) -> float:

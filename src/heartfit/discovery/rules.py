@@ -14,6 +14,8 @@ class Rules:
 
     detected: best explanation over none, below which there is none; 5 where the model differs from the data's source by
         integrator, valves and roughness, about 10 where its structure does (see ``strict``).
+    suspected, again: the same after the first round of fits, below which there is no second, and how many effects it
+        takes.
     rival: the best single effect over the Gaussian process alone.
     on_top: the largest gain of a Gaussian process on top of the explanation that is named.
     strong, strong_share: an effect over the Gaussian process by ``strong`` is named although one on top of it gains,
@@ -21,10 +23,13 @@ class Rules:
     second: a pair over its better effect; at 3, one in twenty single effects is given a false companion.
     group: effects whose evidence is so near to the best are not told apart (Kass and Raftery's "positive").
     polished, polish: the best so many effects start again from these amplitudes before "unknown" is said.
-    companions: how many second effects are fitted beside the best and the next single one.
+    companions, promising: how many second effects are fitted beside the best and the next single one, if the linear
+        model promises so much from both.
     """
 
     detected: float = 5.0
+    suspected: float = 2.0
+    again: int = 10
     rival: float = 2.0
     on_top: float = 4.0
     strong: float = 10.0
@@ -34,6 +39,7 @@ class Rules:
     polished: int = 4
     polish: tuple[float, ...] = (0.7, 2.0)
     companions: tuple[int, ...] = (3, 1)
+    promising: float = 2.0
 
 
 RULES = Rules()

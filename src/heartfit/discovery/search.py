@@ -59,7 +59,7 @@ def search(
     fails at the centre of the priors, or that of every effect.
     """
     bench = Bench(data)
-    survey = _complete(bench, surveyed(bench, none, singles), combined, rules)
+    survey = _complete(bench, surveyed(bench, none, singles, rules), combined, rules)
     evidences = survey.evidences(bench.rival)
     decision = decide(evidences, rules)
     lacking = bench.rival.curves(survey.none.fit)
@@ -73,5 +73,6 @@ def _complete(bench: Bench, survey: Survey, combined: Combined, rules: Rules) ->
     if not detected(evidences, rules):
         return survey
     if not named(evidences, rules):
-        survey = polished(bench, survey, rules.polish, rules.polished)
-    return replace(survey, pairs=ranked(pairs_of(bench, survey.singles, combined, rules.companions)))
+        survey = polished(bench, survey, rules)
+    pairs = pairs_of(bench, survey.singles, combined, rules.companions, rules.promising)
+    return replace(survey, pairs=ranked(pairs))

@@ -4,14 +4,16 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from heartfit.discovery.bench import Bench
-from heartfit.discovery.decide import Effects, Evidences
+from heartfit.discovery.decide import Effects, Evidences, suspected
 from heartfit.discovery.explanation import Explanation
 from heartfit.discovery.hypothesis import Hypothesis
+from heartfit.discovery.promise import promise
 from heartfit.discovery.rival import Rival
+from heartfit.discovery.rules import Rules
 from heartfit.errors import InputError
 
-BELOW = 0.05
-"""How much higher than that of none an objective may end and still count as its equal."""
+ABOVE = 0.05
+"""How much above none an effect's objective may end and count as its equal."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,38 +42,64 @@ def ranked(explanations: Iterable[Explanation]) -> tuple[Explanation, ...]:
     return tuple(sorted(explanations, key=lambda each: each.log_evidence, reverse=True))
 
 
-def surveyed(bench: Bench, none: Hypothesis, singles: Sequence[Hypothesis]) -> Survey:
-    """None and every single effect, each from the centre of the priors with the effect at its typical size."""
-    base = bench.explain(none, none.at(0.0))
-    if base is None:
+def surveyed(bench: Bench, none: Hypothesis, singles: Sequence[Hypothesis], rules: Rules) -> Survey:
+    """None and every single effect, fitted from none; where anything is suspected, the best again from the centre.
+
+    A weak effect hardly moves the fit without it, and the slopes there lead on. A strong one drags that fit to where
+    they no longer point at the cause: then effects start at the centre of the priors with their typical size.
+    """
+    centre = bench.linear(none, none.at(0.0))
+    base = None if centre is None else bench.explain(none, centre.fit.x, centre.fit.jacobian)
+    if centre is None or base is None:
         raise InputError(
             "search: the simulation at the centre of the priors fails; expected one to start from"
         )
-    found = {each.effects: _nested(bench, each, base) for each in singles}
-    explained = ranked(each for each in found.values() if each is not None)
-    if not explained:
+    found = {each.effects: _from_none(bench, base, each) for each in singles}
+    near = ranked(each for each in found.values() if each is not None)
+    if not near:
         raise InputError("search: no effect has a simulation that is completed; expected one at least")
-    base = bench.better(base, explained[0].fit.x[: base.fit.x.size])
-    return Survey(base, explained, failed=tuple(name for name, each in found.items() if each is None))
+    survey = Survey(base, near, failed=tuple(name for name, each in found.items() if each is None))
+    return _again(bench, survey, centre, rules) if suspected(survey.evidences(bench.rival), rules) else survey
 
 
-def _nested(bench: Bench, hypothesis: Hypothesis, base: Explanation) -> Explanation | None:
-    """An effect's fit; started again from that of none where it ends above it."""
-    found = bench.explain(hypothesis, hypothesis.at(1.0))
-    if found is not None and found.fit.objective <= base.fit.objective + BELOW:
+def _from_none(bench: Bench, base: Explanation, hypothesis: Hypothesis) -> Explanation | None:
+    """An effect fitted from where none ended, which it may not end above, with none's slopes of what both share."""
+    promised, shared = promise(bench, base, hypothesis), base.fit.x.size
+    found = None if promised is None else promised.kept(bench, shared)
+    if promised is None or found is None or found.fit.objective <= base.fit.objective + ABOVE:
         return found
     start = hypothesis.at(0.0)
-    start[: base.fit.x.size] = base.fit.x
-    return bench.explain(hypothesis, start) if found is None else bench.better(found, start)
+    start[:shared] = base.fit.x
+    return bench.better(found, start, promised.slopes, shared)
 
 
-def polished(bench: Bench, survey: Survey, amplitudes: Sequence[float], count: int) -> Survey:
-    """The best ``count`` effects started again with these amplitudes."""
-    again = [_polished(bench, each, amplitudes) for each in survey.singles[:count]]
-    return replace(survey, singles=ranked([*again, *survey.singles[count:]]))
+def _again(bench: Bench, survey: Survey, centre: Explanation, rules: Rules) -> Survey:
+    """The best effects from the centre and with fresh slopes, and none from the coordinates that explain most."""
+    again = [_from_centre(bench, centre, each) for each in survey.singles[: rules.again]]
+    singles = ranked([*again, *survey.singles[rules.again :]])
+    return replace(survey, singles=singles, none=_none_again(bench, survey.none, singles[0]))
+
+
+def _from_centre(bench: Bench, centre: Explanation, near: Explanation) -> Explanation:
+    hypothesis = near.fit.hypothesis
+    promised = promise(bench, centre, hypothesis)
+    settled = bench.explain(hypothesis, near.fit.x, near.fit.jacobian) or near
+    return bench.better(settled, hypothesis.at(1.0), None if promised is None else promised.slopes)
+
+
+def _none_again(bench: Bench, base: Explanation, best: Explanation) -> Explanation:
+    known = base.fit.x.size
+    return bench.better(base, best.fit.x[:known], best.fit.jacobian[:, :known])
+
+
+def polished(bench: Bench, survey: Survey, rules: Rules) -> Survey:
+    """The best effects started again with other amplitudes."""
+    again = [_polished(bench, each, rules.polish) for each in survey.singles[: rules.polished]]
+    return replace(survey, singles=ranked([*again, *survey.singles[rules.polished :]]))
 
 
 def _polished(bench: Bench, explanation: Explanation, amplitudes: Sequence[float]) -> Explanation:
     for amplitude in amplitudes:
-        explanation = bench.better(explanation, explanation.fit.hypothesis.at(amplitude))
+        start = explanation.fit.hypothesis.at(amplitude)
+        explanation = bench.better(explanation, start, explanation.fit.jacobian)
     return explanation
