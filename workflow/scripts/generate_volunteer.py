@@ -13,7 +13,7 @@ from heartfit.io.results import write_result
 record(snakemake.log[0])
 given = snakemake.params
 case, protocol = given.case, given.cohort.protocol(given.pressures)
-hidden = hide_heart(given.cohort.heart, case.hidden, case.period, case.seed)
+hidden = hide_heart(given.cohort.heart, case.hidden, case.period, case.seed, case.planted())
 size = given.cohort.mesh
 template = Template(read_mesh(Path(snakemake.input.template)), size.edge_length, size.tolerance)
 conduction = OTHER_CONDUCTIONS[case.conduction]

@@ -6,7 +6,7 @@ estimates are not at their standard values either. Where the left bundle is bloc
 other speeds, although it takes as long.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +15,7 @@ from heartfit.circulation.network import Circulation
 from heartfit.circulation.valves import OrificeValve
 from heartfit.electrophysiology.conduction import HEALTHY, LBBB
 from heartfit.heart import FOURTEEN, Heart
+from heartfit.mechanism import Mechanism
 
 ESTIMATED = ("sigma_0", "mu", "c_1", "R_p")
 OTHERS = ("k_RS", "k_ATP", "k_0", "alpha", "tau", "Z_c", "L")
@@ -37,12 +38,22 @@ def draw_heart(standard: Mapping[str, float], period: float, seed: int) -> tuple
 
 
 def hide_heart(
-    standard: Mapping[str, float], ratios: Mapping[str, float], period: float, seed: int
+    standard: Mapping[str, float],
+    ratios: Mapping[str, float],
+    period: float,
+    seed: int,
+    planted: Sequence[Mechanism] = (),
 ) -> tuple[Heart, dict[str, float]]:
-    """A heart whose estimated parameters are these ``ratios`` of the ``standard`` values; the others scatter."""
+    """A heart whose estimated parameters are these ``ratios`` of the ``standard`` values; the others scatter.
+
+    planted: what it has and the calibrator's model lacks.
+    """
     values = Heart().with_parameters(standard)
     given = {name: values.parameters()[values.path_of(name)] * ratio for name, ratio in ratios.items()}
-    return _scattered({**standard, **given}, period, seed, {})
+    heart, truth = _scattered({**standard, **given}, period, seed, {})
+    for each in planted:
+        heart = heart + each
+    return heart, truth
 
 
 def _scattered(

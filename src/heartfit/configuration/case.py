@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 from typing import Literal, Self
 
-from pydantic import Field, PositiveFloat, model_validator
+from pydantic import Field, PositiveFloat, field_validator, model_validator
 
 from heartfit.configuration.strict import Strict
 from heartfit.geometry.parametric import ParametricVentricles
+from heartfit.mechanism import Mechanism, Sensor, registered
 
 SHAPE = ("edv", "wall_thickness", "sphericity", "rv_edv", "rv_wall_thickness")
 HIDDEN = ("sigma_0", "mu", "c_1", "R_p")
@@ -31,6 +32,10 @@ class Case(Strict):
     mu: PositiveFloat | None = None
     c_1: PositiveFloat | None = None
     R_p: PositiveFloat | None = None
+    plant: str | None = Field(
+        None, description="a mechanism that a virtual heart has and the calibrator lacks"
+    )
+    plant_scales: float = Field(0.0, description="its amplitude, over the scale that a search gives it")
 
     @model_validator(mode="after")
     def _is_complete(self) -> Self:
@@ -47,6 +52,28 @@ class Case(Strict):
                 f"{self.case} is measured: recorded pressures are not read yet; leave catheter empty"
             )
         return self
+
+    @field_validator("plant")
+    @classmethod
+    def _acts_on_the_heart(cls, plant: str | None) -> str | None:
+        hearts = [name for name, kind in registered().items() if not issubclass(kind, Sensor)]
+        if plant is not None and plant not in hearts:
+            raise ValueError(f"plant {plant!r} is no mechanism of a heart; known are {', '.join(hearts)}")
+        return plant
+
+    def planted_sizes(self) -> list[tuple[str, float, str]]:
+        """Name, amplitude, SI, and its unit of what a virtual case hides; only an evaluation may know it."""
+        return [
+            (type(each).__name__, getattr(each, each.switch().name), each.switch().unit)
+            for each in self.planted()
+        ]
+
+    def planted(self) -> tuple[Mechanism, ...]:
+        """The mechanism that a virtual case hides, none if it hides none."""
+        if self.plant is None:
+            return ()
+        kind = registered()[self.plant]
+        return (kind(**{kind.switch().name: kind.switch().at(self.plant_scales)}),)
 
     @property
     def healthy(self) -> bool:
