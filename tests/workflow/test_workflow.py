@@ -56,7 +56,13 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert counts["tabulate_costs"] == 1
     assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
     beating = {"generate_volunteer", "draw_volunteer", "simulate_point", "simulate_calibrated"}
-    beating |= {"simulate_surrounding", "study_sphere", "compare_alternatives", "cover_spheres"}
+    beating |= {
+        "simulate_surrounding",
+        "study_sphere",
+        "compare_alternatives",
+        "cover_spheres",
+        "search_cause",
+    }
     assert readers(run.stdout, "kernels") == beating
     targets = inputs(dict(jobs(run.stdout))["all"])
     assert sum("/beats/" in name for name in targets) == (

@@ -17,6 +17,7 @@ rule generate_volunteer:
         case=case_of,
         cohort=STUDY.cohort,
         pressures=STUDY.end_diastolic_pressure,
+        planted=planted_of,
         stated=stated(case_of, STUDY.cohort, STUDY.end_diastolic_pressure),
         code=code("generate_volunteer.py"),
     script:

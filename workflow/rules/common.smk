@@ -46,6 +46,9 @@ CATHETERISED = [name for name, case in CASES.items() if case.catheter]
 
 
 ERROR = STUDY.registration_error
+DISCOVERY = STUDY.discovery
+PROVED = [(case, setting) for case in DISCOVERY.cases if case in CASES for setting in DISCOVERY.settings]
+EVALUATED = [(case, setting) for case, setting in PROVED if CASES[case].kind == "virtual"]
 NOISE_MODEL = "<results>/registration_error/noise_model.json"
 TRIED = {
     "baseline": range(ERROR.sequences),
@@ -200,14 +203,33 @@ def sequences_of_known_truth(wildcards):
     return expand("<results>/registration_error/baseline/{number}.json", number=numbers)
 
 
-def calibrated_beats():
-    """The calibrated beat of a case, its motion and the parameters it has."""
-    folder = "<results>/{case}/{setting}"
-    return {
-        "beats": [f"{folder}/verification/beat.json"],
-        "motions": [f"{folder}/verification/motion.npz"],
-        "posteriors": [f"{folder}/calibration/posterior.json"],
+def calibrated_beats(kind):
+    """The files of one kind of a case's calibrated beat, then of the refitted one where there is one."""
+    calibrated = {
+        "beat": "verification/beat.json",
+        "motion": "verification/motion.npz",
+        "fitted": "calibration/posterior.json",
     }
+    refitted = {"beat": "beat.json", "motion": "motion.npz", "fitted": "refit.json"}
+
+    def files(wildcards):
+        case, setting = wildcards.case, wildcards.setting
+        found = [f"<results>/{case}/{setting}/{calibrated[kind]}"]
+        if (case, setting) in PROVED:
+            found.append(f"<results>/{case}/discovery/{setting}/none/{refitted[kind]}")
+        return found
+
+    return files
+
+
+def planted_of(wildcards):
+    """The fingerprint of the mechanism that a virtual case hides, if any."""
+    return [fingerprint(Path(inspect.getfile(type(each)))) for each in case_of(wildcards).planted()]
+
+
+def every_mechanism():
+    """The fingerprint of each mechanism: a search tries them all by name."""
+    return {name: fingerprint(Path(inspect.getfile(kind))) for name, kind in registered().items()}
 
 
 def pressure_of(wildcards):
@@ -233,4 +255,9 @@ def whole_study():
         # asked for by name, or Snakemake would not miss a beat that was deleted
         *(beat for case in CASES for setting in SETTINGS for beat in beats_of(case, setting)),
         *surroundings(SETTINGS),
+        *expand(
+            "<results>/{case}/discovery/{setting}/search/cause.json", case=CASES, setting=DISCOVERY.settings
+        ),
+        *(f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in PROVED),
+        *(["<results>/tables/discovery.md"] if EVALUATED else []),
     ]

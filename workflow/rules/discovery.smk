@@ -1,11 +1,45 @@
+MEASURED_CASE = {
+    "measured": "<results>/{case}/curves/measured.csv",
+    "noise": noise_of,
+}
+IMAGED_CASE = MEASURED_CASE | {
+    "mesh": "<results>/{case}/geometry/mesh.vtu",
+    "registered": "<results>/{case}/registration/motion.npz",
+}
+CALIBRATED_CASE = IMAGED_CASE | {
+    "known": sequences_of_known_truth,
+    "beats": calibrated_beats("beat"),
+    "motions": calibrated_beats("motion"),
+    "fitted": calibrated_beats("fitted"),
+}
+REFITTED_CASE = IMAGED_CASE | {
+    "points": "<results>/sensitivity/{setting}/points.json",
+    "around": surrounding_beats,
+    "kernels": "<results>/kernels.json",
+}
+CENTRE = {
+    "centre": "<results>/{case}/{setting}/calibration/beats/0.json",
+    "curves": "<results>/{case}/{setting}/calibration/beats/0.csv",
+}
+GIVEN = {
+    "case": case_of,
+    "setting": setting_of,
+    "surroundings": surroundings_of,
+    "mechanisms": mechanisms_of,
+    "pressures": STUDY.end_diastolic_pressure,
+    "scheme": STUDY.numerics,
+    "transform": STUDY.unscented,
+    "steps": DISCOVERY.steps,
+    "stated": stated(
+        case_of, setting_of, STUDY.numerics, STUDY.end_diastolic_pressure, STUDY.unscented, DISCOVERY
+    ),
+}
+CAUSE = ("cause.json", "cause.md", "cause.png")
+
+
 rule plot_residual:
     input:
-        **calibrated_beats(),
-        mesh="<results>/{case}/geometry/mesh.vtu",
-        measured="<results>/{case}/curves/measured.csv",
-        registered="<results>/{case}/registration/motion.npz",
-        noise=noise_of,
-        known=sequences_of_known_truth,
+        **CALIBRATED_CASE,
     output:
         table="<results>/{case}/discovery/{setting}/residual.csv",
         figure=expand("<results>/figures/residual_{{case}}_{{setting}}.{suffix}", suffix=("png", "pdf")),
@@ -23,3 +57,94 @@ rule plot_residual:
         code=code("plot_residual.py"),
     script:
         "../scripts/plot_residual.py"
+
+
+rule search_cause:
+    input:
+        **MEASURED_CASE,
+        **CENTRE,
+        kernels="<results>/kernels.json",
+    output:
+        expand("<results>/{{case}}/discovery/{{setting}}/search/{file}", file=CAUSE),
+    log:
+        "<logs>/{case}/{setting}/search_cause.log",
+    benchmark:
+        "<benchmarks>/{case}/{setting}/search_cause.tsv"
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        case=case_of,
+        setting=setting_of,
+        stated=stated(case_of, setting_of),
+        mechanisms=every_mechanism(),
+        code=code("search_cause.py"),
+    script:
+        "../scripts/search_cause.py"
+
+
+rule refit_case:
+    input:
+        **REFITTED_CASE,
+    output:
+        expand(
+            "<results>/{{case}}/discovery/{{setting}}/none/{file}",
+            file=("refit.json", "beat.json", "beat.csv", "motion.npz"),
+        ),
+    log:
+        "<logs>/{case}/{setting}/refit_case.log",
+    benchmark:
+        "<benchmarks>/{case}/{setting}/refit_case.tsv"
+    resources:
+        mem_mb=2000,
+        runtime=120,
+    params:
+        **GIVEN,
+        code=code("refit_case.py"),
+    script:
+        "../scripts/refit_case.py"
+
+
+rule prove_cause:
+    input:
+        **REFITTED_CASE,
+        **CENTRE,
+        refit="<results>/{case}/discovery/{setting}/none/refit.json",
+    output:
+        expand("<results>/{{case}}/discovery/{{setting}}/{file}", file=(*CAUSE, "refit.json")),
+    log:
+        "<logs>/{case}/{setting}/prove_cause.log",
+    benchmark:
+        "<benchmarks>/{case}/{setting}/prove_cause.tsv"
+    resources:
+        mem_mb=2000,
+        runtime=120,
+    params:
+        **GIVEN,
+        every=every_mechanism(),
+        code=code("prove_cause.py"),
+    script:
+        "../scripts/prove_cause.py"
+
+
+rule tabulate_discovery:
+    input:
+        causes=[f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in EVALUATED],
+        before=[f"<results>/{case}/discovery/{setting}/none/refit.json" for case, setting in EVALUATED],
+        after=[f"<results>/{case}/discovery/{setting}/refit.json" for case, setting in EVALUATED],
+        truths=[f"<results>/{case}/cohort/truth.json" for case, _ in EVALUATED],
+    output:
+        expand("<results>/tables/discovery.{suffix}", suffix=("csv", "md", "tex")),
+    log:
+        "<logs>/tabulate_discovery.log",
+    benchmark:
+        "<benchmarks>/tabulate_discovery.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        proved=EVALUATED,
+        planted=[CASES[case].planted_sizes() for case, _ in EVALUATED],
+        code=code("tabulate_discovery.py"),
+    script:
+        "../scripts/tabulate_discovery.py"

@@ -18,7 +18,7 @@ from heartfit.tables.residual_table import residual_table
 
 record(snakemake.log[0])
 files, names = snakemake.input, snakemake.wildcards
-seen = map(read_seen, files.beats, files.posteriors, repeat(snakemake.params.setting))
+seen = map(read_seen, files.beats, files.fitted, repeat(snakemake.params.setting))
 models = list(map(read_noise_model, map(Path, files.get("noise", []))))
 known = list(map(read_comparison, map(Path, files.get("known", []))))
 registered, simulated = read_motion(Path(files.registered)), read_simulated_motion(Path(files.motions[-1]))

@@ -32,19 +32,22 @@ def iterated(
     noise: np.ndarray | None = None,
     design: Design = STANDARD,
     shrink: float = 0.5,
+    start: Gaussian | None = None,
 ) -> Iterator[Posterior]:
     """The posteriors of step 1, 2, ... without end, each for as many simulations as the design has points.
 
-    Raises CalibrationError where too many points about an estimate fail.
+    start: what the points of the first step are drawn from, the prior if None; its spread is what shrinks. Raises
+    CalibrationError where too many points about an estimate fail.
     """
-    around, spread = prior, 1.0
+    first = around = prior if start is None else start
+    spread = 1.0
     while True:
         outcomes = forward([point.parameters for point in sigma_points(around, design)])
         seen = moments_of(around, outcomes, tuple(observed), design)
         posterior = update(prior, under(prior, around, seen), observed, noise)
         yield posterior
         spread *= shrink**2
-        around = Gaussian(prior.names, posterior.estimate.mean, spread * prior.covariance)
+        around = Gaussian(prior.names, posterior.estimate.mean, spread * first.covariance)
 
 
 def under(prior: Gaussian, around: Gaussian, seen: Moments) -> Moments:

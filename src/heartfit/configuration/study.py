@@ -8,6 +8,7 @@ from pydantic import Field, PositiveFloat, model_validator
 from heartfit.calibration.unscented import Scaling
 from heartfit.cohort.scanner import Scanner
 from heartfit.configuration.case import Case
+from heartfit.configuration.discovery import Discovery
 from heartfit.configuration.generator import Generator, Pressures
 from heartfit.configuration.imaging import (
     BASELINE,
@@ -96,6 +97,7 @@ class Study(Strict):
     sensitivity: SensitivityStudy
     sphere_study: SphereStudy
     discovery_benchmark: DiscoveryBenchmark
+    discovery: Discovery = Discovery()
     prior: dict[str, Prior] = Field({}, description="where it differs from the declared one")
     settings: dict[str, Setting] = Field(min_length=1)
 
@@ -108,6 +110,9 @@ class Study(Strict):
             setting.seeing_pressure().with_prior(self.prior)
         for name in self.settings:
             self.surroundings(name)
+        for name in self.discovery.settings:
+            if name not in self.settings:
+                raise ValueError(f"discovery of {name!r}; known settings are {', '.join(self.settings)}")
         self.sphere_study.setting.seeing_pressure().with_prior(self.prior)
         for name in self.registration_error.acquisitions():
             self._acquisition(name)

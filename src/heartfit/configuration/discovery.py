@@ -1,0 +1,17 @@
+"""What is done to name the cause of what a simulation gets wrong."""
+
+from pydantic import Field, PositiveInt
+
+from heartfit.configuration.strict import Strict
+
+
+class Discovery(Strict):
+    """Which cases are searched on the sphere, and which are refitted and proved in three dimensions."""
+
+    settings: tuple[str, ...] = Field(
+        default=(), description="whose cases are searched, about ten seconds each"
+    )
+    cases: tuple[str, ...] = Field(
+        default=(), description="that are refitted and proved, about 50 to 70 beats each"
+    )
+    steps: PositiveInt = Field(default=2, description="unscented steps of a refit")

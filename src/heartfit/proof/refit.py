@@ -1,0 +1,119 @@
+r"""An extension fitted to samples by repeated unscented steps with noise.
+
+The points of the first step lie about the centre of the priors, the mechanism switched on, closer together than the
+prior: what is far from the data says little of the slopes near them. Of all hearts that were simulated on the way the
+estimate is the one of least
+
+.. math:: \tfrac12 r^T R^{-1} r + \tfrac12 |x|^2 .
+
+Its covariance is that of the last step, whose points are the closest.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+
+from heartfit.beat import Beat
+from heartfit.calibration.forward import Outcome
+from heartfit.calibration.gaussian import Gaussian
+from heartfit.calibration.iterated import iterated
+from heartfit.geometry.arrays import Floats
+from heartfit.observation.beat import beat_curves
+from heartfit.proof.extension import Extension
+from heartfit.proof.split import Sampled, sampled, stacked
+
+SPREAD = 0.5
+"""Of the first step's points, over the prior's."""
+
+Run = Callable[[Extension, Mapping[str, float]], Beat]
+"""From an extended setting and all its parameters, by name and SI, to a beat."""
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """What is fitted: samples (n,) and the covariance (n, n) of a right model about them."""
+
+    samples: Sampled
+    covariance: Floats
+
+    def values(self) -> Floats:
+        """The samples one after the other (n,)."""
+        return stacked({name: samples.values for name, samples in self.samples.items()})
+
+    def misfit(self, predicted: Floats) -> float:
+        """r^T R^-1 r."""
+        residual = self.values() - predicted
+        return float(residual @ np.linalg.solve(self.covariance, residual))
+
+
+@dataclass(frozen=True, eq=False)
+class Refit:
+    """Names (d,), estimate x (d,) and covariance (d, d) of an extension's coordinates, and its parameters there, SI.
+
+    misfit: r^T R^-1 r of n samples at the estimate; objective: what was minimised; simulations: beats it took.
+    """
+
+    names: tuple[str, ...]
+    estimate: Floats
+    covariance: Floats
+    parameters: Mapping[str, float]
+    misfit: float
+    objective: float
+    samples: int
+    simulations: int
+
+    @property
+    def sd(self) -> Floats:
+        """Standard deviations (d,) of the coordinates."""
+        return np.sqrt(np.diag(self.covariance))
+
+
+def refit(extension: Extension, run: Run, target: Target, steps: int, amplitude: float = 1.0) -> Refit:
+    """The refit after some steps; raises CalibrationError where too many beats about an estimate fail.
+
+    amplitude: of the mechanism at the first step's centre, in its scales.
+    """
+    prior, forward = extension.prior(), _Remembering(extension, run, target)
+    names = [str(index) for index in range(target.values().size)]
+    observed = dict(zip(names, target.values().tolist(), strict=True))
+    start = Gaussian(prior.names, extension.start(amplitude), SPREAD**2 * prior.covariance)
+    walk = iterated(prior, forward, observed, target.covariance, start=start)
+    *_, last = islice(walk, steps)
+    forward([last.estimate.physical()])
+    objective, x, misfit = min(forward.seen, key=lambda seen: seen[0])
+    return Refit(
+        extension.names,
+        x,
+        last.estimate.covariance,
+        extension.parameters(x),
+        misfit,
+        objective,
+        target.values().size,
+        forward.simulations,
+    )
+
+
+class _Remembering:
+    """The forward model of an extension; a calibration's positive parameters are the exponentials of coordinates."""
+
+    def __init__(self, extension: Extension, run: Run, target: Target) -> None:
+        self.extension, self.run, self.target = extension, run, target
+        self.seen: list[tuple[float, Floats, float]] = []
+        self.simulations = 0
+
+    def __call__(self, parameters: Sequence[Mapping[str, float]]) -> list[Outcome]:
+        return [self._outcome(np.log(list(each.values()))) for each in parameters]
+
+    def _outcome(self, x: Floats) -> Outcome:
+        self.simulations += 1
+        parameters = self.extension.parameters(x)
+        beat = self.run(self.extension, parameters)
+        if not beat.completed:
+            return beat.reason
+        curves = beat_curves(beat, self.extension.setting.sensors(parameters))
+        predicted = stacked(sampled(curves, self.target.samples))
+        misfit = self.target.misfit(predicted)
+        self.seen.append((0.5 * misfit + 0.5 * float(x @ x), x, misfit))
+        return {str(index): value for index, value in enumerate(predicted.tolist())}

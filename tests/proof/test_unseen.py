@@ -1,0 +1,109 @@
+"""The judge: error ratios where nothing was fitted, and which sphere and threshold a search is given."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.diagnosis import recentred as recentred_module
+from heartfit.diagnosis.centre import HUMAN
+from heartfit.diagnosis.recentred import recentred
+from heartfit.discovery.rules import RULES, STRICT
+from heartfit.errors import InputError
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.geometry.motion import Motion
+from heartfit.mechanics.sphere import Sphere
+from heartfit.observation.beat import beat_curves
+from heartfit.observation.curve import Curve
+from heartfit.proof import centred_search
+from heartfit.proof.model import Shown
+from heartfit.proof.proof import Proof
+from heartfit.proof.target import MeasuredCase
+from heartfit.simulation import Numerics
+from heartfit.sphere.simulation import simulate_spheres
+
+PERIOD = 0.8
+TIMES = np.arange(25) * PERIOD / 25
+WAVE = np.cos(2.0 * np.pi * TIMES / PERIOD)
+
+
+def volume(error: float) -> Curve:
+    return Curve(TIMES, 100e-6 + (40e-6 + error) * WAVE, PERIOD)
+
+
+def shrunk(mesh: VentricularMesh, most: float) -> Motion:
+    shares = 1.0 - most * np.sin(np.pi * np.arange(8) / 8) ** 2
+    return Motion(0.1 * np.arange(8), PERIOD, np.array([share * mesh.points for share in shares]))
+
+
+@pytest.fixture
+def proof(ventricle: VentricularMesh) -> Proof:
+    case = MeasuredCase.of({"lv_volume": volume(0.0), "rv_volume": volume(0.0)}, [])
+    none = Shown({"lv_volume": volume(8e-6), "rv_volume": volume(4e-6)}, shrunk(ventricle, 0.20))
+    extended = Shown({"lv_volume": volume(2e-6), "rv_volume": volume(4e-6)}, shrunk(ventricle, 0.11))
+    return Proof(case, ventricle, shrunk(ventricle, 0.10), none, extended)
+
+
+def test_ratios_are_those_of_the_errors_where_nothing_was_fitted(proof: Proof) -> None:
+    gains = {gain.curve: gain for gain in proof.gains()}
+    assert gains["lv_volume"].ratio == pytest.approx(0.25)
+    assert gains["rv_volume"].ratio == pytest.approx(1.0)
+    assert gains["lv_volume"].none == pytest.approx(8e-6 * np.sqrt(np.mean(WAVE[1::2] ** 2)))
+    strain = gains["circumferential strain"]
+    assert 0.05 < strain.ratio < 0.2
+    assert strain.interval[0] <= strain.ratio <= strain.interval[1]
+
+
+def test_an_extension_helps_if_all_unseen_curves_together_come_nearer(proof: Proof) -> None:
+    assert proof.helps()
+    assert not replace(proof, none=proof.extended, extended=proof.none).helps()
+    worse = Shown({"lv_volume": volume(2e-6), "rv_volume": volume(12e-6)}, proof.extended.motion)
+    assert not replace(proof, extended=worse).helps()
+
+
+def test_traces_hold_every_measured_sample(proof: Proof) -> None:
+    left, right = proof.traces()
+    assert (left.curve, right.curve) == ("lv_volume", "rv_volume")
+    assert left.lacking == pytest.approx(left.measured - left.none)
+    assert left.extended == pytest.approx(volume(2e-6).values)
+
+
+@pytest.fixture(scope="module")
+def beat() -> dict[str, Curve]:
+    heart = HUMAN.heart.with_parameters({"sigma_0": 165e3, "mu": 11e3, "tau": 1.9, "slope": 0.2})
+    numerics = Numerics(time_step=5e-3, max_beats=8, drift=1e-3)
+    return beat_curves(simulate_spheres(heart, [Sphere.of(1.2e-4, 2.2e-4)], numerics))
+
+
+def test_a_centre_follows_the_beat_that_it_is_fitted_to(beat: dict[str, Curve]) -> None:
+    heart = HUMAN.heart.with_parameters({"sigma_0": 260e3})
+    centre = recentred(heart, beat)
+    assert centre.wall == pytest.approx(2.2e-4, rel=0.25)
+    assert centre.heart.period == heart.period
+
+
+def test_a_beat_that_no_sphere_has_is_refused(
+    monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve]
+) -> None:
+    monkeypatch.setattr(recentred_module, "ROUNDS", 1)
+    volume = beat["lv_volume"]
+    humped = beat | {"lv_volume": replace(volume, values=volume.values + 8e-6 * np.sin(40.0 * volume.times))}
+    with pytest.raises(InputError, match="of the beat's lv_volume"):
+        recentred(HUMAN.heart.with_parameters({"sigma_0": 260e3}), humped, ("lv_volume",))
+
+
+def test_a_search_without_a_centre_asks_for_more(
+    monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve]
+) -> None:
+    monkeypatch.setattr(
+        centred_search, "diagnose", lambda recording, centre=None, rules=RULES: (centre, rules)
+    )
+    recording = MeasuredCase.of({"lv_volume": beat["lv_volume"].resampled(25)}, []).recording()
+    monkeypatch.setattr(centred_search, "recentred", lambda *_: HUMAN)
+    assert centred_search.centred_search(recording, HUMAN.heart, beat) == (HUMAN, RULES)
+
+    def refusing(*_: object) -> None:
+        raise InputError("the sphere does not follow")
+
+    monkeypatch.setattr(centred_search, "recentred", refusing)
+    assert centred_search.centred_search(recording, HUMAN.heart, beat) == (None, STRICT)

@@ -1,0 +1,21 @@
+"""Search on the sphere, centred on a case's own beat, for the cause of what its simulation gets wrong."""
+
+from pathlib import Path
+
+from heartfit.io.beats import read_beat
+from heartfit.io.causes import write_cause_card
+from heartfit.io.log import record
+from heartfit.io.refits import read_measured_case
+from heartfit.observation.beat import beat_curves
+from heartfit.proof.centred_search import centred_search
+
+record(snakemake.log[0])
+files, given, names = snakemake.input, snakemake.params, snakemake.wildcards
+recording = read_measured_case(files.measured, files.get("noise", [])).recording()
+heart = given.setting.base_heart(given.case.period)
+found = centred_search(recording, heart, beat_curves(read_beat(Path(files.centre))))
+folder, title = (
+    Path(snakemake.output[0]).parent,
+    f"{names.case}, {names.setting} setting: search on the sphere",
+)
+write_cause_card(folder, found, title, given.code)
