@@ -10,7 +10,7 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 
 # a layer may import itself, what stands below it in this list, and nothing above; one line, one height
 HEIGHTS = (
-    ("errors",),
+    ("compiled", "errors"),
     ("parameter",),
     ("geometry",),
     ("branch", "imaging", "load", "periodic"),

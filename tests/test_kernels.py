@@ -1,9 +1,13 @@
 """The kernels are compiled once, for arrays as the study has them."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 
+from heartfit import compiled
 from heartfit.cohort.cine import image_beat
 from heartfit.cohort.scanner import Scanner
 from heartfit.geometry.mesh import VentricularMesh
@@ -40,3 +44,25 @@ def test_images_of_a_mesh_from_a_file_need_no_other_kernels(ventricle: Ventricul
     scanner = Scanner(frames=8, voxel=6e-3, slice_thickness=6e-3, subvoxel=6e-3, subframes=1)
     track(image_beat(mesh, still, scanner, 0), mesh, FreeForm(levels=((2, 1), (1, 1))))
     assert [list(kernel.signatures) for kernel in OF_IMAGES] == known
+
+
+def test_kernels_of_other_sources_are_compiled_anew(tmp_path: Path):
+    """One that a kernel inlines changes: the folder does, and comes back with what it was."""
+    (tmp_path / "sphere").mkdir()
+    inlined, other = tmp_path / "sphere" / "step.py", tmp_path / "cli.py"
+    for file in (inlined, other):
+        file.write_text("x = 1")
+    before = compiled.folder_of_kernels(tmp_path)
+    date = inlined.stat().st_mtime_ns
+    os.utime(inlined, ns=(date, date + 10**9))
+    assert compiled.folder_of_kernels(tmp_path) != before
+    os.utime(inlined, ns=(date, date))
+    os.utime(other, ns=(date, date + 10**9))
+    assert compiled.folder_of_kernels(tmp_path) == before
+
+
+def test_numba_keeps_them_there():
+    says = "import heartfit, numba; print(numba.config.CACHE_DIR)"
+    free = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+    run = subprocess.run([sys.executable, "-c", says], env=free, capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == str(compiled.folder_of_kernels(Path(compiled.__file__).parent))
