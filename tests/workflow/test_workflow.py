@@ -54,6 +54,7 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert counts["try_acquisition"] == 21 + 3 + 6 * 2
     assert counts["build_template"] == 3
     assert counts["tabulate_costs"] == 1
+    assert "diagnose_planted" not in counts, "hours of search that nobody asked for"
     assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
     beating = {"generate_volunteer", "draw_volunteer", "simulate_point", "simulate_calibrated"}
     beating |= {
@@ -148,3 +149,13 @@ def test_numbers_are_checked_where_it_is_asked_for(workflow):
     assert job_counts(run.stdout)["check_numbers"] == job_counts(run.stdout)["make_tables"] == 1
     job = dict(jobs(run.stdout))["check_numbers"]
     assert inputs(job) == ["results/smoke/tables/numbers.csv", "config/smoke_tolerances.tsv"]
+
+
+def test_answers_are_read_by_the_scorer_only(workflow):
+    targets = "discovery_benchmark", "check_discovery"
+    run = workflow.snakemake("-n", *targets, "--config", "discovery_benchmark={cases: 8}")
+    counts = job_counts(run.stdout)
+    assert run.returncode == 0, run.stdout
+    assert readers(run.stdout, "/sealed/") == set(targets)
+    assert readers(run.stdout, "/measured/") == {"diagnose_planted"}
+    assert counts["plant_effects"] == counts["diagnose_planted"] == 3
