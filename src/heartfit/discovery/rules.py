@@ -14,8 +14,8 @@ class Rules:
 
     detected: best explanation over none, below which there is none; 5 where the model differs from the data's source by
         integrator, valves and roughness, about 10 where its structure does (see ``strict``).
-    suspected, again: the same after the first round of fits, below which there is no second, and how many effects it
-        takes.
+    suspected: the same after the first round of fits, below which there is no second.
+    settled, centred: how many effects the second round takes, and how many of these start again from the centre.
     rival: the best single effect over the Gaussian process alone.
     on_top: the largest gain of a Gaussian process on top of the explanation that is named.
     strong, strong_share: an effect over the Gaussian process by ``strong`` is named although one on top of it gains,
@@ -29,14 +29,15 @@ class Rules:
 
     detected: float = 5.0
     suspected: float = 2.0
-    again: int = 10
+    settled: int = 8
+    centred: int = 3
     rival: float = 2.0
     on_top: float = 4.0
     strong: float = 10.0
     strong_share: float = 0.35
     second: float = 7.0
     group: float = 3.0
-    polished: int = 4
+    polished: int = 6
     polish: tuple[float, ...] = (0.7, 2.0)
     companions: tuple[int, ...] = (3, 1)
     promising: float = 2.0

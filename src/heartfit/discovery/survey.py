@@ -74,16 +74,20 @@ def _from_none(bench: Bench, base: Explanation, hypothesis: Hypothesis) -> Expla
 
 
 def _again(bench: Bench, survey: Survey, centre: Explanation, rules: Rules) -> Survey:
-    """The best effects from the centre and with fresh slopes, and none from the coordinates that explain most."""
-    again = [_from_centre(bench, centre, each) for each in survey.singles[: rules.again]]
-    singles = ranked([*again, *survey.singles[rules.again :]])
+    """The best effects with fresh slopes, the best of these from the centre, and none from what explains most."""
+    settled = ranked(_settled(bench, each) for each in survey.singles[: rules.settled])
+    best = [_from_centre(bench, centre, each) for each in settled[: rules.centred]]
+    singles = ranked([*best, *settled[rules.centred :], *survey.singles[rules.settled :]])
     return replace(survey, singles=singles, none=_none_again(bench, survey.none, singles[0]))
 
 
-def _from_centre(bench: Bench, centre: Explanation, near: Explanation) -> Explanation:
-    hypothesis = near.fit.hypothesis
+def _settled(bench: Bench, near: Explanation) -> Explanation:
+    return bench.explain(near.fit.hypothesis, near.fit.x, near.fit.jacobian) or near
+
+
+def _from_centre(bench: Bench, centre: Explanation, settled: Explanation) -> Explanation:
+    hypothesis = settled.fit.hypothesis
     promised = promise(bench, centre, hypothesis)
-    settled = bench.explain(hypothesis, near.fit.x, near.fit.jacobian) or near
     return bench.better(settled, hypothesis.at(1.0), None if promised is None else promised.slopes)
 
 
