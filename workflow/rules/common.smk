@@ -79,8 +79,7 @@ CASE_PICTURES = [
 TABLES = ["table1", "cards", "specificity", "selection", *(f"sensitivity_{setting}" for setting in SETTINGS)]
 FRESH = range(ERROR.sequences, ERROR.sequences + ERROR.fresh)
 
-PLANTED = dict(enumerate(STUDY.discovery_benchmark.batches()))
-LIBRARY = {name: fingerprint(Path(inspect.getfile(each))) for name, each in registered().items()}
+BATCHES = dict(enumerate(STUDY.discovery_benchmark.batches()))
 
 
 wildcard_constraints:
@@ -92,9 +91,9 @@ wildcard_constraints:
     batch=r"\d+",
 
 
-def planted_of(wildcards):
+def batch_of(wildcards):
     """The cases of a batch of hidden effects."""
-    return PLANTED[int(wildcards.batch)]
+    return BATCHES[int(wildcards.batch)]
 
 
 def code(script):

@@ -13,9 +13,9 @@ rule plant_effects:
         mem_mb=500,
         runtime=5,
     params:
-        plans=planted_of,
-        library=LIBRARY,
-        stated=stated(planted_of),
+        plans=batch_of,
+        library=every_mechanism(),
+        stated=stated(batch_of),
         code=code("plant_effects.py"),
     script:
         "../scripts/plant_effects.py"
@@ -35,7 +35,7 @@ rule diagnose_planted:
         mem_mb=500,
         runtime=30,
     params:
-        library=LIBRARY,
+        library=every_mechanism(),
         code=code("diagnose_planted.py"),
     script:
         "../scripts/diagnose_planted.py"
@@ -43,8 +43,8 @@ rule diagnose_planted:
 
 rule discovery_benchmark:
     input:
-        findings=expand("<results>/discovery_benchmark/findings/{batch}.json", batch=PLANTED),
-        sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=PLANTED),
+        findings=expand("<results>/discovery_benchmark/findings/{batch}.json", batch=BATCHES),
+        sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=BATCHES),
     output:
         tables=expand("<results>/discovery_benchmark/{name}.csv", name=("rates", "mechanisms", "cases")),
         page=f"{STUDY.discovery_benchmark.page}/discovery_benchmark.md",
@@ -67,8 +67,8 @@ rule discovery_benchmark:
 
 rule check_discovery:
     input:
-        findings=expand("<results>/discovery_benchmark/findings/{batch}.json", batch=PLANTED),
-        sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=PLANTED),
+        findings=expand("<results>/discovery_benchmark/findings/{batch}.json", batch=BATCHES),
+        sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=BATCHES),
         claims=STUDY.discovery_benchmark.claims,
     output:
         "<results>/discovery_benchmark/checked.csv",
