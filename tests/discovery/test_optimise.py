@@ -71,3 +71,11 @@ def test_borrowed_slopes_lead_to_the_same_place_for_fewer_runs() -> None:
         assert found.converged
     assert cost[1][0] < cost[0][0]
     assert cost[1][1] == pytest.approx(cost[0][1], abs=0.05)
+
+
+def test_trusted_slopes_are_not_taken_anew() -> None:
+    J = slopes(3)
+    model = Counted(hypothesis(J))
+    found = fit(model, Y, Whitening.of(data(Y, KNOWN)), np.zeros(3), J, trusted=2)
+    assert found.x == pytest.approx(ridge(J), abs=1e-2)
+    assert model.runs <= 1 + 1 + 2

@@ -46,7 +46,8 @@ def promise(bench: Bench, known: Explanation, further: Hypothesis) -> Promise | 
     slopes[:, new] = secant[:, None]
     residual = bench.data.values - known.fit.predicted
     seen = posterior(bench.whitening, x, residual, slopes, further.one_sided)
-    start = np.maximum(np.where(new, _within_reach(seen.mean), x), further.lower)
+    sign = np.where(further.one_sided | (seen.mean > 0.0), 1.0, -1.0)
+    start = np.where(new, sign * np.clip(sign * seen.mean, *REACH), x)
     return Promise(further, start, slopes, seen.log_evidence)
 
 
@@ -57,7 +58,3 @@ def _secant(bench: Bench, further: Hypothesis, x: Floats, new: np.ndarray, befor
         if switched is not None:
             return (switched - before) / amplitude
     return None
-
-
-def _within_reach(amplitude: Floats) -> Floats:
-    return np.where(amplitude < 0.0, -1.0, 1.0) * np.clip(np.abs(amplitude), *REACH)
