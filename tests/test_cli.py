@@ -34,6 +34,8 @@ def test_pages_are_printed(capsys):
         (["simulate", "x.vtu", "--setting", "fysical"], "known are paper, physical"),
         (["simulate", "x.vtu", "--set", "sigma0=1"], "nearest are"),
         (["simulate", "x.vtu", "--set", "sigma_0"], "expected NAME=VALUE"),
+        (["diagnose", "nowhere.csv"], "nowhere.csv: no such file"),
+        (["diagnose", "resources/plausible_beat.csv", "--rr", "0.9"], "no column time_s"),
     ],
 )
 def test_bad_input_is_one_line_and_exit_code_2(arguments, expected, capsys):
