@@ -69,7 +69,7 @@ class Centre:
 
 HUMAN = Centre(
     Heart(period=0.86).with_parameters(
-        {"sigma_0": 145e3, "starling.slope": 0.15, "circulation.aortic.open": 1.5e-6}
+        {"sigma_0": 145e3, "starling.slope": 0.15, "circulation.aortic.open": 6e-7}
     ),
     cavity=1.3e-4,
     wall=2.55e-4,
@@ -77,5 +77,5 @@ HUMAN = Centre(
     inertia=Inertia(density=1060.0, valves=(("mitral", 3.5e4), ("aortic", 3.5e4))),
 )
 """An adult at rest: EDV 148, ESV 46 mL, peak pressure 15.6 kPa; all fibres of a sphere pull in its plane, hence the
-contractility below that of a mesh. Blood of some 15 mm length moves in each valve, and the aortic one takes 0.3 kPa at
-peak flow; bridges depend on length half as much as the cohort's."""
+contractility below that of a mesh. Blood of some 15 mm length moves in each valve, and the aortic one takes 0.8 kPa at
+peak flow, 6 mmHg; bridges depend on length half as much as the cohort's."""

@@ -1,4 +1,4 @@
-r"""What the search leaves free of every heart: nineteen unknowns, each about a centre.
+r"""What the search leaves free of every heart: twenty unknowns, each about a centre.
 
 .. math:: \theta = \theta_0 e^{s x} \quad\text{or}\quad \theta = \theta_0 + s x \text{ (times)}, \qquad x \sim N(0, 1) .
 
@@ -29,8 +29,8 @@ class Free:
 
     @property
     def name(self) -> str:
-        """The last part of the first path."""
-        return self.paths[0].rsplit(".", 1)[-1]
+        """The first path."""
+        return self.paths[0]
 
     def at(self, centre: float, x: float) -> float:
         """Its value x standard deviations from the centre."""
@@ -52,6 +52,7 @@ PARAMETERS = (
     Free(("tissue.active.alpha",), 0.30),
     Free(("circulation.left_atrium", "AtrialKick.rise"), 0.15),
     Free(("circulation.mitral.open",), 0.25),
+    Free(("circulation.aortic.open",), 0.40),
     Free(("tissue.passive.eta",), 0.30),
     Free(("tissue.control.duration",), 0.015, additive=True),
     Free(("tissue.control.onset",), 0.008, additive=True),

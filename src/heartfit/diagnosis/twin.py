@@ -36,7 +36,7 @@ class Twin:
     _beats: "OrderedDict[bytes, Beat]" = field(default_factory=OrderedDict)
 
     def predicted(self, x: Floats, effects: Sequence[Mechanism]) -> Floats | None:
-        """The curves (n,), one after the other, SI, at the coordinates x (19,); None where no beat is reached."""
+        """The curves (n,), one after the other, SI, at the coordinates x (20,); None where no beat is reached."""
         try:
             heart = self._heart(x, effects)
             beat = self._beat(heart, x, effects)
