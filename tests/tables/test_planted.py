@@ -87,8 +87,10 @@ def test_a_claim_of_nothing_is_refused(row):
 
 
 def test_the_page_tells_seeds_refusals_and_gain():
-    page = planted_page(CASES)
+    page = planted_page(CASES, 7, "abc")
     assert "(1 to 7)" in page
+    assert "all 7 of 7" in page
+    assert "the first 7 of 300" in planted_page(CASES, 300, "abc")
     assert "7 of 14" in page
     assert "fell to 0.50" in page
     assert "3000 simulations and 20.0 s" in page

@@ -60,6 +60,7 @@ rule discovery_benchmark:
         mem_mb=500,
         runtime=5,
     params:
+        planned=STUDY.discovery_benchmark.planned(),
         code=code("discovery_benchmark.py"),
     script:
         "../scripts/discovery_benchmark.py"

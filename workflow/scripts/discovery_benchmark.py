@@ -4,6 +4,7 @@ from pathlib import Path
 
 from heartfit.io.atomic import write_text
 from heartfit.io.log import record
+from heartfit.io.results import read_fingerprint
 from heartfit.io.scores import read_scored
 from heartfit.io.tables import write_figure, write_tables
 from heartfit.tables.planted_figures import plot_confusion, plot_power, plot_rates
@@ -15,7 +16,8 @@ out = snakemake.output
 scored = read_scored(snakemake.input.findings, snakemake.input.sealed)
 tables = {"rates": rates_table(scored), "mechanisms": mechanisms_table(scored), "cases": cases_table(scored)}
 write_tables(Path(out.tables[0]).parent, tables)
-write_text(Path(out.page), planted_page(scored))
+code = read_fingerprint(Path(snakemake.input.findings[0]))
+write_text(Path(out.page), planted_page(scored, snakemake.params.planned, code))
 list(
     map(
         write_figure, map(Path, out.figures), [plot_rates(scored), plot_confusion(scored), plot_power(scored)]

@@ -26,7 +26,12 @@ class DiscoveryBenchmark(Strict):
 
     def batches(self) -> list[list[Plan]]:
         """The cases to plant, job by job."""
+        return self._campaign().batches(self.batch, self.cases)
+
+    def planned(self) -> int:
+        """The number of all cases, of which the first may be taken."""
+        return sum(map(len, self._campaign().batches(self.batch)))
+
+    def _campaign(self) -> Campaign:
         counts = self.nulls, self.singles, self.outsiders, self.pairs
-        return Campaign(self.first_seed, *counts, self.scales, self.pair_scales).batches(
-            self.batch, self.cases
-        )
+        return Campaign(self.first_seed, *counts, self.scales, self.pair_scales)

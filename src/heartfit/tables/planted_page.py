@@ -13,7 +13,7 @@ PAGE = """# Hidden effects: how often their cause is found
 Written by `snakemake --cores 2 discovery_benchmark`. {cases} hearts that are not the diagnoser's model, in which
 nothing, one mechanism of the library, two, or an effect from outside it was hidden by a seed ({seeds}); the thresholds
 were tuned on seeds below 1000. The answers were sealed in files that the diagnosis is not given and opened afterwards.
-How the search works: [discovery.md](discovery.md).
+How the search works: [discovery.md](discovery.md). {planned}
 
 ## What is hidden, and in what
 
@@ -48,12 +48,16 @@ A search took {simulations:.0f} simulations and {seconds:.1f} s of one core (med
 """
 
 
-def planted_page(scored: Sequence[Scored]) -> str:
-    """The page in Markdown; its figures are those of heartfit.tables.planted_figures."""
+def planted_page(scored: Sequence[Scored], planned: int, fingerprint: str) -> str:
+    """The page in Markdown; its figures are those of heartfit.tables.planted_figures.
+
+    planned: cases of the whole benchmark, of which these are the first; fingerprint: of the code that diagnosed.
+    """
     seeds = [each.answer.seed for each in scored]
     refused = sum(sum(each.answer.rejected.values()) for each in scored)
     return PAGE.format(
         cases=len(scored),
+        planned=_planned(len(scored), planned, fingerprint),
         seeds=f"{min(seeds)} to {max(seeds)}",
         refused=refused,
         drawn=refused + len(scored),
@@ -63,6 +67,12 @@ def planted_page(scored: Sequence[Scored]) -> str:
         simulations=np.median([each.finding.simulations for each in scored]),
         seconds=np.median([each.finding.seconds for each in scored]),
     )
+
+
+def _planned(cases: int, planned: int, fingerprint: str) -> str:
+    """How much of the benchmark this is, and of which code."""
+    whole = "all" if cases == planned else "the first"
+    return f"They are {whole} {cases} of {planned} cases, in an order shuffled by the first seed; code `{fingerprint}`."
 
 
 def _gain(right: Sequence[Scored]) -> str:
