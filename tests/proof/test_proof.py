@@ -128,6 +128,7 @@ def test_the_refit_finds_the_leak_and_the_heart_that_has_it(refits: tuple[Refit,
     assert cause.interval[0] < AREA < cause.interval[1]
     assert cause.amplitude == pytest.approx(AREA, rel=0.25)
     assert extended.objective < none.objective - 10.0
+    assert extended.log_evidence > none.log_evidence + 10.0
     assert extended.parameters["sigma_0"] == pytest.approx(160e3, rel=0.05)
     assert none.simulations == 2 * 5 + 1
     assert extended.simulations == 2 * 7 + 1

@@ -6,6 +6,7 @@ for what the setting estimates; the unknowns of a mechanism as the search on the
 """
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -18,10 +19,14 @@ from heartfit.mechanism import registered
 
 @dataclass(frozen=True)
 class Extension:
-    """A setting with its prior complete, and the mechanism that it is extended by, none if empty."""
+    """A setting with its prior complete, and the mechanisms that it is extended by, none if empty.
+
+    element: another one than the setting's, for a misfit may be the simulator's and not the patient's.
+    """
 
     base: Setting
     added: tuple[Candidate, ...] = ()
+    element: Literal["mixed", "p1", "sphere"] | None = None
 
     @classmethod
     def by(cls, base: Setting, *names: str) -> "Extension":
@@ -32,7 +37,9 @@ class Extension:
     def setting(self) -> Setting:
         """The setting with the mechanisms in it."""
         names = (*self.base.mechanisms, *self.effects)
-        return self.base.model_copy(update={"mechanisms": names})
+        return self.base.model_copy(
+            update={"mechanisms": names, "element": self.element or self.base.element}
+        )
 
     @property
     def effects(self) -> tuple[str, ...]:
@@ -44,6 +51,12 @@ class Extension:
         """Of the coordinates (d,): parameters of the setting, then "MitralRegurgitation.area", ..."""
         unknowns = [f"{each.name}.{unknown.name}" for each in self.added for unknown in each.unknowns]
         return (*self.base.estimate, *unknowns)
+
+    @property
+    def one_sided(self) -> np.ndarray:
+        """Which coordinates cannot be negative (d,)."""
+        unknowns = [unknown.one_sided for each in self.added for unknown in each.unknowns]
+        return np.array([False] * len(self.base.estimate) + unknowns)
 
     def prior(self) -> Gaussian:
         """N(0, I) of the coordinates."""

@@ -6,7 +6,12 @@ estimate is the one of least
 
 .. math:: \tfrac12 r^T R^{-1} r + \tfrac12 |x|^2 .
 
-Its covariance is that of the last step, whose points are the closest.
+Its covariance C is that of the last step, whose points are the closest. By Laplace's approximation
+
+.. math:: \ln Z = -\tfrac12 r^T R^{-1} r - \tfrac12 |x|^2 + \tfrac12 \ln |C|
+          + \sum_{a \ge 0} \ln 2 \Phi(x_a / \sigma_a) + \mathrm{const}
+
+compares extensions that were fitted to the same samples; the sum is over amplitudes whose sign is known.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -52,7 +57,8 @@ class Target:
 class Refit:
     """Names (d,), estimate x (d,) and covariance (d, d) of an extension's coordinates, and its parameters there, SI.
 
-    misfit: r^T R^-1 r of n samples at the estimate; objective: what was minimised; simulations: beats it took.
+    misfit: r^T R^-1 r of n samples at the estimate; objective: what was minimised; log_evidence: up to a constant of
+    the samples; simulations: beats it took.
     """
 
     names: tuple[str, ...]
@@ -61,6 +67,7 @@ class Refit:
     parameters: Mapping[str, float]
     misfit: float
     objective: float
+    log_evidence: float
     samples: int
     simulations: int
 
@@ -90,9 +97,17 @@ def refit(extension: Extension, run: Run, target: Target, steps: int, amplitude:
         extension.parameters(x),
         misfit,
         objective,
+        _log_evidence(objective, x, last.estimate.covariance, extension.one_sided),
         target.values().size,
         forward.simulations,
     )
+
+
+def _log_evidence(objective: float, x: Floats, covariance: Floats, one_sided: np.ndarray) -> float:
+    from scipy.special import log_ndtr
+
+    beyond = log_ndtr(x / np.sqrt(np.diag(covariance))) + np.log(2.0)
+    return float(-objective + 0.5 * np.linalg.slogdet(covariance)[1] + beyond[one_sided].sum())
 
 
 class _Remembering:
