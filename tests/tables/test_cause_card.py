@@ -69,6 +69,10 @@ def test_the_card_tells_withdrawn_names_alternatives_and_gains():
     assert "withdrawn" in card(diagnosis("unknown", withdrawn=("CatheterDelay",)), "case 1")
 
 
+def test_what_is_unknown_is_beside_the_best_of_the_library():
+    assert "mitral regurgitation, the best of it" in card(diagnosis("unknown"), "case 1")
+
+
 def test_the_figure_has_a_row_for_each_curve_and_the_threshold():
     figure = plot_cause(diagnosis("named", (LEAK,)))
     assert len(figure.axes) == 4

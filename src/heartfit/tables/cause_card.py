@@ -86,6 +86,9 @@ def _ranking(diagnosis: Diagnosis) -> str:
 def _alternatives(diagnosis: Diagnosis) -> str:
     if diagnosis.withdrawn:
         return f"{', '.join(map(spoken, diagnosis.withdrawn))} fits, but did not help on what was held out: withdrawn."
+    if diagnosis.verdict == "unknown":
+        best = next(name for name in diagnosis.ranking if name != "unknown")
+        return f"Nothing in the library: {spoken(best)}, the best of it, leaves more than noise."
     if not diagnosis.alternatives:
         return "Nothing in the library within a ln Bayes factor of 3."
     return "\n".join(f"- {' and '.join(map(spoken, each))}" for each in diagnosis.alternatives)
