@@ -6,7 +6,7 @@ from tests.discovery import oscillator
 from tests.discovery.linear import NOISE, TIMES, data, hypothesis, slopes
 
 from heartfit.discovery.data import Noise
-from heartfit.discovery.forward import Counted
+from heartfit.discovery.forward import Counted, differences
 from heartfit.discovery.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.optimise import fit
 from heartfit.discovery.whitening import Whitening
@@ -79,3 +79,7 @@ def test_trusted_slopes_are_not_taken_anew() -> None:
     found = fit(model, Y, Whitening.of(data(Y, KNOWN)), np.zeros(3), J, trusted=2)
     assert found.x == pytest.approx(ridge(J), abs=1e-2)
     assert model.runs <= 1 + 1 + 2
+
+
+def test_differences_change_the_data_by_about_their_noise() -> None:
+    assert differences(np.array([0.0, 4.0, 100.0])) == pytest.approx([0.5, 0.25, 0.05])

@@ -91,7 +91,8 @@ class Descent:
             self._refresh()
 
     def _refresh(self) -> None:
-        anew = self.model.jacobian(self.x, self.predicted, self.trusted)
+        _, gram = self.whitening.normal(self.values - self.predicted, self.jacobian)
+        anew = self.model.jacobian(self.x, self.predicted, self.trusted, np.sqrt(np.diag(gram)))
         self.jacobian = np.column_stack([self.jacobian[:, : self.trusted], anew])
         self.steps, self.fresh = 0, True
 
