@@ -53,7 +53,7 @@ def test_parameters_that_are_held_invent_effects() -> None:
 
 
 def test_the_residual_of_one_step_is_no_evidence() -> None:
-    """Of right models, one step from the prior's mean leaves what any effect explains; a converged fit does not."""
+    """Of right models, one step from the prior's mean mostly leaves what an effect explains; a converged fit does not."""
     alarms = {"one step": 0, "converged": 0}
     for seed in SEEDS:
         data = oscillator.observed(oscillator.curves(truth(seed)), seed)
@@ -66,7 +66,7 @@ def test_the_residual_of_one_step_is_no_evidence() -> None:
             at_step = replace(found, jacobian=Counted(oscillator.NONE).jacobian(found.x, found.predicted))
             assert found.converged == (name == "converged")
             alarms[name] += rival - laplace_there(at_step, bench) > RULES.detected
-    assert alarms["one step"] >= 7
+    assert alarms["one step"] > len(SEEDS) / 2
     assert alarms["converged"] == 0
 
 
