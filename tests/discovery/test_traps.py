@@ -53,7 +53,7 @@ def test_parameters_that_are_held_invent_effects() -> None:
 
 
 def test_the_residual_of_one_step_is_no_evidence() -> None:
-    """Of right models, one step from the prior's mean mostly leaves what an effect explains; a converged fit does not."""
+    """Of right models, one step from the prior's mean mostly leaves what an effect explains, a converged fit not."""
     alarms = {"one step": 0, "converged": 0}
     for seed in SEEDS:
         data = oscillator.observed(oscillator.curves(truth(seed)), seed)
