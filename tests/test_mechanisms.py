@@ -5,9 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from tests.shrinking import assert_derivative
 
-from heartfit.branch import BLOOD_DENSITY
 from heartfit.errors import InputError
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart import Heart
@@ -15,7 +13,6 @@ from heartfit.mechanics.body import FiniteElementBody
 from heartfit.mechanics.sphere import Sphere, SphericalBody
 from heartfit.mechanics.time_step import TimeStep
 from heartfit.mechanism import (
-    COMPARTMENTS,
     Amendment,
     Availability,
     Delay,
@@ -37,15 +34,12 @@ from heartfit.simulation import Numerics, simulate
 from heartfit.sphere.simulation import simulate_spheres
 
 PERIOD = 0.829
+SANGUINE = (Flow, Narrowing, Pressure, External)
 MUSCULAR = (Amendment, Availability, Delay, Relaxation, Stress)
 LEFT = Sphere.of(80e-6, 130e-6)
 ONE_BEAT = Numerics(time_step=0.01, max_beats=1)
 KINDS = registered()
-FLOWS = {name: kind for name, kind in KINDS.items() if issubclass(kind, Flow)}
-PRESSURES = {name: kind for name, kind in KINDS.items() if issubclass(kind, Pressure)}
-NARROWINGS = {name: kind for name, kind in KINDS.items() if issubclass(kind, Narrowing)}
-EXTERNALS = {name: kind for name, kind in KINDS.items() if issubclass(kind, External)}
-IN_THE_BLOOD = FLOWS | NARROWINGS | PRESSURES | EXTERNALS
+IN_THE_BLOOD = {name: kind for name, kind in KINDS.items() if issubclass(kind, SANGUINE)}
 MUSCLES = {name: kind for name, kind in KINDS.items() if issubclass(kind, MUSCULAR)}
 SENSORS = {name: kind for name, kind in KINDS.items() if issubclass(kind, Sensor)}
 
@@ -75,21 +69,6 @@ def test_a_search_knows_its_size(kind: type[Mechanism]) -> None:
     assert switch.scale > 0.0
     for x in (1.0, 2.0):
         assert replace(kind(), **{switch.name: switch.at(x)}) != kind().turned_off()  # type: ignore[type-var]
-
-
-@each(IN_THE_BLOOD)
-def test_switched_off_it_leaves_no_trace(
-    kind: type[Mechanism], spherical_heart: Heart, spheres: SphericalBody
-) -> None:
-    others = tuple(m for m in spherical_heart.mechanisms if type(m) is not kind)
-    without = simulate(replace(spherical_heart, mechanisms=others), spheres, ONE_BEAT)
-    off, on = (
-        simulate(replace(spherical_heart, mechanisms=(*others, m)), spheres, ONE_BEAT)
-        for m in (kind().turned_off(), kind())
-    )
-    assert (off.volume["lv"] == without.volume["lv"]).all()
-    assert (off.pressure["lv"] == without.pressure["lv"]).all()
-    assert not np.allclose(on.volume["lv"], without.volume["lv"], rtol=1e-3)
 
 
 def forces(body: FiniteElementBody | SphericalBody, x: np.ndarray) -> np.ndarray:
@@ -173,59 +152,6 @@ def test_a_body_without_the_mechanisms_of_the_heart_is_refused(
         simulate(spherical_heart + Scar(), spheres, ONE_BEAT)
 
 
-@each(PRESSURES)
-def test_pressures_are_continuous_and_periodic(kind: type[Pressure]) -> None:
-    time = np.linspace(0.0, PERIOD, 4001)
-    for compartment in kind.compartments:
-        curve = kind().pressure(compartment, time, PERIOD)
-        again = np.array([kind().pressure(compartment, t + PERIOD, PERIOD) for t in time])
-        assert again == pytest.approx(curve, abs=1e-6)
-        assert abs(np.diff(curve)).max() <= 0.01 * np.ptp(curve)
-        assert curve[-1] == pytest.approx(curve[0], abs=1e-6)
-
-
-@each(PRESSURES)
-def test_pressures_act_on_atria_and_arteries(kind: type[Pressure]) -> None:
-    """The ventricles' pressure follows from their walls: what presses on these is an External."""
-    assert set(kind.compartments) <= set(COMPARTMENTS[2:])
-    for compartment in kind.compartments:
-        assert kind().pressure(compartment, np.linspace(0.0, PERIOD, 100), PERIOD).any()
-
-
-@each(FLOWS)
-def test_flows_run_down_the_gradient_with_their_own_slope(kind: type[Flow]) -> None:
-    assert {kind.upstream, kind.downstream} <= set(COMPARTMENTS)
-    drops = np.linspace(-1e4, 1e4, 2001)
-    flows = np.array([kind().flow(0.3, drop)[0] for drop in drops])
-    assert (flows * drops >= 0.0).all()
-    assert (np.diff(flows) >= 0.0).all()
-    assert flows.any()
-    for drop in (5.0, 80.0, 7e3):
-        x, step = np.array([drop]), np.array([0.1 * drop])
-        slope = kind().flow(0.3, drop)[1] * step
-        assert_derivative(lambda p: np.array([kind().flow(0.3, p[0])[0]]), slope, x, step)
-
-
-@each(FLOWS)
-def test_blood_is_conserved_with_another_branch(
-    kind: type[Flow], spherical_heart: Heart, spheres: SphericalBody
-) -> None:
-    """The ventricles change by what their branches bring, step by step."""
-    beat = simulate(spherical_heart + kind(), spheres, replace(ONE_BEAT, max_beats=2))
-    net = {
-        "lv": beat.flow["mitral"] - beat.flow["aortic"],
-        "rv": beat.flow["tricuspid"] - beat.flow["pulmonary"],
-    }
-    for name in (kind.upstream, kind.downstream):
-        sign = -1.0 if name == kind.upstream else 1.0
-        if name in net:
-            net[name] = net[name] + sign * beat.flow[kind.__name__]
-    dt = beat.time[1] - beat.time[0]
-    for side, inflow in net.items():
-        V = beat.volume[side]
-        assert 1.5 * V[2:] - 2.0 * V[1:-1] + 0.5 * V[:-2] == pytest.approx(dt * inflow[2:], abs=1e-9)
-
-
 @pytest.fixture(scope="module")
 def sampled() -> tuple[np.ndarray, np.ndarray]:
     """Any curve at the times of a beat, the trigger inside a step."""
@@ -261,29 +187,6 @@ def test_the_heart_does_not_feel_its_sensors(spherical_heart: Heart, spheres: Sp
     for name, values in plain.signals().items():
         assert (measured.signals()[name] == values).all(), name
     assert {name for kind in SENSORS.values() for name in kind.measures} <= plain.signals().keys()
-
-
-def test_they_work_in_three_dimensions(coarse_body: FiniteElementBody) -> None:
-    """Mitral regurgitation takes from the forward stroke volume what it gives back to the atrium."""
-    healthy, leaking = (
-        simulate(heart, coarse_body, ONE_BEAT)
-        for heart in (Heart(), Heart() + MitralRegurgitation(area=0.4e-4))
-    )
-    assert (healthy.reason, leaking.reason) == ("", "")
-    forward = [np.trapezoid(beat.flow["aortic"], beat.time) for beat in (healthy, leaking)]
-    assert forward[1] < 0.9 * forward[0]
-    assert np.trapezoid(leaking.flow["MitralRegurgitation"], leaking.time) > 10e-6
-
-
-def test_the_mitral_leak_is_an_orifice_between_left_ventricle_and_left_atrium(
-    spherical_heart: Heart, spheres: SphericalBody
-) -> None:
-    beat = simulate(spherical_heart + MitralRegurgitation(area=0.4e-4), spheres, ONE_BEAT)
-    drop = beat.pressure["lv"] - beat.pressure["left_atrium"]
-    systole = drop > 1e3
-    jet = 0.4e-4 * np.sqrt(2.0 * drop[systole] / BLOOD_DENSITY)
-    assert beat.flow["MitralRegurgitation"][systole] == pytest.approx(jet, rel=1e-3)
-    assert not beat.flow["MitralRegurgitation"][drop < 0.0].any()
 
 
 def test_a_mechanism_without_role_or_with_a_taken_name_is_refused() -> None:
