@@ -82,7 +82,7 @@ def test_the_enclosed_sphere_resists_with_its_wall_and_its_load(spheres: Spheric
     x, step = np.array([[1e-3], [2e-3]]), TimeStep(0.0, 0.01, 0.8)
     bare = spheres.step(spheres.rest(), step).forces(x)
     enclosed = Enclosed(spheres, (sac,)).step(spheres.rest(), step).forces(x)
-    outer = 900.0 * np.exp((spheres.volumes(x).mean() - 80e-6) / sac.scale)
+    outer = 900.0 * np.exp((spheres.volumes(x).mean() - 80e-6) / sac.growth)
     assert (enclosed - bare) / spheres.volume_gradients(x).diagonal() == pytest.approx([outer, outer])
 
 

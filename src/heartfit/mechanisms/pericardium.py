@@ -31,7 +31,7 @@ class Pericardium(External):
         scale=600.0,
     )
     volume: float = parameter(150e-6, unit="m^3", symbol="V_0", meaning="reference volume of a ventricle")
-    scale: float = parameter(
+    growth: float = parameter(
         25e-6, unit="m^3", symbol="v", meaning="volume over which its pressure grows e-fold", sd=0.3, low=5e-6
     )
 
@@ -39,4 +39,4 @@ class Pericardium(External):
         require_admissible(self)
 
     def load(self, ventricle: str, time: Floats, period: float) -> Load:  # noqa: ARG002
-        return Load(rise=self.pressure, volume=self.volume, scale=self.scale)
+        return Load(rise=self.pressure, volume=self.volume, scale=self.growth)
