@@ -6,6 +6,7 @@ MECHANICS, CIRCULATION = "tests/mechanics", "tests/circulation"
 BODY, BCS = f"{MECHANICS}/test_body.py", f"{MECHANICS}/test_bcs.py"
 MOONEY, EXPONENTIAL = f"{MECHANICS}/test_mooney_rivlin.py", f"{MECHANICS}/test_guccione.py"
 SPHERE, TIME = f"{MECHANICS}/test_sphere.py", f"{MECHANICS}/test_time_step.py"
+COMPILED = "tests/sphere/test_simulation.py"
 CAVITY, EIKONAL = "tests/geometry/test_cavity.py", "tests/electrophysiology/test_eikonal.py"
 UNSCENTED, UPDATE = "tests/calibration/test_unscented.py", "tests/calibration/test_update.py"
 
@@ -202,6 +203,50 @@ MUTANTS = (
             "(drop * drop + SMOOTHING * SMOOTHING) / smooth",
         ),
         ("blood weighs half", "np.sqrt(2.0 / BLOOD_DENSITY)", "np.sqrt(4.0 / BLOOD_DENSITY)"),
+    ),
+    *_in(
+        "branch.py",
+        f"{CIRCULATION}/test_narrowing.py",
+        ("a narrowing takes a quarter", "np.sqrt(1.0 + 4.0 * laws", "np.sqrt(1.0 + laws"),
+        (
+            "a narrowed orifice as wide",
+            "self.area / np.sqrt(1.0 + inverse_square",
+            "self.area / np.sqrt(1.0 + 0.0",
+        ),
+    ),
+    *_in(
+        "load.py",
+        f"{CIRCULATION}/test_enclosure.py",
+        ("a load's slope without its scale", "slope += rise / scale", "slope += rise"),
+    ),
+    *_in(
+        "circulation/enclosure.py",
+        f"{CIRCULATION}/test_enclosure.py",
+        ("loads pull", "self._step.forces(x) + self._body", "self._step.forces(x) - self._body"),
+        (
+            "a load of rank none",
+            "self._softened = softened / (1.0 + w @ softened)",
+            "self._softened = 0.0 * u",
+        ),
+    ),
+    *_in(
+        "circulation/network.py",
+        COMPILED,
+        ("no waves in the arteries", "rows[:, 0] += self._arterial", "rows[:, 0] += 0.0"),
+    ),
+    *_in(
+        "sphere/beat.py",
+        f"{CIRCULATION}/test_enclosure.py",
+        ("nothing presses on spheres", "p[v] += pressure", "p[v] += 0.0 * pressure"),
+    ),
+    *_in(
+        "sphere/step.py",
+        COMPILED,
+        (
+            "the Windkessel takes the wave for flow",
+            "(p[count + v] - waves[n, v] - a) / b",
+            "(p[count + v] - a) / b",
+        ),
     ),
     *_in(
         "circulation/circuit.py",
