@@ -1,4 +1,4 @@
-r"""What the search leaves free of every heart: twenty unknowns, each about a centre.
+r"""What the search leaves free of every heart: twenty-three unknowns, each about a centre.
 
 .. math:: \theta = \theta_0 e^{s x} \quad\text{or}\quad \theta = \theta_0 + s x \text{ (times)}, \qquad x \sim N(0, 1) .
 
@@ -12,8 +12,6 @@ from math import exp
 
 from heartfit.diagnosis.centre import Centre
 from heartfit.geometry.arrays import Floats
-from heartfit.mechanics.sphere import Sphere
-from heartfit.sphere.heart import Inertia
 
 
 @dataclass(frozen=True)
@@ -37,7 +35,13 @@ class Free:
         return centre + self.sd * x if self.additive else centre * exp(self.sd * x)
 
 
-CAVITY = Free(("cavity",), 0.15)
+OF_THE_SPHERE = (
+    Free(("cavity",), 0.15),
+    Free(("spread",), 0.20),
+    Free(("mitral_inertance",), 0.40),
+    Free(("aortic_inertance",), 0.40),
+)
+"""What the heart itself does not know: its volume, for how long it is activated, and the blood that moves in valves."""
 PARAMETERS = (
     Free(("tissue.active.sigma_0",), 0.20),
     Free(("tissue.active.mu",), 0.30),
@@ -50,33 +54,35 @@ PARAMETERS = (
     Free(("circulation.systemic.L",), 0.30),
     Free(("tissue.active.k_0",), 0.30),
     Free(("tissue.active.alpha",), 0.30),
-    Free(("circulation.left_atrium", "AtrialKick.rise"), 0.15),
-    Free(("circulation.mitral.open",), 0.25),
+    Free(("tissue.active.starling.slope",), 0.50),
+    Free(("circulation.left_atrium",), 0.15),
+    Free(("circulation.mitral.open",), 0.40),
     Free(("circulation.aortic.open",), 0.40),
     Free(("tissue.passive.eta",), 0.30),
     Free(("tissue.control.duration",), 0.015, additive=True),
     Free(("tissue.control.onset",), 0.008, additive=True),
     Free(("tissue.control.trigger_delay",), 0.008, additive=True),
 )
-INERTANCE = Free(("mitral_inertance",), 0.40)
-FREE = (CAVITY, INERTANCE, *PARAMETERS)
+FREE = (*OF_THE_SPHERE, *PARAMETERS)
 UNFELT = FREE.index(PARAMETERS[-1])
 """The coordinate that the beat does not feel: it says which instant of it the recording calls zero."""
 
 
-def free_parameters(centre: Centre, x: Floats) -> dict[str, float]:
-    """The parameters by path at the first coordinates of x, SI."""
-    pairs = [(each, path, z) for each, z in zip(PARAMETERS, x[2:], strict=False) for path in each.paths]
+def moved(centre: Centre, x: Floats) -> Centre:
+    """The centre moved to the first coordinates of x."""
+    cavity, spread, *inertances = (each.at(1.0, float(z)) for each, z in zip(OF_THE_SPHERE, x, strict=False))
+    factors = dict(zip(("mitral", "aortic"), inertances, strict=True))
+    valves = tuple((name, value * factors.get(name, 1.0)) for name, value in centre.inertia.valves)
+    return replace(
+        centre,
+        heart=centre.heart.with_parameters(_parameters(centre, x[len(OF_THE_SPHERE) :])),
+        cavity=cavity * centre.cavity,
+        spread=spread * centre.spread,
+        inertia=replace(centre.inertia, valves=valves),
+    )
+
+
+def _parameters(centre: Centre, x: Floats) -> dict[str, float]:
+    """Parameters of the heart by path, SI."""
+    pairs = [(each, path, z) for each, z in zip(PARAMETERS, x, strict=False) for path in each.paths]
     return {path: each.at(centre.values[path], float(z)) for each, path, z in pairs}
-
-
-def free_sphere(centre: Centre, x: Floats) -> Sphere:
-    """The sphere whose stress-free cavity is x[0] standard deviations from the centre's, of the same wall."""
-    return Sphere.of(CAVITY.at(centre.cavity, float(x[0])), centre.wall)
-
-
-def free_inertia(centre: Centre, x: Floats) -> Inertia:
-    """The centre's inertia, its mitral valve x[1] standard deviations from the centre's."""
-    factor = INERTANCE.at(1.0, float(x[1]))
-    valves = [(name, value * (factor if name == "mitral" else 1.0)) for name, value in centre.inertia.valves]
-    return replace(centre.inertia, valves=tuple(valves))

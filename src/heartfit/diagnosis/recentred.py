@@ -14,7 +14,7 @@ from math import exp
 import numpy as np
 
 from heartfit.diagnosis.centre import HUMAN, Centre
-from heartfit.diagnosis.free import CAVITY, free_parameters
+from heartfit.diagnosis.free import moved
 from heartfit.diagnosis.library import BASE, hypothesis
 from heartfit.diagnosis.recording import Recording, Samples
 from heartfit.diagnosis.twin import Twin
@@ -82,9 +82,7 @@ def _fitted(centre: Centre, data: Data) -> tuple[Centre, Floats]:
     if found is None:
         raise InputError("centre: the sphere does not beat about the three-dimensional heart's parameters")
     x = found.fit.x
-    moved = _with_constants(centre, x[count:])
-    heart = moved.heart.with_parameters(free_parameters(moved, x))
-    return replace(moved, heart=heart, cavity=CAVITY.at(moved.cavity, float(x[0]))), found.fit.predicted
+    return moved(_with_constants(centre, x[count:]), x[:count]), found.fit.predicted
 
 
 def _with_constants(centre: Centre, x: Floats) -> Centre:

@@ -2,18 +2,19 @@
 
 from collections import OrderedDict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import reduce
+from operator import add
 
 import numpy as np
 
 from heartfit.beat import Beat
 from heartfit.diagnosis.centre import Centre
-from heartfit.diagnosis.free import FREE, UNFELT, free_inertia, free_parameters, free_sphere
+from heartfit.diagnosis.free import FREE, UNFELT, moved
 from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
 from heartfit.mechanism import Mechanism, Sensor
 from heartfit.simulation import Numerics
-from heartfit.sphere.simulation import simulate_spheres
 
 NUMERICS = Numerics(time_step=5e-3, max_beats=30, drift=1e-5)
 """Finite differences ask for a limit cycle: at a drift of 1 % beats differ by 1 mL and 0.3 kPa from it, here by 0.1 mL
@@ -36,30 +37,24 @@ class Twin:
     _beats: "OrderedDict[bytes, Beat]" = field(default_factory=OrderedDict)
 
     def predicted(self, x: Floats, effects: Sequence[Mechanism]) -> Floats | None:
-        """The curves (n,), one after the other, SI, at the coordinates x (20,); None where no beat is reached."""
+        """The curves (n,), one after the other, SI, at the coordinates x (23,); None where no beat is reached."""
         try:
-            heart = self._heart(x, effects)
-            beat = self._beat(heart, x, effects)
+            centre = moved(self.centre, x)
+            heart = reduce(add, effects, centre.heart)
+            beat = self._beat(replace(centre, heart=heart), x, effects)
         except ValueError:  # coordinates beyond what a heart can be
             return None
         if not beat.completed or beat.volume["lv"].min() <= 0.0:
             return None
         return np.concatenate([shown(beat, heart, name, at) for name, at in self.times.items()])
 
-    def _heart(self, x: Floats, effects: Sequence[Mechanism]) -> Heart:
-        heart = self.centre.heart.with_parameters(free_parameters(self.centre, x))
-        for effect in effects:
-            heart = heart + effect
-        return heart
-
-    def _beat(self, heart: Heart, x: Floats, effects: Sequence[Mechanism]) -> Beat:
+    def _beat(self, centre: Centre, x: Floats, effects: Sequence[Mechanism]) -> Beat:
         felt = [each for each in effects if not isinstance(each, Sensor)]
         key = np.delete(x[: len(FREE)], UNFELT).tobytes() + repr(felt).encode()
         beat = self._beats.pop(key, None)
         if beat is None:
             self.simulations += 1
-            sphere, inertia = free_sphere(self.centre, x), free_inertia(self.centre, x)
-            beat = simulate_spheres(heart, [sphere], NUMERICS, inertia=inertia)
+            beat = centre.beat(NUMERICS)
         self._beats[key] = beat
         if len(self._beats) > REMEMBERED:
             self._beats.popitem(last=False)
