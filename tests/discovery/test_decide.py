@@ -41,7 +41,7 @@ def evidences(
         (evidences(12.0, 9.0), Decision(Verdict.NAMED, A)),
         (evidences(12.0, pair=18.9), Decision(Verdict.NAMED, A)),
         (evidences(12.0, pair=19.0), Decision(Verdict.TWO, AB)),
-        (evidences(12.0, pair=19.0, left=4.0), Decision(Verdict.NAMED, A)),
+        (evidences(12.0, pair=19.0, left=4.0), Decision(Verdict.UNKNOWN)),
         (evidences(12.0, rival=30.0, on_top=30.0, pair=50.0), Decision(Verdict.TWO, AB)),
     ],
 )

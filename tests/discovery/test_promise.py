@@ -11,6 +11,7 @@ from heartfit.discovery.bench import Bench
 from heartfit.discovery.companions import pairs_of
 from heartfit.discovery.hypothesis import Coordinate
 from heartfit.discovery.promise import promise
+from heartfit.discovery.rules import Rules
 
 J = slopes(3)
 FURTHER = hypothesis(J, Coordinate("a", one_sided=True, amplitude=True))
@@ -48,6 +49,7 @@ def test_only_pairs_that_promise_enough_are_fitted() -> None:
     bench = Bench(oscillator.observed(truth, 1))
     singles = [bench.explain(each, each.at(1.0)) for each in oscillator.SINGLES]
     ranked = sorted(singles, key=lambda each: -each.log_evidence)
-    (pair,) = pairs_of(bench, ranked, oscillator.combined, (3, 1), least=10.0)
+    (pair,) = pairs_of(bench, ranked, oscillator.combined, Rules(promising=10.0))
     assert pair.effects == ("delay", "pulse")
-    assert pairs_of(bench, ranked, oscillator.combined, (3, 1), least=1e6) == []
+    assert pairs_of(bench, ranked, oscillator.combined, Rules(promising=1e6)) == []
+    assert len(pairs_of(bench, ranked, oscillator.combined, Rules(promising=-1e6, pairs=3))) == 3

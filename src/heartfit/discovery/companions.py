@@ -7,28 +7,33 @@ from heartfit.discovery.decide import Effects
 from heartfit.discovery.explanation import Explanation
 from heartfit.discovery.hypothesis import Hypothesis
 from heartfit.discovery.promise import Promise, promise
+from heartfit.discovery.rules import Rules
 
 Combined = Callable[[Effects], Hypothesis]
 """The hypothesis of two effects by their names."""
 
 
 def pairs_of(
-    bench: Bench, singles: Sequence[Explanation], combined: Combined, fitted: Sequence[int], least: float
+    bench: Bench, singles: Sequence[Explanation], combined: Combined, rules: Rules
 ) -> list[Explanation]:
-    """Pairs fitted: up to ``fitted[i]`` with the i-th single effect, each of which promises ``least`` ln Z more."""
-    names = [each.effects[0] for each in singles]
-    pairs: dict[Effects, Explanation] = {}
-    for single, count in zip(singles, fitted, strict=False):
-        both = [_sorted(single.effects[0], name) for name in names if name not in single.effects]
-        promises = [promise(bench, single, combined(each)) for each in both if each not in pairs]
-        best = [
-            each
-            for each in promises
-            if each is not None and each.log_evidence > singles[0].log_evidence + least
-        ]
-        found = [each.kept(bench) for each in sorted(best, key=_falling)[:count]]
-        pairs |= {each.effects: each for each in found if each is not None}
-    return list(pairs.values())
+    """The pairs fitted: of all with one of the best single effects those that promise most over the best of them."""
+    promised = _promised(bench, singles, combined, rules.partners)
+    least = singles[0].log_evidence + rules.promising
+    best = sorted((each for each in promised if each.log_evidence > least), key=_falling)[: rules.pairs]
+    found = [each.kept(bench) for each in best]
+    return [each for each in found if each is not None]
+
+
+def _promised(
+    bench: Bench, singles: Sequence[Explanation], combined: Combined, partners: int
+) -> list[Promise]:
+    """What each pair promises from the better of its effects."""
+    found: dict[Effects, Promise | None] = {}
+    for single in singles[:partners]:
+        others = [each.effects[0] for each in singles if each is not single]
+        both = [_sorted(single.effects[0], other) for other in others]
+        found |= {each: promise(bench, single, combined(each)) for each in both if each not in found}
+    return [each for each in found.values() if each is not None]
 
 
 def _sorted(one: str, other: str) -> Effects:

@@ -56,9 +56,8 @@ def decide(evidences: Evidences, rules: Rules = RULES) -> Decision:
     """What the evidences say under the rules."""
     if not detected(evidences, rules):
         return Decision(Verdict.NONE)
-    if _two(evidences, rules):
-        near = _near(evidences.pairs, evidences.pair, rules)
-        return Decision(Verdict.TWO, evidences.pair, near)
+    if _more_than_one(evidences, rules):
+        return _of_two(evidences, rules)
     if not named(evidences, rules):
         return Decision(Verdict.UNKNOWN)
     near = _near(evidences.singles, evidences.single, rules)
@@ -88,12 +87,17 @@ def named(evidences: Evidences, rules: Rules = RULES) -> bool:
     return gain >= rules.detected and margin >= rules.rival and small
 
 
-def _two(evidences: Evidences, rules: Rules) -> bool:
-    if not evidences.pair:
-        return False
-    pair = evidences.pairs[evidences.pair]
-    adds = pair - evidences.singles[evidences.single]
-    return adds >= rules.second and evidences.on_top[evidences.pair] - pair < rules.on_top
+def _more_than_one(evidences: Evidences, rules: Rules) -> bool:
+    best = evidences.singles[evidences.single]
+    return bool(evidences.pair) and evidences.pairs[evidences.pair] - best >= rules.second
+
+
+def _of_two(evidences: Evidences, rules: Rules) -> Decision:
+    """Two effects, if they explain all; else neither they nor the best single one are named."""
+    pair = evidences.pair
+    if evidences.on_top[pair] - evidences.pairs[pair] >= rules.on_top:
+        return Decision(Verdict.UNKNOWN)
+    return Decision(Verdict.TWO, pair, _near(evidences.pairs, pair, rules))
 
 
 def _near(table: Mapping[Effects, float], best: Effects, rules: Rules) -> tuple[Effects, ...]:

@@ -20,11 +20,12 @@ class Rules:
     on_top: the largest gain of a Gaussian process on top of the explanation that is named.
     strong, strong_share: an effect over the Gaussian process by ``strong`` is named although one on top of it gains,
         if that is at most ``strong_share`` of what the effect gains: a strong effect shows a small error of its model.
-    second: a pair over its better effect; at 3, one in twenty single effects is given a false companion.
+    second: a pair over the best single effect, which then is not the whole answer; at 3, one in twenty single effects
+        is given a false companion.
     group: effects whose evidence is so near to the best are not told apart (Kass and Raftery's "positive").
     polished, polish: the best so many effects start again from these amplitudes before "unknown" is said.
-    companions, promising: how many second effects are fitted beside the best and the next single one, if the linear
-        model promises so much from both.
+    partners, pairs, promising: beside how many of the best single effects a second one is tried, how many pairs are
+        fitted at most, and what the linear model must promise from both over the better.
     """
 
     detected: float = 5.0
@@ -39,7 +40,8 @@ class Rules:
     group: float = 3.0
     polished: int = 6
     polish: tuple[float, ...] = (0.7, 2.0)
-    companions: tuple[int, ...] = (3, 1)
+    partners: int = 4
+    pairs: int = 6
     promising: float = 2.0
 
 

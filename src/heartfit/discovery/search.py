@@ -74,5 +74,4 @@ def _complete(bench: Bench, survey: Survey, combined: Combined, rules: Rules) ->
         return survey
     if not named(evidences, rules):
         survey = polished(bench, survey, rules)
-    pairs = pairs_of(bench, survey.singles, combined, rules.companions, rules.promising)
-    return replace(survey, pairs=ranked(pairs))
+    return replace(survey, pairs=ranked(pairs_of(bench, survey.singles, combined, rules)))
