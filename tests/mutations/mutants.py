@@ -7,6 +7,7 @@ BODY, BCS = f"{MECHANICS}/test_body.py", f"{MECHANICS}/test_bcs.py"
 MOONEY, EXPONENTIAL = f"{MECHANICS}/test_mooney_rivlin.py", f"{MECHANICS}/test_guccione.py"
 SPHERE, TIME = f"{MECHANICS}/test_sphere.py", f"{MECHANICS}/test_time_step.py"
 COMPILED = "tests/sphere/test_simulation.py"
+MUSCLE = "tests/test_mechanisms.py::test_muscle_that_is_switched_off_is_the_same_muscle"
 CAVITY, EIKONAL = "tests/geometry/test_cavity.py", "tests/electrophysiology/test_eikonal.py"
 UNSCENTED, UPDATE = "tests/calibration/test_unscented.py", "tests/calibration/test_update.py"
 
@@ -300,5 +301,34 @@ MUTANTS = (
             "covariance = prior.covariance - (gain",
             "covariance = prior.covariance - 0.0 * (gain",
         ),
+    ),
+    *_in(
+        "mechanics/passive/stiffened.py",
+        f"{MECHANICS}/test_stiffened.py",
+        ("an added energy not isochoric", "(A[i] - third * Ci[i])", "A[i]"),
+        ("an added tangent without curvature", "b * slope[i] * slope[j] + a * bent", "a * bent"),
+        ("a sphere's stiffening forgets its own bend", " + first * curve", ""),
+    ),
+    *_in(
+        "electrophysiology/control.py",
+        "tests/electrophysiology/test_control.py",
+        ("a tail from the activation on", "np.maximum(each - self.duration, 0.0)", "each"),
+        ("a tail hastens", "rate = rate - self.k_RS", "rate = rate + self.k_RS"),
+    ),
+    *_in(
+        "mechanics/body.py",
+        MUSCLE,
+        ("nothing is late on a mesh", "tissue.delays()[reference.segments]", "0.0 * reference.segments"),
+        ("nothing is scarred on a mesh", "1.0 - tissue.losses()", "1.0 - 0.0 * tissue.losses()"),
+    ),
+    *_in(
+        "sphere/step.py",
+        MUSCLE,
+        ("nothing is scarred in a compiled beat", "fibres[at.KEPT, i] * available(", "1.0 * available("),
+    ),
+    *_in(
+        "geometry/territory.py",
+        "tests/geometry/test_territory.py",
+        ("a territory does not fade", "(_reach(away, share) - away) / BORDER", "_reach(away, share) - away"),
     ),
 )
