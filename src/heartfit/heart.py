@@ -8,7 +8,7 @@ from typing import Any
 
 from heartfit.circulation.network import Circulation
 from heartfit.mechanics.tissue import Tissue
-from heartfit.mechanism import Amendment, Mechanism, Sensor
+from heartfit.mechanism import Mechanism, Sensor
 from heartfit.mechanisms.atrial_kick import AtrialKick
 from heartfit.parameter import values_of
 
@@ -42,13 +42,7 @@ class Heart:
     @property
     def muscle(self) -> Tissue:
         """The tissue with what the mechanisms make of it: what the ventricles are made of."""
-        heart = self
-        for each in self.mechanisms:
-            if isinstance(each, Amendment):
-                path = f"tissue.{each.amends}"
-                amended = each.amended(heart.parameters()[path], self.period)
-                heart = heart.with_parameters({path: amended})
-        return heart.tissue.under(self.mechanisms)
+        return self.tissue.under(self.mechanisms, self.period)
 
     @property
     def sensors(self) -> tuple[Sensor, ...]:

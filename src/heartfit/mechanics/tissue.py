@@ -1,7 +1,9 @@
 """The slots of the wall, and what mechanisms make of them."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +15,7 @@ from heartfit.mechanics.passive.law import Passive
 from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
 from heartfit.mechanics.passive.stiffened import Stiffened
 from heartfit.mechanics.support import Support
-from heartfit.mechanism import Availability, Delay, Mechanism, Relaxation, Stress
+from heartfit.mechanism import Amendment, Availability, Delay, Mechanism, Relaxation, Stress
 
 
 @dataclass(frozen=True)
@@ -39,8 +41,14 @@ class Tissue:
         each_kept = (1.0 - each.lost() for each in self.regional if isinstance(each, Availability))
         return 1.0 - np.prod([*each_kept, np.ones(REGIONS)], axis=0)
 
-    def under(self, mechanisms: Sequence[Mechanism]) -> "Tissue":
-        """The tissue with the stresses, tails and regional differences among ``mechanisms``."""
+    def under(self, mechanisms: Sequence[Mechanism], period: float) -> "Tissue":
+        """The tissue with constants, stresses, tails and regions as ``mechanisms`` make them at a ``period``, s."""
+        amended = self
+        for each in (m for m in mechanisms if isinstance(m, Amendment)):
+            amended = _amended(amended, each.amends.split("."), partial(each.amended, period=period))
+        return amended._with_parts(mechanisms)
+
+    def _with_parts(self, mechanisms: Sequence[Mechanism]) -> "Tissue":
         stresses = tuple(m for m in mechanisms if isinstance(m, Stress))
         tails = tuple(m for m in mechanisms if isinstance(m, Relaxation))
         regional = tuple(m for m in mechanisms if isinstance(m, Availability | Delay))
@@ -50,3 +58,10 @@ class Tissue:
             control=replace(self.control, tails=tails) if tails else self.control,
             regional=regional,
         )
+
+
+def _amended(part: Any, path: Sequence[str], amend: Callable[[float], float]) -> Any:
+    """The part with the constant at the end of the ``path`` amended."""
+    name, *rest = path
+    held = getattr(part, name)
+    return replace(part, **{name: _amended(held, rest, amend) if rest else amend(held)})
