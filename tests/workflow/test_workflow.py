@@ -158,4 +158,4 @@ def test_answers_are_read_by_the_scorer_only(workflow):
     assert run.returncode == 0, run.stdout
     assert readers(run.stdout, "/sealed/") == set(targets)
     assert readers(run.stdout, "/measured/") == {"diagnose_planted"}
-    assert counts["plant_effects"] == counts["diagnose_planted"] == 3
+    assert counts["plant_effects"] == counts["diagnose_planted"] == 2
