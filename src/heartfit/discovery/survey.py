@@ -66,19 +66,30 @@ def _from_none(bench: Bench, base: Explanation, hypothesis: Hypothesis) -> Expla
     """An effect fitted from where none ended, which it may not end above, with none's slopes of what both share."""
     promised, shared = promise(bench, base, hypothesis), base.fit.x.size
     found = None if promised is None else promised.kept(bench, shared)
-    if promised is None or found is None or found.fit.objective <= base.fit.objective + ABOVE:
+    if promised is None or found is None or _nested(found, base):
         return found
     start = hypothesis.at(0.0)
     start[:shared] = base.fit.x
     return bench.better(found, start, promised.slopes, shared)
 
 
+def _nested(single: Explanation, none: Explanation) -> bool:
+    return single.fit.objective <= none.fit.objective + ABOVE
+
+
 def _again(bench: Bench, survey: Survey, centre: Explanation, rules: Rules) -> Survey:
-    """The best effects with fresh slopes, the best of these from the centre, and none from what explains most."""
+    """The best effects with fresh slopes, the best of these from the centre, and none from what explains most.
+
+    Where none comes to fit better than an effect, that one follows.
+    """
     settled = ranked(_settled(bench, each) for each in survey.singles[: rules.settled])
     best = [_from_centre(bench, centre, each) for each in settled[: rules.centred]]
     singles = ranked([*best, *settled[rules.centred :], *survey.singles[rules.settled :]])
-    return replace(survey, singles=singles, none=_none_again(bench, survey.none, singles[0]))
+    none = _none_again(bench, survey.none, singles[0])
+    followed = [
+        each if _nested(each, none) else _from_none(bench, none, each.fit.hypothesis) for each in singles
+    ]
+    return replace(survey, singles=ranked(each for each in followed if each is not None), none=none)
 
 
 def _settled(bench: Bench, near: Explanation) -> Explanation:
