@@ -30,7 +30,7 @@ from heartfit.sphere.heart import Inertia
 FOLLOWED = {"lv_volume": 0.7e-6, "lv_pressure": 100.0}
 """Root mean square error, m^3 and Pa, beyond which the sphere does not follow the beat."""
 WALL = 0.3
-CONSTANTS = {"c_2": 0.5, "E_s": 0.5, "circulation.aortic.open": 0.5}
+CONSTANTS = {"c_2": 0.5, "E_s": 0.5}
 """Standard deviations of the logarithms."""
 SOFTER = 0.6
 """Contractility of a sphere over that of a mesh: all its fibres pull in its plane."""
