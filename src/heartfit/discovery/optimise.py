@@ -14,7 +14,7 @@ from heartfit.discovery.whitening import Whitening
 from heartfit.geometry.arrays import Floats
 
 LIMIT = 400
-"""Simulations after which a fit is given up: twice what the slowest of those that converge take."""
+"""Simulations after which a fit is given up: four times what most of those that converge take."""
 
 
 @dataclass(frozen=True, eq=False)
