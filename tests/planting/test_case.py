@@ -42,6 +42,15 @@ def test_a_second_condition_is_the_same_heart_fuller():
     assert fuller > rest
 
 
+def test_a_pressure_that_no_reader_takes_is_drawn_anew(monkeypatch):
+    calm = plant(Plan(8, "none"))
+    lowest = values(calm, "lv_pressure").min()
+    monkeypatch.setattr(cases, "PRESSURES", (lowest + 1.0, 40e3))
+    again = plant(Plan(8, "none"))
+    assert again.answer.rejected["recorded pressure"] >= 1
+    assert values(again, "lv_pressure").min() > lowest
+
+
 @pytest.mark.parametrize("name", plantable())
 def test_every_mechanism_of_the_registry_can_be_planted(name):
     effect = draw_effect(plantable()[name], 2.0, np.random.default_rng(0))

@@ -8,7 +8,7 @@ import numpy as np
 
 from heartfit.beat import Beat
 from heartfit.mechanism import Mechanism
-from heartfit.observation.curve import Curve
+from heartfit.observation.curve import PRESSURES, Curve
 from heartfit.planting.campaign import Kind, Plan
 from heartfit.planting.effects import Effect, Inadmissible, described, draw_effect, plantable
 from heartfit.planting.hidden import NUMERICS, HiddenHeart, draw_hidden
@@ -68,10 +68,20 @@ def _planted(
     loads = {REST: 1.0} | ({"preload": float(rng.uniform(*PRELOAD))} if second_condition else {})
     beats = {name: _plausible(hidden.loaded(factor)) for name, factor in loads.items()}
     curves = {name: measured(beat, hidden.heart.sensors, study, rng) for name, beat in beats.items()}
+    _require_recordable(curves)
     answer = Answer(
         plan.seed, plan.kind, described(planted, plan.scales), dict(rejected), healthy.deviates, study.noise
     )
     return PlantedCase(curves, answer)
+
+
+def _require_recordable(curves: Mapping[str, Mapping[str, Curve]]) -> None:
+    """Raises Inadmissible for a pressure that no reader takes for one: an offset catheter in a heart that sucks."""
+    low, high = PRESSURES
+    for recorded in curves.values():
+        pressure = recorded["lv_pressure"].values
+        if not (low <= pressure.min() and pressure.max() <= high):
+            raise Inadmissible("recorded pressure")
 
 
 def _classes(plan: Plan) -> list[type[Mechanism]]:
