@@ -156,6 +156,7 @@ def test_answers_are_read_by_the_scorer_only(workflow):
     run = workflow.snakemake("-n", *targets, "--config", "discovery_benchmark={cases: 8}")
     counts = job_counts(run.stdout)
     assert run.returncode == 0, run.stdout
-    assert readers(run.stdout, "/sealed/") == set(targets)
-    assert readers(run.stdout, "/measured/") == {"diagnose_planted"}
+    assert readers(run.stdout, "/sealed/") == {*targets, "discovery_ventricles", "check_ventricles"}
+    assert readers(run.stdout, "/measured/") == {"diagnose_planted", "diagnose_ventricles"}
     assert counts["plant_effects"] == counts["diagnose_planted"] == 2
+    assert counts["plant_ventricles"] == counts["diagnose_ventricles"] == 26

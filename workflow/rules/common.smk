@@ -80,6 +80,8 @@ TABLES = ["table1", "cards", "specificity", "selection", *(f"sensitivity_{settin
 FRESH = range(ERROR.sequences, ERROR.sequences + ERROR.fresh)
 
 BATCHES = dict(enumerate(STUDY.discovery_benchmark.batches()))
+VENTRICLES = STUDY.discovery_benchmark.ventricles
+HIDDEN_IN_3D = dict(enumerate(VENTRICLES.plans()))
 
 
 wildcard_constraints:
@@ -94,6 +96,11 @@ wildcard_constraints:
 def batch_of(wildcards):
     """The cases of a batch of hidden effects."""
     return BATCHES[int(wildcards.batch)]
+
+
+def plan_of(wildcards):
+    """The case that is hidden in three dimensions."""
+    return HIDDEN_IN_3D[int(wildcards.number)]
 
 
 def code(script):

@@ -45,6 +45,7 @@ rule discovery_benchmark:
     input:
         findings=expand("<results>/discovery_benchmark/findings/{batch}.json", batch=BATCHES),
         sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=BATCHES),
+        ventricles=f"{VENTRICLES.page}/discovery_benchmark_3d.md",
     output:
         tables=expand("<results>/discovery_benchmark/{name}.csv", name=("rates", "mechanisms", "cases")),
         page=f"{STUDY.discovery_benchmark.page}/discovery_benchmark.md",
@@ -71,6 +72,7 @@ rule check_discovery:
         findings=expand("<results>/discovery_benchmark/findings/{batch}.json", batch=BATCHES),
         sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=BATCHES),
         claims=STUDY.discovery_benchmark.claims,
+        ventricles="<results>/discovery_benchmark/ventricles/checked.csv",
     output:
         "<results>/discovery_benchmark/checked.csv",
     log:

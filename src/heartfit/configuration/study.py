@@ -113,6 +113,11 @@ class Study(Strict):
         for name in self.discovery.settings:
             if name not in self.settings:
                 raise ValueError(f"discovery of {name!r}; known settings are {', '.join(self.settings)}")
+        searched = self.discovery_benchmark.ventricles.setting
+        if searched not in self.settings:
+            known = ", ".join(self.settings)
+            raise ValueError(f"discovery_benchmark of {searched!r}; known settings are {known}")
+        self.centre()
         self.sphere_study.setting.seeing_pressure().with_prior(self.prior)
         for name in self.registration_error.acquisitions():
             self._acquisition(name)
@@ -123,6 +128,13 @@ class Study(Strict):
         setting = self.settings[name]
         seen = setting.seeing_pressure() if case is not None and case.catheter else setting
         return seen.with_prior(self.prior)
+
+    def centre(self) -> Setting:
+        """The setting of the beat on which a sphere is centred that searches for what is hidden in 3-D."""
+        given = self.discovery_benchmark.ventricles
+        setting = self.settings[given.setting].model_dump()
+        changed = setting | {"heart": {**setting["heart"], **given.heart}}
+        return Setting.model_validate(changed).with_prior(self.prior)
 
     def estimated(self) -> dict[str, tuple[tuple[str, ...], tuple[str, ...]]]:
         """By setting, what is estimated from volume alone and from volume and pressure."""
@@ -172,6 +184,8 @@ class Study(Strict):
             "generator": self.cohort.mesh,
             "calibrator": self.virtual_mesh,
             "registration_error": self.registration_error.mesh,
+            "planted": self.discovery_benchmark.ventricles.generator.mesh,
+            "diagnoser": self.discovery_benchmark.ventricles.diagnoser.mesh,
         }
 
     def sigma_points(self, name: str, case: Case) -> Sequence[int]:

@@ -1,8 +1,9 @@
 """A planted case: what is measured of a hidden heart, and the answer, apart."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from heartfit.mechanism import Mechanism
 from heartfit.observation.curve import PRESSURES, Curve
 from heartfit.planting.campaign import Kind, Plan
 from heartfit.planting.effects import Effect, Inadmissible, described, draw_effect, plantable
-from heartfit.planting.hidden import NUMERICS, HiddenHeart, draw_hidden
+from heartfit.planting.hidden import NUMERICS, draw_hidden
 from heartfit.planting.measuring import Study, measured
 from heartfit.planting.outsiders import OUTSIDERS
 
@@ -21,6 +22,8 @@ PRELOAD = (1.3, 1.6)
 """Resting atrial pressure of the second condition over that of the first: raised legs."""
 REST = "rest"
 ATTEMPTS = 200
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -48,34 +51,37 @@ def plant(plan: Plan, second_condition: bool = False) -> PlantedCase:
 
     Conditions are "rest" and, where asked for, "preload" with fuller atria. Raises RuntimeError after 200 draws.
     """
+    return redrawn(plan.seed, lambda rng, rejected: _planted(plan, rng, second_condition, rejected))
+
+
+def redrawn(seed: int, draw: Callable[[np.random.Generator, Mapping[str, int]], T]) -> T:
+    """The first draw that is admissible; it is told how many were not, and why. Raises RuntimeError after 200."""
     rejected: Counter[str] = Counter()
     for attempt in range(ATTEMPTS):
         try:
-            return _planted(plan, np.random.default_rng([plan.seed, attempt]), second_condition, rejected)
+            return draw(np.random.default_rng([seed, attempt]), rejected)
         except Inadmissible as refused:
             rejected[str(refused)] += 1
-    raise RuntimeError(
-        f"seed {plan.seed}: {ATTEMPTS} draws were refused, {dict(rejected)}: choose another one"
-    )
+    raise RuntimeError(f"seed {seed}: {ATTEMPTS} draws were refused, {dict(rejected)}: choose another one")
 
 
 def _planted(
     plan: Plan, rng: np.random.Generator, second_condition: bool, rejected: Mapping[str, int]
 ) -> PlantedCase:
     healthy, study = draw_hidden(rng), Study.draw(rng)
-    planted = [draw_effect(cls, plan.scales, rng) for cls in _classes(plan)]
+    planted = drawn_effects(plan, rng)
     hidden = healthy.with_effects(planted)
     loads = {REST: 1.0} | ({"preload": float(rng.uniform(*PRELOAD))} if second_condition else {})
-    beats = {name: _plausible(hidden.loaded(factor)) for name, factor in loads.items()}
+    beats = {name: plausible(hidden.loaded(factor).beat(), NUMERICS.drift) for name, factor in loads.items()}
     curves = {name: measured(beat, hidden.heart.sensors, study, rng) for name, beat in beats.items()}
-    _require_recordable(curves)
+    require_recordable(curves)
     answer = Answer(
         plan.seed, plan.kind, described(planted, plan.scales), dict(rejected), healthy.deviates, study.noise
     )
     return PlantedCase(curves, answer)
 
 
-def _require_recordable(curves: Mapping[str, Mapping[str, Curve]]) -> None:
+def require_recordable(curves: Mapping[str, Mapping[str, Curve]]) -> None:
     """Raises Inadmissible for a pressure that no reader takes for one: an offset catheter in a heart that sucks."""
     low, high = PRESSURES
     for recorded in curves.values():
@@ -84,18 +90,18 @@ def _require_recordable(curves: Mapping[str, Mapping[str, Curve]]) -> None:
             raise Inadmissible("recorded pressure")
 
 
-def _classes(plan: Plan) -> list[type[Mechanism]]:
+def drawn_effects(plan: Plan, rng: np.random.Generator) -> list[Mechanism]:
+    """What the plan names, of its size."""
     outside = {cls.__name__: cls for cls in OUTSIDERS}
     known = outside if plan.kind == "outside" else plantable()
-    return [known[name] for name in plan.names]
+    return [draw_effect(known[name], plan.scales, rng) for name in plan.names]
 
 
-def _plausible(hidden: HiddenHeart) -> Beat:
-    """The beat; raises Inadmissible with the reason for one that no patient resembles."""
-    beat = hidden.beat()
+def plausible(beat: Beat, drift: float) -> Beat:
+    """The beat; raises Inadmissible with the reason for one that no patient resembles or that drifts more."""
     if not beat.completed:
         raise Inadmissible("no beat")
-    if beat.diagnostics["drift"] > NUMERICS.drift:
+    if beat.diagnostics["drift"] > drift:
         raise Inadmissible("not periodic")
     volume, pressure = beat.volume["lv"], beat.pressure["lv"]
     seen = {

@@ -86,14 +86,10 @@ class HiddenHeart:
 
 def draw_hidden(rng: np.random.Generator) -> HiddenHeart:
     """A heart without any effect."""
-    normal = _Normal(rng)
+    normal = Normal(rng)
     deviates = {name: normal() for name in (*RELATIVE, *TIMES, "cavity", "mitral resistance")}
     size, period = normal.factor(SIZE), PERIOD[0] + PERIOD[1] * normal()
-    heart = _deviating(_average(size, period), deviates)
-    mitral = normal.factor(AREA) * np.exp(-0.5 * RESISTANCE * deviates["mitral resistance"])
-    heart = _scaled(
-        heart, {"circulation.mitral.area": mitral, "circulation.aortic.area": normal.factor(AREA)}
-    )
+    heart = deviating(_average(size, period), deviates, normal)
     cavity = size * CAVITY * np.exp(FILLED * deviates["cavity"])
     sphere = Sphere.of(cavity, size * WALL * normal.factor(AMOUNT))
     inertances = tuple((name, each / size * normal.factor(INERTANCE)) for name, each in INERTANCES.items())
@@ -101,7 +97,7 @@ def draw_hidden(rng: np.random.Generator) -> HiddenHeart:
     return HiddenHeart(heart, sphere, ACTIVATION * normal.factor(SPREAD), inertia, deviates)
 
 
-class _Normal:
+class Normal:
     """Standard normal numbers, cut off."""
 
     def __init__(self, rng: np.random.Generator) -> None:
@@ -125,11 +121,14 @@ def _average(size: float, period: float) -> Heart:
     return _scaled(heart, smaller | larger | {"tissue.control.duration": np.sqrt(period / PERIOD[0])})
 
 
-def _deviating(heart: Heart, deviates: Mapping[str, float]) -> Heart:
+def deviating(heart: Heart, deviates: Mapping[str, float], normal: Normal) -> Heart:
+    """The heart with its parameters at these deviates, and valves that scatter besides."""
     heart = _scaled(heart, {name: np.exp(sd * deviates[name]) for name, sd in RELATIVE.items()})
     values = heart.parameters()
     times = {name: values[heart.path_of(name)] + sd * deviates[name] for name, sd in TIMES.items()}
-    return heart.with_parameters(times)
+    mitral = normal.factor(AREA) * np.exp(-0.5 * RESISTANCE * deviates["mitral resistance"])
+    areas = {"circulation.mitral.area": mitral, "circulation.aortic.area": normal.factor(AREA)}
+    return _scaled(heart.with_parameters(times), areas)
 
 
 def _scaled(heart: Heart, factors: Mapping[str, float]) -> Heart:

@@ -1,0 +1,67 @@
+"""Effects hidden in three dimensions: ventricles whose mesh, time step, valves and parameters are not the calibrator's.
+
+The beat is the cohort's, its parameters scatter as those of the hidden spheres, and volume and pressure are measured
+with the same errors. Size and rate come from the anatomy, which is drawn too.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from heartfit.cohort.draw_shape import draw_anatomy
+from heartfit.cohort.generate import Volunteer, VolunteerError, generate
+from heartfit.cohort.hidden_heart import OTHER_MODEL, VALVES
+from heartfit.cohort.protocol import Protocol
+from heartfit.cohort.template import Template
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart import Heart
+from heartfit.mechanics.body import StepFailed
+from heartfit.planting.campaign import Plan
+from heartfit.planting.case import REST, Answer, PlantedCase, drawn_effects, plausible, redrawn
+from heartfit.planting.effects import Inadmissible, described
+from heartfit.planting.hidden import RELATIVE, TIMES, Normal, deviating
+from heartfit.planting.measuring import Study, measured
+from heartfit.planting.outsiders import joined
+
+DEVIATES = (*RELATIVE, *TIMES, "mitral resistance")
+
+
+@dataclass(frozen=True, eq=False)
+class Ventricles:
+    """How such hearts are made: the mesh that is moved to each, values about which they scatter, and the protocol."""
+
+    template: Template
+    standard: Mapping[str, float]
+    protocol: Protocol
+
+    def plant(self, plan: Plan) -> tuple[VentricularMesh, PlantedCase]:
+        """The wall at end diastole, at the trigger, and the case; draws that no patient resembles are drawn anew."""
+        return redrawn(plan.seed, lambda rng, rejected: self._planted(plan, rng, rejected))
+
+    def _planted(
+        self, plan: Plan, rng: np.random.Generator, rejected: Mapping[str, int]
+    ) -> tuple[VentricularMesh, PlantedCase]:
+        anatomy, normal, study = draw_anatomy(int(rng.integers(2**31))), Normal(rng), Study.draw(rng)
+        deviates = {name: normal() for name in DEVIATES}
+        heart = deviating(self._average(anatomy.period), deviates, normal)
+        effects = drawn_effects(plan, rng)
+        for effect in effects:
+            heart = joined(heart, effect)
+        volunteer = self._beating(self.template.shaped(anatomy.shape), heart)
+        curves = {REST: measured(volunteer.beat, heart.sensors, study, rng)}
+        planted = described(effects, plan.scales)
+        answer = Answer(plan.seed, plan.kind, planted, dict(rejected), deviates, study.noise)
+        return volunteer.mesh, PlantedCase(curves, answer)
+
+    def _average(self, period: float) -> Heart:
+        """The heart about which those of this period, s, scatter."""
+        return Heart(circulation=VALVES, period=period).with_parameters({**self.standard, **OTHER_MODEL})
+
+    def _beating(self, wall: VentricularMesh, heart: Heart) -> Volunteer:
+        try:
+            volunteer = generate(wall, (heart, {}), self.protocol)
+        except (VolunteerError, StepFailed):
+            raise Inadmissible("no beat") from None
+        plausible(volunteer.beat, self.protocol.numerics.drift)
+        return volunteer

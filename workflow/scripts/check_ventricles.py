@@ -1,0 +1,13 @@
+"""Hold what was said of effects hidden in 3-D to what is claimed of it; fails with every claim that is refuted."""
+
+from pathlib import Path
+
+from heartfit.io.log import record
+from heartfit.io.scores import read_scored
+from heartfit.io.tables import read_tolerances, write_table
+from heartfit.tables.planted_claims import require_claims
+
+record(snakemake.log[0])
+scored = read_scored(snakemake.input.findings, snakemake.input.sealed)
+claims = read_tolerances(Path(snakemake.input.claims))
+write_table(Path(snakemake.output[0]), require_claims(scored, claims))
