@@ -48,6 +48,3 @@ class Rules:
 RULES = Rules()
 STRICT = Rules(detected=10.0)
 """For a model that differs in structure from what made the data and is not centred on it."""
-CENTRED = Rules(detected=7.0)
-"""For one that is centred on a single beat of the simulator: of 26 hearts without an effect in three dimensions one
-reached 6.5."""

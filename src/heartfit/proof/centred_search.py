@@ -6,16 +6,14 @@ from heartfit.diagnosis.cause import Diagnosis
 from heartfit.diagnosis.diagnose import diagnose
 from heartfit.diagnosis.recentred import recentred
 from heartfit.diagnosis.recording import Recording
-from heartfit.discovery.rules import RULES, STRICT, Rules
+from heartfit.discovery.rules import RULES, STRICT
 from heartfit.errors import InputError
 from heartfit.heart import Heart
 from heartfit.observation.curve import Curve
 
 
-def centred_search(
-    recording: Recording, heart: Heart, beat: Mapping[str, Curve], rules: Rules = RULES
-) -> Diagnosis:
-    """The diagnosis of a recording by the rules, the sphere centred on a ``beat`` of the ``heart``.
+def centred_search(recording: Recording, heart: Heart, beat: Mapping[str, Curve]) -> Diagnosis:
+    """The diagnosis of a recording, the sphere centred on a ``beat`` of the ``heart``.
 
     Where the sphere cannot follow that beat it stays that of any adult, and the threshold of a detection is raised.
     """
@@ -23,4 +21,4 @@ def centred_search(
         centre = recentred(heart, beat, recording.searched)
     except InputError:
         return diagnose(recording, rules=STRICT)
-    return diagnose(recording, centre=centre, rules=rules)
+    return diagnose(recording, centre=centre, rules=RULES)
