@@ -14,13 +14,19 @@ from heartfit.cohort.generate import Volunteer, VolunteerError, generate
 from heartfit.cohort.hidden_heart import OTHER_MODEL, VALVES
 from heartfit.cohort.protocol import Protocol
 from heartfit.cohort.template import Template
-from heartfit.errors import InputError
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart import Heart
 from heartfit.mechanics.body import StepFailed
-from heartfit.observation.curve import Curve, require_pressures
 from heartfit.planting.campaign import Plan
-from heartfit.planting.case import REST, Answer, PlantedCase, drawn_effects, plausible, redrawn
+from heartfit.planting.case import (
+    REST,
+    Answer,
+    PlantedCase,
+    drawn_effects,
+    plausible,
+    redrawn,
+    require_recordable,
+)
 from heartfit.planting.effects import Inadmissible, described
 from heartfit.planting.hidden import RELATIVE, TIMES, Normal, deviating
 from heartfit.planting.measuring import Study, measured
@@ -51,10 +57,11 @@ class Ventricles:
         for effect in effects:
             heart = joined(heart, effect)
         volunteer = self._beating(self.template.shaped(anatomy.shape), heart)
-        curves = _recordable(measured(volunteer.beat, heart.sensors, study, rng))
+        curves = {REST: measured(volunteer.beat, heart.sensors, study, rng)}
+        require_recordable(curves)
         planted = described(effects, plan.scales)
         answer = Answer(plan.seed, plan.kind, planted, dict(rejected), deviates, study.noise)
-        return volunteer.mesh, PlantedCase({REST: curves}, answer)
+        return volunteer.mesh, PlantedCase(curves, answer)
 
     def _average(self, period: float) -> Heart:
         """The heart about which those of this period, s, scatter."""
@@ -67,12 +74,3 @@ class Ventricles:
             raise Inadmissible("no beat") from None
         plausible(volunteer.beat, self.protocol.numerics.drift)
         return volunteer
-
-
-def _recordable(curves: dict[str, Curve]) -> dict[str, Curve]:
-    """The curves; raises Inadmissible for what is no recording, as of a line that rings too much."""
-    try:
-        require_pressures(curves["lv_pressure"].values)
-    except InputError:
-        raise Inadmissible("pressure") from None
-    return curves
