@@ -21,15 +21,15 @@ CASES = [scored(7, (), "none"), scored(8, ("Leak",), "named", ("Leak",)), scored
 
 
 def test_the_page_tells_cases_seeds_and_amplitudes():
-    page = ventricles_page(CASES)
-    assert "3 biventricular hearts" in page
+    page = ventricles_page(CASES, 26)
+    assert "3 biventricular hearts, of 26 planned" in page
     assert "(7 to 9)" in page
     assert "0.75 of the planted one" in page
     assert "in 1 of 1" in page
 
 
 def test_without_a_right_name_there_is_no_amplitude():
-    assert "none to compare" in ventricles_page(CASES[:1])
+    assert "none to compare" in ventricles_page(CASES[:1], 1)
 
 
 def test_it_is_drawn(tmp_path):

@@ -78,6 +78,7 @@ rule discovery_ventricles:
         mem_mb=500,
         runtime=5,
     params:
+        planned=len(HIDDEN_IN_3D),
         code=code("discovery_ventricles.py"),
     script:
         "../scripts/discovery_ventricles.py"

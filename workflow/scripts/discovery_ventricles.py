@@ -15,5 +15,5 @@ out = snakemake.output
 scored = read_scored(snakemake.input.findings, snakemake.input.sealed)
 tables = {"rates": rates_table(scored), "mechanisms": mechanisms_table(scored), "cases": cases_table(scored)}
 write_tables(Path(out.tables[0]).parent, tables)
-write_text(Path(out.page), ventricles_page(scored))
+write_text(Path(out.page), ventricles_page(scored, snakemake.params.planned))
 write_figure(Path(out.figure), plot_ventricles(scored))

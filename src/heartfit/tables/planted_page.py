@@ -13,7 +13,8 @@ PAGE = """# Hidden effects: how often their cause is found
 Written by `snakemake --cores 2 discovery_benchmark`. {cases} hearts that are not the diagnoser's model, in which
 nothing, one mechanism of the library, two, or an effect from outside it was hidden by a seed ({seeds}); the thresholds
 were tuned on seeds below 1000. The answers were sealed in files that the diagnosis is not given and opened afterwards.
-How the search works: [discovery.md](discovery.md). {planned}
+How the search works: [discovery.md](discovery.md); hidden in 3-D:
+[discovery_benchmark_3d.md](discovery_benchmark_3d.md). {planned}
 
 ## What is hidden, and in what
 

@@ -29,6 +29,7 @@ def plot_ventricles(scored: Sequence[Scored]) -> Figure:
     axes.set_yticks(range(len(rows)), rows, fontsize=9)
     axes.invert_yaxis()
     axes.set_xscale("symlog", linthresh=10.0)
+    axes.set_xlim(-3.0, 1000.0)
     axes.set_xticks([0, 5, 10, 100, 1000], ["0", "5", "10", "100", "1000"])
     axes.set_xlabel("largest ln Bayes factor over none; dotted: least to be detected")
     axes.grid(axis="y", color="0.93")
