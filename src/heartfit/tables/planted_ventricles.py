@@ -12,8 +12,9 @@ from heartfit.tables.text import to_markdown
 PAGE = """# Hidden effects in three dimensions
 
 Written by `snakemake --cores 2 discovery_ventricles`; [the benchmark on spheres](discovery_benchmark.md) asks for this
-page too. {cases} biventricular hearts, of {planned} planned, in which nothing or one mechanism of the library was hidden
-by a seed ({seeds}); thresholds are tuned on seeds below 1000, and the answers were sealed until all verdicts were there.
+page too. {cases} biventricular hearts, of {planned} planned, in which nothing or one mechanism of the library was
+hidden by a seed ({seeds}); thresholds are tuned on seeds below 1000, and the answers were sealed until all verdicts
+were there.
 
 ## What is hidden, and in what
 
