@@ -15,7 +15,7 @@ from heartfit.discovery.explanation import Explanation
 from heartfit.discovery.forward import Counted
 from heartfit.discovery.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.optimise import fit
-from heartfit.discovery.rules import RULES, Rules
+from heartfit.discovery.rules import RULES
 from heartfit.discovery.search import search
 
 SEEDS = range(8)
@@ -91,7 +91,7 @@ def test_a_base_fit_in_a_side_minimum_is_found_out() -> None:
     data = oscillator.observed(bent(1.5), 0)
     alone = fit(Counted(none), data.values, Bench(data).whitening, np.zeros(1))
     idle = Hypothesis(("idle",), (frequency, Coordinate("idle", amplitude=True)), lambda x: bent(x[0]))
-    found = search(data, none, [lured, idle], oscillator.combined, Rules(centred=1))
+    found = search(data, none, [lured, idle], oscillator.combined)
     assert all(each.fit.objective <= found.survey.none.fit.objective + 0.05 for each in found.survey.singles)
     assert alone.objective - found.survey.none.fit.objective > RULES.detected
     assert found.decision.verdict == Verdict.NONE

@@ -126,7 +126,9 @@ class Case:
             else [],
             "unknown": list(self.findings.survey.singles[:2]),
         }.get(verdict, [])
-        return next_measurement(self.twin.centre, self.data, self.library, rivals) if rivals else ""
+        if len(rivals) < 2:
+            return ""
+        return next_measurement(self.twin.centre, self.data, self.library, rivals)
 
     def diagnosis(self, held_out: list[Predicted], withdrawn: tuple[str, ...]) -> Diagnosis:
         """The verdict after what was held out has been predicted."""

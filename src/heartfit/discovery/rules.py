@@ -15,7 +15,8 @@ class Rules:
     detected: best explanation over none, below which there is none; 5 where the model differs from the data's source by
         integrator, valves and roughness, about 10 where its structure does (see ``strict``).
     suspected: the same after the first round of fits, below which there is no second.
-    settled, centred: how many effects the second round takes, and how many of these start again from the centre.
+    switched: the amplitude with which every effect starts from the centre of the priors; from 1 a leak of 3 is missed.
+    settled: how many effects the second round takes.
     rival: the best single effect over the Gaussian process alone.
     on_top: the largest gain of a Gaussian process on top of the explanation that is named.
     strong, strong_share: an effect over the Gaussian process by ``strong`` is named although one on top of it gains,
@@ -30,8 +31,8 @@ class Rules:
 
     detected: float = 5.0
     suspected: float = 2.0
+    switched: float = 2.0
     settled: int = 8
-    centred: int = 3
     rival: float = 2.0
     on_top: float = 4.0
     strong: float = 10.0

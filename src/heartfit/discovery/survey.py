@@ -43,10 +43,10 @@ def ranked(explanations: Iterable[Explanation]) -> tuple[Explanation, ...]:
 
 
 def surveyed(bench: Bench, none: Hypothesis, singles: Sequence[Hypothesis], rules: Rules) -> Survey:
-    """None and every single effect, fitted from none; where anything is suspected, the best again from the centre.
+    """None and every single effect, fitted from none and from the centre; where anything is suspected, the best again.
 
     A weak effect hardly moves the fit without it, and the slopes there lead on. A strong one drags that fit to where
-    they no longer point at the cause: then effects start at the centre of the priors with their typical size.
+    they no longer point at the cause: so each effect starts at the centre of the priors too, strongly switched on.
     """
     centre = bench.linear(none, none.at(0.0))
     base = None if centre is None else bench.explain(none, centre.fit.x, centre.fit.jacobian)
@@ -54,12 +54,19 @@ def surveyed(bench: Bench, none: Hypothesis, singles: Sequence[Hypothesis], rule
         raise InputError(
             "search: the simulation at the centre of the priors fails; expected one to start from"
         )
-    found = {each.effects: _from_none(bench, base, each) for each in singles}
+    found = {each.effects: _found(bench, base, centre, each, rules) for each in singles}
     near = ranked(each for each in found.values() if each is not None)
     if not near:
         raise InputError("search: no effect has a simulation that is completed; expected one at least")
     survey = Survey(base, near, failed=tuple(name for name, each in found.items() if each is None))
-    return _again(bench, survey, centre, rules) if suspected(survey.evidences(bench.rival), rules) else survey
+    return _again(bench, survey, rules) if suspected(survey.evidences(bench.rival), rules) else survey
+
+
+def _found(
+    bench: Bench, base: Explanation, centre: Explanation, hypothesis: Hypothesis, rules: Rules
+) -> Explanation | None:
+    near = _from_none(bench, base, hypothesis)
+    return None if near is None else _from_centre(bench, centre, near, rules.switched)
 
 
 def _from_none(bench: Bench, base: Explanation, hypothesis: Hypothesis) -> Explanation | None:
@@ -77,14 +84,13 @@ def _nested(single: Explanation, none: Explanation) -> bool:
     return single.fit.objective <= none.fit.objective + ABOVE
 
 
-def _again(bench: Bench, survey: Survey, centre: Explanation, rules: Rules) -> Survey:
-    """The best effects with fresh slopes, the best of these from the centre, and none from what explains most.
+def _again(bench: Bench, survey: Survey, rules: Rules) -> Survey:
+    """The best effects with fresh slopes, and none from what explains most.
 
     Where none comes to fit better than an effect, that one follows.
     """
     settled = ranked(_settled(bench, each) for each in survey.singles[: rules.settled])
-    best = [_from_centre(bench, centre, each) for each in settled[: rules.centred]]
-    singles = ranked([*best, *settled[rules.centred :], *survey.singles[rules.settled :]])
+    singles = ranked([*settled, *survey.singles[rules.settled :]])
     none = _none_again(bench, survey.none, singles[0])
     followed = [
         each if _nested(each, none) else _from_none(bench, none, each.fit.hypothesis) for each in singles
@@ -96,10 +102,10 @@ def _settled(bench: Bench, near: Explanation) -> Explanation:
     return bench.explain(near.fit.hypothesis, near.fit.x, near.fit.jacobian) or near
 
 
-def _from_centre(bench: Bench, centre: Explanation, settled: Explanation) -> Explanation:
-    hypothesis = settled.fit.hypothesis
+def _from_centre(bench: Bench, centre: Explanation, near: Explanation, amplitude: float) -> Explanation:
+    hypothesis = near.fit.hypothesis
     promised = promise(bench, centre, hypothesis)
-    return bench.better(settled, hypothesis.at(1.0), None if promised is None else promised.slopes)
+    return bench.better(near, hypothesis.at(amplitude), None if promised is None else promised.slopes)
 
 
 def _none_again(bench: Bench, base: Explanation, best: Explanation) -> Explanation:

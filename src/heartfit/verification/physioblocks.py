@@ -119,10 +119,11 @@ def _mean(t: Floats, u: Floats, start: Floats, dt: float, period: float) -> Floa
 class AtrialWave(Pressure):
     """The case's atrial pressure, beside an atrium at rest of 0 Pa."""
 
+    compartments = ("left_atrium",)
     scale: float = parameter(1.0, unit="1", symbol="s", meaning="scale of the wave", off=0.0)
 
     def pressure(self, compartment: str, time: Floats, period: float) -> Floats:
-        share = self.scale if compartment == "left_atrium" else 0.0
+        share = self.scale if compartment in self.compartments else 0.0
         return share * np.interp(np.mod(time, period), *ATRIUM.T)
 
 
