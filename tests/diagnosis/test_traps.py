@@ -1,10 +1,10 @@
-"""Two ways to see an effect in a healthy heart, each beside the search that does not fall for it."""
+"""Two ways to see an effect in a healthy heart and one to miss it, each beside the search that does not fall for it."""
 
 from collections.abc import Sequence
 
 import numpy as np
 import pytest
-from tests.diagnosis.hearts import healthy
+from tests.diagnosis.hearts import healthy, recorded
 
 from heartfit.diagnosis.centre import HUMAN
 from heartfit.diagnosis.free import FREE
@@ -14,7 +14,9 @@ from heartfit.diagnosis.twin import Twin
 from heartfit.discovery.bench import Bench
 from heartfit.discovery.hypothesis import Hypothesis
 from heartfit.discovery.rules import RULES
+from heartfit.discovery.survey import _from_none, surveyed
 from heartfit.geometry.arrays import Floats
+from heartfit.planting.case import Plan
 
 CALIBRATED = ("cavity", "sigma_0", "mu", "c_1", "R_p", "k_RS", "k_ATP")
 SEEN = np.array([each.name.rsplit(".", 1)[-1] in CALIBRATED for each in FREE])
@@ -83,3 +85,17 @@ def chi_square(judge: Bench, predicted: Floats) -> float:
     parts = zip(judge.whitening.roots, levels, judge.whitening.rows, strict=True)
     white = np.concatenate([roots[level] @ residual[rows] for roots, level, rows in parts])
     return float(np.mean(white**2))
+
+
+def test_a_severe_leak_drags_the_fit_without_it_to_where_the_leak_is_not_seen():
+    """It is named all the same, for every effect starts from the centre of the priors as well."""
+    recording = recorded(Plan(301, "single", ("MitralRegurgitation",), 3.0))
+    data = data_of(recording)
+    twin = Twin(HUMAN.of_the_size_of(recording), {block.curve: block.times for block in data.blocks})
+    leak = hypothesis(twin, (candidates(twin)["MitralRegurgitation"],))
+    judge = Bench(data)
+    none = judge.explain(hypothesis(twin), hypothesis(twin).at(0.0))
+    dragged = _from_none(judge, none, leak)
+    survey = surveyed(judge, hypothesis(twin), [leak], RULES)
+    assert dragged.log_evidence - none.log_evidence < RULES.detected
+    assert survey.singles[0].log_evidence - survey.none.log_evidence > 3.0 * RULES.detected
