@@ -14,7 +14,7 @@ from heartfit.diagnosis.twin import Twin
 from heartfit.discovery.bench import Bench
 from heartfit.discovery.hypothesis import Hypothesis
 from heartfit.discovery.rules import RULES
-from heartfit.discovery.survey import _from_none, surveyed
+from heartfit.discovery.survey import from_none, surveyed
 from heartfit.geometry.arrays import Floats
 from heartfit.planting.case import Plan
 
@@ -95,7 +95,7 @@ def test_a_severe_leak_drags_the_fit_without_it_to_where_the_leak_is_not_seen():
     leak = hypothesis(twin, (candidates(twin)["MitralRegurgitation"],))
     judge = Bench(data)
     none = judge.explain(hypothesis(twin), hypothesis(twin).at(0.0))
-    dragged = _from_none(judge, none, leak)
+    dragged = from_none(judge, none, leak)
     survey = surveyed(judge, hypothesis(twin), [leak], RULES)
     assert dragged.log_evidence - none.log_evidence < RULES.detected
     assert survey.singles[0].log_evidence - survey.none.log_evidence > 3.0 * RULES.detected

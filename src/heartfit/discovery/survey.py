@@ -65,11 +65,11 @@ def surveyed(bench: Bench, none: Hypothesis, singles: Sequence[Hypothesis], rule
 def _found(
     bench: Bench, base: Explanation, centre: Explanation, hypothesis: Hypothesis, rules: Rules
 ) -> Explanation | None:
-    near = _from_none(bench, base, hypothesis)
+    near = from_none(bench, base, hypothesis)
     return None if near is None else _from_centre(bench, centre, near, rules.switched)
 
 
-def _from_none(bench: Bench, base: Explanation, hypothesis: Hypothesis) -> Explanation | None:
+def from_none(bench: Bench, base: Explanation, hypothesis: Hypothesis) -> Explanation | None:
     """An effect fitted from where none ended, which it may not end above, with none's slopes of what both share."""
     promised, shared = promise(bench, base, hypothesis), base.fit.x.size
     found = None if promised is None else promised.kept(bench, shared)
@@ -93,7 +93,7 @@ def _again(bench: Bench, survey: Survey, rules: Rules) -> Survey:
     singles = ranked([*settled, *survey.singles[rules.settled :]])
     none = _none_again(bench, survey.none, singles[0])
     followed = [
-        each if _nested(each, none) else _from_none(bench, none, each.fit.hypothesis) for each in singles
+        each if _nested(each, none) else from_none(bench, none, each.fit.hypothesis) for each in singles
     ]
     return replace(survey, singles=ranked(each for each in followed if each is not None), none=none)
 
