@@ -72,8 +72,9 @@ def test_the_other_template_refills_the_same_wall_with_other_nodes(
 
 
 def test_where_moving_spoils_it_the_wall_is_meshed_anew(template: Template) -> None:
-    points, (top, *foot) = template.mesh.points.copy(), template.mesh.tets[0]
-    points[top] = 0.05 * points[top] + 0.95 * points[foot].mean(axis=0)
+    points, tets = template.mesh.points.copy(), template.mesh.tets
+    top, *foot = tets[smallest_dihedral_angles(points, tets).argmin()]
+    points[top] = 0.01 * points[top] + 0.99 * points[foot].mean(axis=0)
     spoilt = replace(template, mesh=template.mesh.with_points(points))
     with pytest.warns(UserWarning, match=r"does not fit: smallest dihedral angle.*meshed anew"):
         mesh = spoilt.shaped(DILATED)
