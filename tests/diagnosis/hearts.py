@@ -1,5 +1,7 @@
 """Hearts of another model than the diagnoser's, as they are recorded."""
 
+from dataclasses import replace
+
 from heartfit.diagnosis.recording import Recording, Samples
 from heartfit.planting.case import Plan, plant
 
@@ -8,7 +10,7 @@ LEAK = Plan(1, "single", ("MitralRegurgitation",), 2.5)
 
 def recorded(plan: Plan, condition: str = "rest") -> Recording:
     """What is measured of a planted case."""
-    curves = plant(plan, second_condition=condition != "rest").curves[condition]
+    curves = plant(replace(plan, reloaded=condition != "rest")).curves[condition]
     samples = {name: Samples(curve.times, curve.values) for name, curve in curves.items()}
     return Recording(curves["lv_volume"].period, samples)
 

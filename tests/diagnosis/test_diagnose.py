@@ -15,7 +15,7 @@ pytestmark = pytest.mark.usefixtures("few_mechanisms")
 
 @pytest.fixture(scope="module")
 def found(few_mechanisms):
-    return diagnose(recorded(LEAK), {"legs raised": recorded(LEAK, "preload")})
+    return diagnose(recorded(LEAK), {"legs raised": recorded(LEAK, "legs_raised")})
 
 
 def test_a_planted_leak_is_named_and_its_interval_covers(found):

@@ -9,23 +9,23 @@ import pytest
 from heartfit.diagnosis.cause import Cause
 from heartfit.errors import InputError
 from heartfit.io.curves import read_curves
-from heartfit.io.findings import read_planted, write_findings
+from heartfit.io.findings import read_conditions_of, read_planted, write_findings
 from heartfit.io.fingerprint import PACKAGE, modules_below
 from heartfit.io.planted import open_seal, seal, write_planted
 from heartfit.io.recordings import MEASURED
 from heartfit.io.scores import read_scored
 from heartfit.planting.campaign import Plan
 from heartfit.planting.case import plant
-from heartfit.planting.trial import Finding
+from heartfit.planting.trial import VOLUME, Finding
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "scripts"
 
-CASE = plant(Plan(5, "single", ("CatheterOffset",), 2.0), second_condition=True)
+CASE = plant(Plan(5, "single", ("CatheterOffset",), 2.0, reloaded=True))
 
 
 def test_recording_and_answer_are_read_back(tmp_path):
     write_planted(CASE, tmp_path / "measured", tmp_path / "sealed")
-    assert {file.name for file in (tmp_path / "measured" / "5").iterdir()} == {MEASURED, "preload.csv"}
+    assert {file.name for file in (tmp_path / "measured" / "5").iterdir()} == {MEASURED, "legs_raised.csv"}
     curves = read_curves(tmp_path / "measured" / "5" / MEASURED)
     for name, curve in CASE.curves["rest"].items():
         assert curves[name].values == pytest.approx(curve.values)
@@ -58,7 +58,8 @@ def test_a_missing_answer_is_told_in_one_line(tmp_path):
 def test_findings_are_read_back_beside_their_answers(tmp_path):
     write_planted(CASE, tmp_path / "measured", tmp_path / "sealed")
     named = Cause("CatheterOffset", 7.5, 900.0, "Pa", (500.0, 1300.0))
-    finding = Finding("named", (named,), {"CatheterOffset": 7.5}, {"lv_pressure": 0.7}, 3000, 12.0)
+    less = {VOLUME: Finding("insufficient")}
+    finding = Finding("named", (named,), {"CatheterOffset": 7.5}, {"lv_pressure": 0.7}, 3000, 12.0, less)
     write_findings(tmp_path / "findings.json", {"5": finding}, "abc")
     (scored,) = read_scored([tmp_path / "findings.json"], [tmp_path / "sealed"])
     assert scored.finding == finding
@@ -71,6 +72,10 @@ def test_recordings_are_read_by_seed(tmp_path):
     (recording,) = read_planted(tmp_path / "measured").values()
     assert set(recording.curves) == {"lv_volume", "lv_pressure"}
     assert recording.period == CASE.curves["rest"]["lv_volume"].period
+    (conditions,) = read_conditions_of(tmp_path / "measured")
+    fuller = conditions["legs_raised"].curves["lv_volume"]
+    assert set(conditions) == {"legs_raised"}
+    assert fuller.values.max() > recording.curves["lv_volume"].values.max()
 
 
 def test_the_job_that_diagnoses_rests_on_no_code_that_plants_or_opens_a_seal():

@@ -1,12 +1,14 @@
 """Planted cases: what is planted is what was asked for, by its seed, and nothing that no patient resembles."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from heartfit.heart import Heart
 from heartfit.mechanism import registered
 from heartfit.planting import case as cases
-from heartfit.planting.campaign import Campaign, Plan
+from heartfit.planting.campaign import Campaign, Plan, Reloaded
 from heartfit.planting.case import plant
 from heartfit.planting.effects import Inadmissible, draw_effect, plantable
 from heartfit.planting.hidden import draw_hidden
@@ -37,9 +39,13 @@ def test_the_answer_says_what_was_planted_and_the_curves_do_not():
 
 
 def test_a_second_condition_is_the_same_heart_fuller():
-    planted = plant(Plan(7, "none"), second_condition=True)
-    rest, fuller = (planted.curves[name]["lv_volume"].values.max() for name in ("rest", "preload"))
+    planted = plant(Plan(7, "none", reloaded=True))
+    rest, fuller = (planted.curves[name]["lv_volume"].values.max() for name in ("rest", "legs_raised"))
     assert fuller > rest
+
+
+def test_the_recording_at_rest_does_not_know_of_another_condition():
+    assert np.array_equal(values(plant(replace(LEAK, reloaded=True))), values(plant(LEAK)))
 
 
 def test_a_pressure_that_no_reader_takes_is_drawn_anew(monkeypatch):
@@ -134,6 +140,14 @@ def test_a_campaign_plants_what_it_says_with_a_seed_each():
     assert [plan.seed for plan in plans] == list(range(1000, 1021))
     assert kinds != sorted(kinds)
     assert all(len(set(plan.names)) == 2 for plan in plans if plan.kind == "two")
+
+
+def test_some_nulls_and_singles_of_one_size_are_measured_under_another_loading_too():
+    plans = Campaign(1000, 4, 2, 1, 3, (2.0, 2.5), 2.5, Reloaded(3, 5, 2.0)).plans(("A", "B", "C"), ("X",))
+    marked = [plan for plan in plans if plan.reloaded]
+    assert [plan.kind for plan in marked].count("none") == 3
+    assert [plan.scales for plan in marked if plan.kind == "single"] == [2.0] * 5
+    assert len(marked) == 8
 
 
 def test_the_first_cases_are_those_of_the_whole_campaign():

@@ -1,5 +1,7 @@
 """Verdicts on hidden effects, printed, drawn and held to claims."""
 
+from dataclasses import replace
+
 import pandas as pd
 import pytest
 
@@ -8,7 +10,8 @@ from heartfit.io.tables import write_figure
 from heartfit.planting.case import Answer
 from heartfit.planting.effects import Effect
 from heartfit.planting.scoring import Scored
-from heartfit.planting.trial import Finding
+from heartfit.planting.trial import CONDITION, VOLUME, Finding
+from heartfit.tables.planted_by_data import by_data_section, by_data_table
 from heartfit.tables.planted_claims import COLUMNS, ClaimError, require_claims
 from heartfit.tables.planted_figures import plot_confusion, plot_power, plot_rates
 from heartfit.tables.planted_page import planted_page
@@ -24,6 +27,12 @@ def scored(seed, kind, planted, verdict, said=(), size=1e-5):
         Answer(seed, kind, effects, {"no beat": 1}, {}, 0.02),
         Finding(verdict, named, ranking, gain, 3000, 20.0),
     )
+
+
+def less(case, verdict):
+    """The same case, also searched by less and more data."""
+    other = {VOLUME: Finding(verdict), CONDITION: replace(case.finding, gain={"lv_pressure": 0.3})}
+    return replace(case, finding=replace(case.finding, other=other))
 
 
 CASES = [
@@ -57,6 +66,19 @@ def test_a_mechanism_has_its_size_in_its_unit_and_the_amplitudes_that_were_told(
     assert leak["amplitude ratio, median"] == pytest.approx(0.9)
     assert leak["in its interval"] == "1 of 1"
     assert table.loc["Whip (outside)"]["unknown"] == 1
+
+
+def test_less_and_more_data_are_a_row_each_over_the_same_cases():
+    null, leak = less(CASES[0], "insufficient"), less(CASES[2], "named")
+    table = by_data_table([null, leak, *CASES]).set_index("data")
+    assert table["false alarms"].tolist() == ["0 of 1"] * 3
+    assert table["detected"].tolist() == ["1 of 1"] * 3
+    assert table["named right"].tolist() == [0, 1, 1]
+    assert table["named wrong"].tolist() == [1, 0, 0]
+    assert table["insufficient"].tolist() == [1, 0, 0]
+    assert table["held-out pressure"].tolist()[1:] == [0.5, 0.3]
+    assert "1 without an effect and 1 with one mechanism of 2 scales" in by_data_section([null, leak])
+    assert by_data_section(CASES) == ""
 
 
 def test_a_case_is_a_row():

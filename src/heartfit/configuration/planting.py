@@ -2,11 +2,11 @@
 
 from itertools import count
 
-from pydantic import Field, PositiveFloat, PositiveInt, field_validator
+from pydantic import Field, NonNegativeInt, PositiveFloat, PositiveInt, field_validator
 
 from heartfit.configuration.generator import Generator
 from heartfit.configuration.strict import Strict
-from heartfit.planting.campaign import Campaign, Plan
+from heartfit.planting.campaign import Campaign, Plan, Reloaded
 from heartfit.planting.effects import plantable
 
 SCORING = 100000
@@ -47,6 +47,14 @@ class VentricularBenchmark(Strict):
         ]
 
 
+class ReloadedBenchmark(Strict):
+    """Hearts that are searched by volume alone, and with another condition, too."""
+
+    nulls: NonNegativeInt = Field(description="the first so many")
+    singles: NonNegativeInt = Field(description="the first so many of one size")
+    scales: PositiveFloat = Field(description="that size, in scales of the mechanism")
+
+
 class DiscoveryBenchmark(Strict):
     """Counts of hidden hearts by kind: a single and an outsider of each effect and size, nulls and pairs in all."""
 
@@ -57,6 +65,7 @@ class DiscoveryBenchmark(Strict):
     outsiders: PositiveInt = Field(description="of each effect outside the library and size")
     pairs: PositiveInt
     pair_scales: PositiveFloat
+    reloaded: ReloadedBenchmark
     cases: PositiveInt | None = Field(None, description="only the first so many, a fair sample of all")
     batch: PositiveInt = Field(description="cases of a job")
     page: str = Field(description="folder of the page; its figures go into `figures` there")
@@ -73,4 +82,5 @@ class DiscoveryBenchmark(Strict):
 
     def _campaign(self) -> Campaign:
         counts = self.nulls, self.singles, self.outsiders, self.pairs
-        return Campaign(self.first_seed, *counts, self.scales, self.pair_scales)
+        reloaded = Reloaded(self.reloaded.nulls, self.reloaded.singles, self.reloaded.scales)
+        return Campaign(self.first_seed, *counts, self.scales, self.pair_scales, reloaded)

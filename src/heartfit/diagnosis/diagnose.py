@@ -37,10 +37,7 @@ def diagnose(
     fitted to a beat of the 3-D model; the one of an adult, grown to the recorded size, if None. Raises InputError where
     the centre does not beat.
     """
-    case = Case.searched(recording, centre or HUMAN.of_the_size_of(recording), rules)
-    held_out = list(case.held_out(conditions or {}))
-    withdrawn = case.names if any(not each.helps() for each in held_out) else ()
-    return case.diagnosis(held_out, withdrawn)
+    return Case.searched(recording, centre, rules).concluded(conditions or {})
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,10 +52,12 @@ class Case:
     rules: Rules
 
     @classmethod
-    def searched(cls, recording: Recording, centre: Centre, rules: Rules) -> "Case":
-        """Every mechanism, pairs and the unknown fitted to the recording."""
+    def searched(cls, recording: Recording, centre: Centre | None = None, rules: Rules = RULES) -> "Case":
+        """Every mechanism, pairs and the unknown fitted to the recording; for the centre see :func:`diagnose`."""
         data = data_of(recording)
-        twin = Twin(centre, {block.curve: block.times for block in data.blocks})
+        twin = Twin(
+            centre or HUMAN.of_the_size_of(recording), {block.curve: block.times for block in data.blocks}
+        )
         library = candidates(twin)
         if recording.searched == ("lv_volume",):
             rules = replace(rules, detected=max(rules.detected, VOLUME_ALONE))
@@ -70,6 +69,12 @@ class Case:
             rules,
         )
         return cls(recording, twin, library, data, findings, rules)
+
+    def concluded(self, conditions: Mapping[str, Recording]) -> Diagnosis:
+        """The diagnosis after what was held out decides whether a name is kept."""
+        held_out = list(self.held_out(conditions))
+        withdrawn = self.names if any(not each.helps() for each in held_out) else ()
+        return self.diagnosis(held_out, withdrawn)
 
     @cached_property
     def verdict(self) -> Verdict:

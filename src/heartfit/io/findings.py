@@ -17,6 +17,15 @@ def read_planted(measured: Path) -> dict[str, Recording]:
     return {file.parent.name: read_recording(file) for file in files}
 
 
+def read_conditions_of(measured: Path) -> list[dict[str, Recording]]:
+    """The recordings under other conditions by name, case by case as :func:`read_planted` has them."""
+    folders = sorted(file.parent for file in Path(measured).glob(f"*/{MEASURED}"))
+    return [
+        {file.stem: read_recording(file) for file in sorted(folder.glob("*.csv")) if file.name != MEASURED}
+        for folder in folders
+    ]
+
+
 def write_findings(path: Path, findings: Mapping[str, Finding], fingerprint: str) -> None:
     """Write what was said of some cases, by seed."""
     write_result(path, findings, fingerprint, {"amplitude": "SI", "simulations": "1", "seconds": "s"})
@@ -29,4 +38,5 @@ def read_findings(path: Path) -> dict[str, Finding]:
 
 def _finding(content: Mapping[str, Any]) -> Finding:
     named = tuple(Cause(**each | {"interval": tuple(each["interval"])}) for each in content["mechanisms"])
-    return Finding(**dict(content) | {"mechanisms": named})
+    other = {data: _finding(each) for data, each in content["other"].items()}
+    return Finding(**dict(content) | {"mechanisms": named, "other": other})

@@ -12,15 +12,15 @@ from heartfit.mechanism import Mechanism
 from heartfit.observation.curve import PRESSURES, Curve
 from heartfit.planting.campaign import Kind, Plan
 from heartfit.planting.effects import Effect, Inadmissible, described, draw_effect, plantable
-from heartfit.planting.hidden import NUMERICS, draw_hidden
+from heartfit.planting.hidden import NUMERICS, HiddenHeart, draw_hidden
 from heartfit.planting.measuring import Study, measured
 from heartfit.planting.outsiders import OUTSIDERS
 
 EDV, EJECTION_FRACTION, PEAK = (80e-6, 300e-6), (0.15, 0.80), (8e3, 30e3)
 """What a patient who is examined may have: m^3, 1, Pa."""
 PRELOAD = (1.3, 1.6)
-"""Resting atrial pressure of the second condition over that of the first: raised legs."""
-REST = "rest"
+"""Resting atrial pressure with the legs raised over that at rest."""
+REST, RAISED = "rest", "legs_raised"
 ATTEMPTS = 200
 
 T = TypeVar("T")
@@ -46,12 +46,12 @@ class PlantedCase:
     answer: Answer = field(repr=False)
 
 
-def plant(plan: Plan, second_condition: bool = False) -> PlantedCase:
+def plant(plan: Plan) -> PlantedCase:
     """The case of this plan; draws that no patient resembles are counted and drawn anew.
 
-    Conditions are "rest" and, where asked for, "preload" with fuller atria. Raises RuntimeError after 200 draws.
+    Conditions are "rest" and, where the plan asks for it, "legs_raised". Raises RuntimeError after 200 draws.
     """
-    return redrawn(plan.seed, lambda rng, rejected: _planted(plan, rng, second_condition, rejected))
+    return redrawn(plan.seed, lambda rng, rejected: _planted(plan, rng, rejected))
 
 
 def redrawn(seed: int, draw: Callable[[np.random.Generator, Mapping[str, int]], T]) -> T:
@@ -65,20 +65,22 @@ def redrawn(seed: int, draw: Callable[[np.random.Generator, Mapping[str, int]], 
     raise RuntimeError(f"seed {seed}: {ATTEMPTS} draws were refused, {dict(rejected)}: choose another one")
 
 
-def _planted(
-    plan: Plan, rng: np.random.Generator, second_condition: bool, rejected: Mapping[str, int]
-) -> PlantedCase:
+def _planted(plan: Plan, rng: np.random.Generator, rejected: Mapping[str, int]) -> PlantedCase:
     healthy, study = draw_hidden(rng), Study.draw(rng)
     planted = drawn_effects(plan, rng)
     hidden = healthy.with_effects(planted)
-    loads = {REST: 1.0} | ({"preload": float(rng.uniform(*PRELOAD))} if second_condition else {})
-    beats = {name: plausible(hidden.loaded(factor).beat(), NUMERICS.drift) for name, factor in loads.items()}
-    curves = {name: measured(beat, hidden.heart.sensors, study, rng) for name, beat in beats.items()}
+    curves = {REST: _recorded(hidden, study, rng)}
+    if plan.reloaded:
+        curves[RAISED] = _recorded(hidden.loaded(float(rng.uniform(*PRELOAD))), study, rng)
     require_recordable(curves)
     answer = Answer(
         plan.seed, plan.kind, described(planted, plan.scales), dict(rejected), healthy.deviates, study.noise
     )
     return PlantedCase(curves, answer)
+
+
+def _recorded(hidden: HiddenHeart, study: Study, rng: np.random.Generator) -> dict[str, Curve]:
+    return measured(plausible(hidden.beat(), NUMERICS.drift), hidden.heart.sensors, study, rng)
 
 
 def require_recordable(curves: Mapping[str, Mapping[str, Curve]]) -> None:

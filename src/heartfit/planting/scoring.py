@@ -1,6 +1,6 @@
 """A verdict beside the answer: what was said of a case in which it is known what was hidden."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from heartfit.diagnosis.cause import Cause
 from heartfit.planting.case import Answer
@@ -57,6 +57,10 @@ class Scored:
         """The verdict, or the name where one was given."""
         (*_, name) = [self.finding.verdict, *sorted(self.finding.names)]
         return name if self.finding.verdict == "named" else self.finding.verdict
+
+    def told(self, data: str) -> "Scored":
+        """The same case with what was said of less or more data; raises KeyError where these were not searched."""
+        return replace(self, finding=self.finding.other[data])
 
     def ratio(self, effect: Effect) -> float:
         """Estimated amplitude over the planted one, both from where it is off."""

@@ -2,22 +2,26 @@
 
 import time as clock
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cache
 
 from heartfit.diagnosis.cause import Cause, Diagnosis
-from heartfit.diagnosis.diagnose import diagnose
+from heartfit.diagnosis.diagnose import Case, diagnose
 from heartfit.diagnosis.recording import Recording
 from heartfit.errors import InputError
 
 REFUSED = "refused"
 """The verdict where the diagnosis did not take the recording."""
+VOLUME, CONDITION = "volume alone", "volume, pressure and raised legs"
+"""Less and more data than volume and pressure at rest."""
 
 
 @dataclass(frozen=True)
 class Finding:
     """What a diagnosis said of a case.
 
-    ``ranking``: ln Bayes factors of all single mechanisms; ``gain``: error ratios by curve on what was held out.
+    ``ranking``: ln Bayes factors of all single mechanisms; ``gain``: error ratios by curve on what was held out;
+    ``other``: what was said of less and of more data, by its name.
     """
 
     verdict: str
@@ -26,6 +30,7 @@ class Finding:
     gain: Mapping[str, float] = field(default_factory=dict)
     simulations: int = 0
     seconds: float = 0.0
+    other: Mapping[str, "Finding"] = field(default_factory=dict)
 
     @property
     def names(self) -> frozenset[str]:
@@ -47,3 +52,14 @@ def found(recording: Recording, search: Callable[[Recording], Diagnosis] = diagn
     except InputError:
         return Finding(REFUSED)
     return Finding.of(diagnosis, clock.process_time() - started)
+
+
+def found_by_data(rest: Recording, conditions: Mapping[str, Recording]) -> Finding:
+    """What is said of the recording at rest and, of a heart under other conditions too, of less and of more data."""
+    if not conditions:
+        return found(rest)
+    searched = cache(Case.searched)  # once for both: a condition is never fitted
+    volume = replace(rest, curves={"lv_volume": rest.curves["lv_volume"]})
+    said = found(rest, lambda each: searched(each).concluded({}))
+    more = found(rest, lambda each: searched(each).concluded(conditions))
+    return replace(said, other={VOLUME: found(volume), CONDITION: more})

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from heartfit.planting.scoring import Scored
+from heartfit.tables.planted_by_data import by_data_section
 from heartfit.tables.planted_table import mechanisms_table, rates_table
 from heartfit.tables.text import to_markdown
 
@@ -44,7 +45,7 @@ Intervals are exact (Clopper and Pearson 1934).
 
 ![ln Bayes factor over the planted size](figures/discovery_power.png)
 
-{mechanisms}
+{mechanisms}{by_data}
 A search took {simulations:.0f} simulations and {seconds:.1f} s of one core (medians).
 """
 
@@ -65,6 +66,7 @@ def planted_page(scored: Sequence[Scored], planned: int, fingerprint: str) -> st
         rates=to_markdown(rates_table(scored)),
         gain=_gain([each for each in scored if each.right]),
         mechanisms=to_markdown(mechanisms_table(scored)),
+        by_data=by_data_section(scored),
         simulations=np.median([each.finding.simulations for each in scored]),
         seconds=np.median([each.finding.seconds for each in scored]),
     )
