@@ -29,7 +29,7 @@ GIVEN = {
     "pressures": STUDY.end_diastolic_pressure,
     "scheme": STUDY.numerics,
     "transform": STUDY.unscented,
-    "steps": DISCOVERY.steps,
+    "most_steps": DISCOVERY.most_steps,
     "stated": stated(
         case_of, setting_of, STUDY.numerics, STUDY.end_diastolic_pressure, STUDY.unscented, DISCOVERY
     ),

@@ -12,6 +12,8 @@ class Discovery(Strict):
         default=(), description="whose cases are searched, about ten seconds each"
     )
     cases: tuple[str, ...] = Field(
-        default=(), description="that are refitted and proved, about 50 to 70 beats each"
+        default=(), description="that are refitted and proved, about 100 beats each"
     )
-    steps: PositiveInt = Field(default=2, description="unscented steps of a refit")
+    most_steps: PositiveInt = Field(
+        default=3, description="unscented steps of a refit, if it does not settle before"
+    )

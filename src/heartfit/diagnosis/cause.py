@@ -53,6 +53,22 @@ class Trace:
     band: Floats
 
 
+@dataclass(frozen=True)
+class Refitted:
+    """The three-dimensional model without and with an extension, both fitted to half of the samples.
+
+    extension: what was added, its sizes found anew; ln_bayes_factor: of the refits; none, extended: parameters, SI, by
+    name; simulations: three-dimensional beats; converged: whether both refits came to rest.
+    """
+
+    extension: tuple[Cause, ...]
+    ln_bayes_factor: float
+    none: Mapping[str, float]
+    extended: Mapping[str, float]
+    simulations: int
+    converged: bool
+
+
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
     """The verdict and what it rests on.
@@ -60,7 +76,8 @@ class Diagnosis:
     mechanisms: what is named, all members of a group; alternatives: sets of mechanisms that the data do not tell from
     the best; threshold: the ln Bayes factor below which there is none; ranking: ln Bayes factors over none of every
     single mechanism and, as "unknown", of a discrepancy without a name; withdrawn: names that did not help on what was
-    held out.
+    held out; refitted: the proof in three dimensions, where there was one. Without a name it is a trial of the best of
+    the ranking.
     """
 
     verdict: Verdict
@@ -74,3 +91,4 @@ class Diagnosis:
     ranking: Mapping[str, float] = field(default_factory=dict)
     withdrawn: tuple[str, ...] = ()
     traces: tuple[Trace, ...] = ()
+    refitted: Refitted | None = None

@@ -26,6 +26,7 @@ def write_cause(path: Path, diagnosis: Diagnosis, fingerprint: str) -> None:
         "simulations": diagnosis.simulations,
         "ranking": diagnosis.ranking,
         "withdrawn": diagnosis.withdrawn,
+        "refitted": asdict(diagnosis.refitted) if diagnosis.refitted else None,
         "fingerprint": fingerprint,
     }
     write_text(path, json.dumps(content, indent=1) + "\n")

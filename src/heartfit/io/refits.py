@@ -40,7 +40,7 @@ def read_trial(files: Mapping[str, Any], given: Mapping[str, Any]) -> Trial:
     mesh, motion = read_mesh(Path(files["mesh"])), read_motion(Path(files["registered"]))
     model = Model(mesh, given["case"].period, given["pressures"], given["scheme"])
     target = case.target(setting.estimate, around, given["transform"].fixed_sd)
-    return Trial(case, motion, model, setting, target, given["steps"])
+    return Trial(case, motion, model, setting, target, given["most_steps"])
 
 
 def write_refit(path: Path, refit: Refit, fingerprint: str) -> None:

@@ -1,5 +1,6 @@
 """The refitted model without and with an extension, judged by what was never fitted."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ UNSEEN = {
     "lv_pressure": "every other 40 ms, which were not fitted",
     "rv_volume": "never fitted",
 }
+STRAINS = ("circumferential", "longitudinal")
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,16 +41,18 @@ class Proof:
                 held.values - each.curves[name](held.times) for each in (self.none, self.extended)
             )
             found.append(_gain(name, UNSEEN[name], held.times / period, before, after))
-        return [*found, self._strain_gain()]
+        return [*found, *self._strain_gains()]
 
-    def _strain_gain(self) -> Gain:
-        """Of the circumferential strain of all segments, in all frames."""
-        times, direction = self.measured.times, DIRECTIONS.index("circumferential")
+    def _strain_gains(self) -> Iterator[Gain]:
+        """Of the strain of all segments in all frames, round the heart and along it."""
+        times = self.measured.times
         motions = (self.measured, *(each.motion.sampled(times) for each in (self.none, self.extended)))
-        measured, *fits = (segment_strain(self.mesh, motion)[:, direction] for motion in motions)
-        phase = np.repeat(times / self.measured.period, measured.shape[1])
-        before, after = ((measured - each).ravel() for each in fits)
-        return _gain("circumferential strain", "never fitted", phase, before, after)
+        measured, *fits = (segment_strain(self.mesh, motion) for motion in motions)
+        phase = np.repeat(times / self.measured.period, measured.shape[2])
+        for name in STRAINS:
+            direction = DIRECTIONS.index(name)
+            before, after = ((measured - each)[:, direction].ravel() for each in fits)
+            yield _gain(f"{name} strain", "never fitted", phase, before, after)
 
     def helps(self) -> bool:
         """Whether the extension comes nearer to all curves together, in units of noise, where nothing was fitted."""

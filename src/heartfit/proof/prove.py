@@ -1,100 +1,86 @@
-"""A diagnosis extended to three dimensions: what was named is refitted, and withdrawn where it does not help."""
+"""A case's three-dimensional model extended step by step, as long as each step helps where nothing was fitted."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-
-import numpy as np
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.configuration.setting import Setting
-from heartfit.diagnosis.cause import Cause, Diagnosis
+from heartfit.diagnosis.cause import Diagnosis
 from heartfit.geometry.motion import Motion
 from heartfit.proof.extension import Extension
 from heartfit.proof.model import Model, Shown
 from heartfit.proof.proof import Proof
 from heartfit.proof.refit import Refit, Target, refit
 from heartfit.proof.target import MeasuredCase
+from heartfit.proof.verdict import Tried, extensions_of, proved
 
-INTERVAL = 1.96
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """An extension, its refit and the beat at the refit's estimate."""
+
+    extension: Extension
+    refit: Refit
+    shown: Shown
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """A measured case with its registered motion, the model that stands for it, and how many steps a refit takes."""
+    """A measured case with its registered motion, the model that stands for it, and the most steps of a refit."""
 
     case: MeasuredCase
     registered: Motion
     model: Model
     setting: Setting
     target: Target
-    steps: int
+    most_steps: int
 
     def refitted(self, extension: Extension) -> Refit:
         """The extension after its steps; raises CalibrationError where too many beats fail."""
-        return refit(extension, self.model, self.target, self.steps)
+        return refit(extension, self.model, self.target, self.most_steps)
 
-    def shown(self, extension: Extension, fitted: Refit) -> Shown:
-        """The beat at a refit's estimate."""
-        return Shown.of(
-            self.model(extension, fitted.parameters, keep_positions=True), extension, fitted.parameters
-        )
+    def at(self, extension: Extension, fitted: Refit) -> Fitted:
+        """The beat at a refit's estimate; raises CalibrationError where it fails."""
+        beat = self.model(extension, fitted.parameters, keep_positions=True)
+        if not beat.completed:
+            raise CalibrationError(f"the beat at the estimate: {beat.reason}")
+        return Fitted(extension, fitted, Shown.of(beat, extension, fitted.parameters))
 
-    def proof(self, none: Refit, extension: Extension, extended: Refit) -> Proof:
+    def proof(self, none: Fitted, extended: Fitted) -> Proof:
         """Both refits beside the measurement."""
-        both = self.shown(Extension(self.setting), none), self.shown(extension, extended)
-        return Proof(self.case, self.model.mesh, self.registered, *both)
+        return Proof(self.case, self.model.mesh, self.registered, none.shown, extended.shown)
 
     def prove(self, found: Diagnosis, none: Refit) -> tuple[Diagnosis, Refit]:
-        """The diagnosis after its proof, and the refit of the extension; none: the refit without one.
+        """The diagnosis after its proof, and the last refit that was kept; none: the refit without an extension.
 
-        An extension whose refit fails is withdrawn: what does not beat is no cause.
+        Where no extension is kept the last that was tried is shown; where none of them beats, the model without.
         """
-        extension = extension_of(found, self.setting)
-        try:
-            extended = self.refitted(extension)
-        except CalibrationError:
-            return withdrawing(found, extension), none
-        proof = self.proof(none, extension, extended)
-        return proved(found, extension, (none, extended), proof), extended
+        base = self.at(Extension(self.setting), none)
+        steps = list(self.climb(base, extensions_of(found, self.setting)))
+        kept = [each for each, helps in steps if helps]
+        shown = (kept or [each for each, _ in steps] or [base])[-1]
+        tried = Tried(
+            shown.extension,
+            none,
+            shown.refit,
+            kept[-1].extension.effects if kept else (),
+            sum(each.refit.simulations + 1 for each in (base, *(each for each, _ in steps))),
+        )
+        return proved(found, tried, self.proof(base, shown)), shown.refit
 
+    def climb(self, base: Fitted, extensions: Iterable[Extension]) -> Iterator[tuple[Fitted, bool]]:
+        """One extension after the other, until one does not beat or does not help over the one before it.
 
-def extension_of(found: Diagnosis, base: Setting) -> Extension:
-    """What is tried in three dimensions: what is named, the best of a group, or the best of all if nothing is."""
-    named = [each.name for each in found.mechanisms]
-    first = [name for name in found.ranking if name != "unknown"][:1]
-    return Extension.by(base, *(named if found.verdict == "two" else named[:1] or first))
-
-
-def proved(found: Diagnosis, extension: Extension, refits: tuple[Refit, Refit], proof: Proof) -> Diagnosis:
-    """The diagnosis with sizes and gains of the three-dimensional model; a name that does not help is withdrawn.
-
-    refits: without and with the extension.
-    """
-    sizes = {each.name: each for each in sized(extension, refits[1], found.ranking)}
-    known = replace(
-        found,
-        mechanisms=tuple(sizes.get(each.name, each) for each in found.mechanisms),
-        gain=tuple(proof.gains()),
-        simulations=found.simulations + sum(each.simulations for each in refits),
-        traces=proof.traces(),
-    )
-    return known if proof.helps() else withdrawing(known, extension)
-
-
-def withdrawing(found: Diagnosis, extension: Extension) -> Diagnosis:
-    """The diagnosis without the names of the extension: something is lacking, but not this."""
-    if not found.mechanisms:
-        return found
-    return replace(found, verdict="unknown", mechanisms=(), withdrawn=(*found.withdrawn, *extension.effects))
-
-
-def sized(extension: Extension, fitted: Refit, ranking: Mapping[str, float]) -> list[Cause]:
-    """The amplitudes of an extension, with their 95 % intervals, and the evidence that the search gave each."""
-    found = []
-    for each in extension.added:
-        switch = each.unknowns[0]
-        place = fitted.names.index(f"{each.name}.{switch.name}")
-        x, reach = float(fitted.estimate[place]), INTERVAL * float(fitted.sd[place])
-        amplitude, low, high = (switch.at(value) for value in (x, x - reach, x + reach))
-        found.append(Cause(each.name, ranking.get(each.name, np.nan), amplitude, switch.unit, (low, high)))
-    return found
+        It helps if it comes nearer to what was not fitted, and if what was fitted is evidence for it.
+        """
+        for extension in extensions:
+            try:
+                tried = self.at(extension, self.refitted(extension))
+            except CalibrationError:
+                return
+            likelier = tried.refit.log_evidence > base.refit.log_evidence
+            helps = likelier and self.proof(base, tried).helps()
+            yield tried, helps
+            if not helps:
+                return
+            base = tried

@@ -5,12 +5,13 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Trace
+from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Refitted, Trace
 
 CURVES = {
     "lv_volume": "left ventricular volume",
     "lv_pressure": "left ventricular pressure",
     "aorta_pressure": "aortic pressure",
+    "rv_volume": "right ventricular volume",
 }
 UNITS = {"m^2": ("cm²", 1e4), "m^3": ("mL", 1e6), "Pa": ("kPa", 1e-3), "s": ("ms", 1e3), "1": ("", 1.0)}
 PHASES = ((0.12, "early systole"), (0.36, "late systole"), (0.58, "early diastole"), (1.0, "late diastole"))
@@ -55,8 +56,9 @@ def card(diagnosis: Diagnosis, title: str) -> str:
         "## How strongly the data speak\n\n" + _ranking(diagnosis),
         "## What else could explain it\n\n" + _alternatives(diagnosis),
         "## What to measure next\n\n" + (diagnosis.next_measurement or "Nothing: the data decide."),
-        "## What the named cause gains where nothing was fitted\n\n" + _gains(diagnosis.gain),
-        f"{diagnosis.simulations} simulated beats of the search.",
+        f"## What {gaining(diagnosis)} gains where nothing was fitted\n\n" + _gains(diagnosis.gain),
+        *([f"## In three dimensions\n\n{in_three_dimensions(diagnosis.refitted)}"] if diagnosis.refitted else []),
+        f"{diagnosis.simulations} simulated beats in all.",
     ]  # fmt: skip
     return "\n\n".join(parts) + "\n"
 
@@ -92,6 +94,29 @@ def _alternatives(diagnosis: Diagnosis) -> str:
     if not diagnosis.alternatives:
         return "Nothing in the library within a ln Bayes factor of 3."
     return "\n".join(f"- {' and '.join(map(spoken, each))}" for each in diagnosis.alternatives)
+
+
+def in_three_dimensions(refitted: Refitted) -> str:
+    """What the refit says of the extension, and of the parameters that it was not there to disturb."""
+    added = " and ".join(sized(each) for each in refitted.extension)
+    rest = "Both refits converged" if refitted.converged else "A refit was still moving at its last step"
+    moved = [
+        f"| {name} | {refitted.none[name]:.3g} | {value:.3g} | {100.0 * (value / refitted.none[name] - 1.0):+.0f} |"
+        for name, value in refitted.extended.items()
+    ]
+    return (
+        f"The model with {added} has a ln Bayes factor of {refitted.ln_bayes_factor:.1f} over the model without, both "
+        f"fitted to half of the samples in {refitted.simulations} beats. {rest}.\n\n"
+        "| parameter (SI) | without | with | change (%) |\n|---|---|---|---|\n" + "\n".join(moved)
+    )
+
+
+def gaining(diagnosis: Diagnosis) -> str:
+    """ "the named cause", or what was tried in three dimensions though nothing is named."""
+    if diagnosis.mechanisms or not diagnosis.refitted:
+        return "the named cause"
+    tried = " and ".join(spoken(each.name) for each in diagnosis.refitted.extension)
+    return f"{tried}, which is not named but tried,"
 
 
 def _gains(gains: Iterable[Gain]) -> str:

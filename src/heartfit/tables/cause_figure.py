@@ -46,7 +46,9 @@ def _curves(axes: Axes, trace: Trace, named: bool) -> None:
             trace.times, factor * trace.extended, color=CALIBRATED, linewidth=1.4, label="with the cause"
         )
     name = CURVES.get(trace.curve, trace.curve)
-    axes.set_ylabel(f"{name.removeprefix('left ventricular ').removeprefix('aortic ')} ({unit})")
+    axes.set_ylabel(
+        f"{name.removeprefix('left ventricular ').removeprefix('right ventricular ').removeprefix('aortic ')} ({unit})"
+    )
     axes.set_title(name, fontsize=9)
     clean(axes)
 

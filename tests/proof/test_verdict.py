@@ -1,0 +1,147 @@
+"""Which extensions are tried, which of them are kept, and what becomes of the names."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from types import SimpleNamespace
+from typing import cast
+
+import numpy as np
+import pytest
+
+from heartfit.calibration.unscented import CalibrationError
+from heartfit.configuration.setting import Setting
+from heartfit.diagnosis.cause import Cause, Diagnosis, Gain
+from heartfit.proof.extension import Extension
+from heartfit.proof.proof import Proof
+from heartfit.proof.prove import Fitted, Trial
+from heartfit.proof.refit import Refit
+from heartfit.proof.verdict import Tried, extensions_of, keeping, proved
+from heartfit.tables.cause_card import card
+
+PLAIN = Setting.model_validate({"element": "sphere", "estimate": ("sigma_0", "R_p")}).with_prior({})
+LEAK = Cause("MitralRegurgitation", 20.0, 0.4e-4, "m^2", (0.3e-4, 0.5e-4))
+OTHER = Cause("AorticStenosis", 24.0, 2e3, "Pa", (1e3, 3e3))
+RANKING = {"unknown": 30.0, "AorticStenosis": 24.0, "MitralRegurgitation": 20.0}
+FOUND = Diagnosis("named", (LEAK,), (), "", (), 100, 0.8, 5.0, RANKING)
+TWO, GROUP = (replace(FOUND, verdict=verdict, mechanisms=(LEAK, OTHER)) for verdict in ("two", "group"))
+NOTHING = replace(FOUND, verdict="none", mechanisms=())
+
+
+def tried(found: Diagnosis) -> list[tuple[str, ...]]:
+    return [each.effects for each in extensions_of(found, PLAIN)]
+
+
+def test_what_is_named_is_tried_and_else_the_best_of_the_ranking() -> None:
+    assert tried(FOUND) == tried(GROUP) == [("MitralRegurgitation",)]
+    assert tried(NOTHING) == [("AorticStenosis",)]
+
+
+def test_of_two_the_stronger_is_tried_alone_before_both() -> None:
+    assert tried(TWO) == [("AorticStenosis",), ("AorticStenosis", "MitralRegurgitation")]
+
+
+def fitted(extension: Extension, evidence: float) -> Refit:
+    x = extension.start(2.0)
+    covariance = 0.01 * np.eye(len(x))
+    return Refit(extension.names, x, covariance, extension.parameters(x), 1.0, 1.0, evidence, 10, 9, True)
+
+
+@dataclass
+class Judge:
+    """Stands for a trial: evidence by the number of effects, and which numbers come nearer than the one before."""
+
+    evidence: dict[int, float]
+    nearer: tuple[int, ...]
+
+    def refitted(self, extension: Extension) -> Refit:
+        if len(extension.added) not in self.evidence:
+            raise CalibrationError("no beat")
+        return fitted(extension, self.evidence[len(extension.added)])
+
+    def at(self, extension: Extension, found: Refit) -> SimpleNamespace:
+        return SimpleNamespace(extension=extension, refit=found)
+
+    def proof(self, _: Fitted, extended: Fitted) -> SimpleNamespace:
+        return SimpleNamespace(helps=lambda: len(extended.extension.added) in self.nearer)
+
+
+def climbed(judge: Judge) -> list[tuple[int, bool]]:
+    base = cast("Fitted", judge.at(Extension(PLAIN), fitted(Extension(PLAIN), 0.0)))
+    steps: Iterable[tuple[Fitted, bool]] = Trial.climb(cast("Trial", judge), base, extensions_of(TWO, PLAIN))
+    return [(len(each.extension.added), helps) for each, helps in steps]
+
+
+@pytest.mark.parametrize(
+    ("evidence", "nearer", "expected"),
+    [
+        ({1: 9.0, 2: 12.0}, (1, 2), [(1, True), (2, True)]),
+        ({1: 9.0, 2: 12.0}, (1,), [(1, True), (2, False)]),
+        ({1: 9.0, 2: 8.0}, (1, 2), [(1, True), (2, False)]),
+        ({1: 9.0, 2: 12.0}, (2,), [(1, False)]),
+        ({1: 9.0}, (1, 2), [(1, True)]),
+        ({}, (1, 2), []),
+    ],
+    ids=[
+        "both help",
+        "the second predicts no better",
+        "nor is it likelier",
+        "nor the first",
+        "lost",
+        "no beat",
+    ],
+)
+def test_steps_are_climbed_while_each_helps_over_the_one_before(
+    evidence: dict[int, float], nearer: tuple[int, ...], expected: list[tuple[int, bool]]
+) -> None:
+    assert climbed(Judge(evidence, nearer)) == expected
+
+
+def test_names_that_do_not_help_are_withdrawn() -> None:
+    assert keeping(FOUND, ("MitralRegurgitation",)) is FOUND
+    gone = keeping(FOUND, ())
+    assert (gone.verdict, gone.mechanisms, gone.withdrawn) == ("unknown", (), ("MitralRegurgitation",))
+    one = keeping(TWO, ("AorticStenosis",))
+    assert (one.verdict, one.mechanisms, one.withdrawn) == ("named", (OTHER,), ("MitralRegurgitation",))
+
+
+def test_a_group_stands_or_falls_with_the_one_that_was_tried() -> None:
+    assert keeping(GROUP, ("MitralRegurgitation",)) is GROUP
+    assert keeping(GROUP, ()).withdrawn == ("MitralRegurgitation",)
+
+
+def test_where_nothing_is_named_a_trial_changes_no_verdict() -> None:
+    assert keeping(NOTHING, ()) is NOTHING
+    assert keeping(NOTHING, ("AorticStenosis",)) is NOTHING
+
+
+class Helped:
+    """A proof of which only gains and traces are asked."""
+
+    def gains(self) -> list[Gain]:
+        return [Gain("rv_volume", "never fitted", 4e-6, 2e-6, 0.5, (0.4, 0.6))]
+
+    def traces(self) -> tuple[()]:
+        return ()
+
+
+def judged(found: Diagnosis, kept: tuple[str, ...]) -> Diagnosis:
+    (extension,) = extensions_of(found, PLAIN)
+    none, extended = fitted(Extension(PLAIN), 1.0), fitted(extension, 8.0)
+    return proved(found, Tried(extension, none, extended, kept, 19), cast("Proof", Helped()))
+
+
+def test_a_proved_diagnosis_has_the_sizes_and_evidence_of_the_refits() -> None:
+    proof = judged(FOUND, ("MitralRegurgitation",))
+    assert proof.mechanisms[0].amplitude == pytest.approx(2 * 0.15e-4)
+    assert proof.mechanisms[0].ln_bayes_factor == 20.0
+    assert proof.simulations == 119
+    assert proof.refitted is not None
+    assert proof.refitted.ln_bayes_factor == 7.0
+    assert set(proof.refitted.extended) == set(PLAIN.gaussian().names)
+    assert "has a ln Bayes factor of 7.0 over the model without" in card(proof, "case")
+
+
+def test_a_trial_is_not_taken_for_a_name() -> None:
+    proof = judged(NOTHING, ())
+    assert (proof.verdict, proof.mechanisms, proof.withdrawn) == ("none", (), ())
+    assert "aortic stenosis, which is not named but tried," in card(proof, "case")
