@@ -34,7 +34,7 @@ def complaint(kind, content):
 
 
 def test_the_studies_that_are_shipped_are_valid():
-    for names in (["config.yaml"], ["config.yaml", "smoke.yaml"]):
+    for names in (["config.yaml"], ["config.yaml", "smoke.yaml"], ["config.yaml", "measured_heart.yaml"]):
         validated(Study, read_configuration([ROOT / "config" / name for name in names]), names[-1])
     assert read_cases(ROOT / "config" / "cases.tsv")
 
@@ -55,6 +55,13 @@ def test_an_unknown_key_names_the_nearest_known_one(content, path, key, meant):
     message = complaint(Study, content)
     assert f"unknown key {'.'.join((*path, key))}" in message
     assert f"did you mean {meant}?" in message
+
+
+def test_an_unknown_mechanism_to_try_names_the_nearest_known_one(content):
+    content["discovery"]["trials"] = ["AtrialSurgery"]
+    assert "discovery.trials: mechanism 'AtrialSurgery' is unknown; did you mean AtrialSurge?" in complaint(
+        Study, content
+    )
 
 
 def test_an_unknown_parameter_names_the_nearest_known_one(content):

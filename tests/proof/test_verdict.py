@@ -141,6 +141,18 @@ def test_a_proved_diagnosis_has_the_sizes_and_evidence_of_the_refits() -> None:
     assert "has a ln Bayes factor of 7.0 over the model without" in card(proof, "case")
 
 
+def test_an_attempt_asks_no_search() -> None:
+    judge = Judge({1: 4.0}, ())
+    judge.setting = PLAIN
+    judge.proof = lambda *_: Helped()
+    found = Trial.attempt(cast("Trial", judge), "AorticStenosis", fitted(Extension(PLAIN), 1.0))
+    assert [each.name for each in found.refitted.extension] == ["AorticStenosis"]
+    assert np.isnan(found.refitted.extension[0].ln_bayes_factor), "no search gave one"
+    assert found.refitted.ln_bayes_factor == 3.0
+    assert found.refitted.simulations == 9 + 9 + 2
+    assert found.gain[0].curve == "rv_volume"
+
+
 def test_a_trial_is_not_taken_for_a_name() -> None:
     proof = judged(NOTHING, ())
     assert (proof.verdict, proof.mechanisms, proof.withdrawn) == ("none", (), ())

@@ -91,6 +91,7 @@ wildcard_constraints:
     number=r"\d+",
     acquisition="|".join(map(re.escape, TRIED)),
     batch=r"\d+",
+    mechanism=r"\w+",
 
 
 def batch_of(wildcards):
@@ -238,6 +239,11 @@ def every_mechanism():
     return {name: fingerprint(Path(inspect.getfile(kind))) for name, kind in registered().items()}
 
 
+def mechanism_of(wildcards):
+    """The fingerprint of the one mechanism that a job tries."""
+    return every_mechanism()[wildcards.mechanism]
+
+
 def pressure_of(wildcards):
     """The recorded pressure of a case, where there is one."""
     return ["<results>/{case}/cohort/pressure.csv"] if case_of(wildcards).catheter else []
@@ -266,4 +272,5 @@ def whole_study():
         ),
         *(f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in PROVED),
         *(["<results>/tables/discovery.md"] if EVALUATED else []),
+        *(f"<results>/figures/trials_{case}_{setting}.png" for case, setting in PROVED if DISCOVERY.trials),
     ]

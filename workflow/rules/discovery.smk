@@ -127,6 +127,46 @@ rule prove_cause:
         "../scripts/prove_cause.py"
 
 
+rule try_mechanism:
+    input:
+        **REFITTED_CASE,
+        refit="<results>/{case}/discovery/{setting}/none/refit.json",
+    output:
+        "<results>/{case}/discovery/{setting}/trials/{mechanism}.json",
+    log:
+        "<logs>/{case}/{setting}/try_mechanism_{mechanism}.log",
+    benchmark:
+        "<benchmarks>/{case}/{setting}/try_mechanism_{mechanism}.tsv"
+    resources:
+        mem_mb=2000,
+        runtime=120,
+    params:
+        **GIVEN,
+        tried=mechanism_of,
+        code=code("try_mechanism.py"),
+    script:
+        "../scripts/try_mechanism.py"
+
+
+rule compare_attempts:
+    input:
+        expand("<results>/{{case}}/discovery/{{setting}}/trials/{mechanism}.json", mechanism=DISCOVERY.trials),
+    output:
+        tables=expand("<results>/tables/{{case}}_{{setting}}_trials.{suffix}", suffix=("csv", "md", "tex")),
+        figure=expand("<results>/figures/trials_{{case}}_{{setting}}.{suffix}", suffix=("png", "pdf")),
+    log:
+        "<logs>/{case}/{setting}/compare_attempts.log",
+    benchmark:
+        "<benchmarks>/{case}/{setting}/compare_attempts.tsv"
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code("compare_attempts.py"),
+    script:
+        "../scripts/compare_attempts.py"
+
+
 rule tabulate_discovery:
     input:
         causes=[f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in EVALUATED],

@@ -1,7 +1,8 @@
 """What is done to name the cause of what a simulation gets wrong."""
 
-from pydantic import Field, PositiveInt
+from pydantic import Field, PositiveInt, field_validator
 
+from heartfit.catalogue import composed
 from heartfit.configuration.strict import Strict
 
 
@@ -14,6 +15,19 @@ class Discovery(Strict):
     cases: tuple[str, ...] = Field(
         default=(), description="that are refitted and proved, about 100 beats each"
     )
+    trials: tuple[str, ...] = Field(
+        default=(),
+        description="mechanisms that these cases are extended by whatever is named, 20 to 50 beats each",
+    )
     most_steps: PositiveInt = Field(
         default=3, description="unscented steps of a refit, if it does not settle before"
     )
+
+    @field_validator("trials")
+    @classmethod
+    def _trials_are_known(cls, names: tuple[str, ...]) -> tuple[str, ...]:
+        try:
+            composed(names)
+        except KeyError as unknown:
+            raise ValueError(str(unknown.args[0])) from None
+        return names

@@ -70,6 +70,15 @@ class Refitted:
 
 
 @dataclass(frozen=True, eq=False)
+class Attempt:
+    """An extension that nobody named, tried all the same: its refit, its gains, and the curves beside both fits."""
+
+    refitted: Refitted
+    gain: tuple[Gain, ...]
+    traces: tuple[Trace, ...]
+
+
+@dataclass(frozen=True, eq=False)
 class Diagnosis:
     """The verdict and what it rests on.
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.configuration.setting import Setting
-from heartfit.diagnosis.cause import Diagnosis
+from heartfit.diagnosis.cause import Attempt, Diagnosis
 from heartfit.geometry.motion import Motion
 from heartfit.proof.extension import Extension
 from heartfit.proof.model import Model, Shown
@@ -67,6 +67,16 @@ class Trial:
             sum(each.refit.simulations + 1 for each in (base, *(each for each, _ in steps))),
         )
         return proved(found, tried, self.proof(base, shown)), shown.refit
+
+    def attempt(self, mechanism: str, none: Refit) -> Attempt:
+        """What one mechanism gains, whatever a search says of it; raises CalibrationError where it does not beat."""
+        extension = Extension.by(self.setting, mechanism)
+        base = self.at(Extension(self.setting), none)
+        extended = self.at(extension, self.refitted(extension))
+        beats = none.simulations + extended.refit.simulations + 2
+        tried = Tried(extension, none, extended.refit, (), beats)
+        proof = self.proof(base, extended)
+        return Attempt(tried.refitted({}), tuple(proof.gains()), proof.traces())
 
     def climb(self, base: Fitted, extensions: Iterable[Extension]) -> Iterator[tuple[Fitted, bool]]:
         """One extension after the other, until one does not beat or does not help over the one before it.

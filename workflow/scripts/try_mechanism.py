@@ -1,0 +1,13 @@
+"""Extend a case's model by one mechanism, named or not, and say what that gains where nothing was fitted."""
+
+from pathlib import Path
+
+from heartfit.io.attempts import write_attempt
+from heartfit.io.log import record
+from heartfit.io.refits import read_refit, read_trial
+
+record(snakemake.log[0])
+files, given = snakemake.input, snakemake.params
+trial = read_trial(dict(files.items()), dict(given.items()))
+attempt = trial.attempt(snakemake.wildcards.mechanism, read_refit(Path(files.refit)))
+write_attempt(Path(snakemake.output[0]), attempt, given.code)
