@@ -47,7 +47,9 @@ rule discovery_benchmark:
         sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=BATCHES),
         ventricles=f"{VENTRICLES.page}/discovery_benchmark_3d.md",
     output:
-        tables=expand("<results>/discovery_benchmark/{name}.csv", name=("rates", "mechanisms", "data", "cases")),
+        tables=expand(
+            "<results>/discovery_benchmark/{name}.csv", name=("rates", "mechanisms", "data", "cases")
+        ),
         page=f"{STUDY.discovery_benchmark.page}/discovery_benchmark.md",
         figures=expand(
             f"{STUDY.discovery_benchmark.page}/figures/discovery_{{name}}.png",
