@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from heartfit.diagnosis import diagnose, library
+from heartfit.diagnosis import case, library
 from heartfit.diagnosis.twin import Twin
 
 FEW = ("CatheterDelay", "CatheterOffset", "ImageShrinkage", "MitralRegurgitation")
@@ -14,7 +14,7 @@ FEW = ("CatheterDelay", "CatheterOffset", "ImageShrinkage", "MitralRegurgitation
 def few_mechanisms() -> Iterator[None]:
     """The search among four mechanisms instead of all."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(diagnose, "candidates", few)
+        patch.setattr(case, "candidates", few)
         yield
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from tests.diagnosis.hearts import LEAK, healthy, recorded
 
-from heartfit.diagnosis.diagnose import diagnose
+from heartfit.diagnosis.diagnose import diagnose, likeliest
 from heartfit.io.causes import KEYS, read_cause, write_cause_card
 from heartfit.planting.case import plant
 from heartfit.tables.cause_card import card, sentence
@@ -49,6 +49,13 @@ def test_the_card_is_written_and_read(found, tmp_path):
     assert content["mechanisms"][0]["amplitude"] == found.mechanisms[0].amplitude
     assert content["fingerprint"] == "0123"
     assert (tmp_path / "deep" / "cause.png").stat().st_size > 10_000
+
+
+def test_what_another_condition_adds_tells_members_of_a_group_apart():
+    leak, delay, shrunk = ("Leak",), ("Delay",), ("Shrunk",)
+    assert likeliest({leak: 9.0, delay: 12.5, shrunk: 10.0}, 3.0) == [delay, shrunk]
+    assert likeliest({leak: 9.0, delay: 12.5, shrunk: 9.5}, 3.0) == [delay]
+    assert likeliest({}, 3.0) == []
 
 
 @pytest.mark.parametrize("seed", [1, 4, 6])

@@ -1,9 +1,14 @@
 """What a card says of a diagnosis, verdict by verdict, and its figure."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Trace
+from heartfit.diagnosis.departure import departures
+from heartfit.diagnosis.recording import UNSEARCHED
+from heartfit.observation.beat_phases import BeatPhases
 from heartfit.tables.cause_card import card, missed, sentence, sized, spoken
 from heartfit.tables.cause_figure import plot_cause
 
@@ -11,6 +16,7 @@ LEAK = Cause("MitralRegurgitation", 12.0, 3e-5, "m^2", (2e-5, 4e-5))
 DELAY = Cause("CatheterDelay", 11.0, 0.02, "s", (0.01, 0.03))
 TIMES = np.arange(20) * 0.04
 BUMP = 5e-6 * np.exp(-(((TIMES - 0.5) / 0.08) ** 2))
+PHASES = BeatPhases(np.array([0.0, 0.06, 0.3, 0.36, 0.55, 0.65]), 0.8)
 TRACE = Trace(
     "lv_volume",
     TIMES,
@@ -30,6 +36,7 @@ def diagnosis(verdict, mechanisms=(), **other):
         "alternatives": (),
         "next_measurement": "",
         "gain": (),
+        "phases": PHASES,
     }
     return Diagnosis(verdict, mechanisms, simulations=10, period=0.8, threshold=5.0, **{**kept, **other})
 
@@ -55,10 +62,20 @@ def test_units_are_clinical():
 
 
 def test_what_is_missed_has_size_sign_and_phase():
-    text = missed(TRACE, 0.8)
-    assert "4.7 ± 1 mL higher" in text
-    assert "late diastole" in text
-    assert "480 ms" in text
+    (found,) = departures(diagnosis("unknown"))
+    assert missed(found) == (
+        "left ventricular volume: simulated 4.7 ± 1 mL too low in early filling, 4.7 standard deviations, "
+        "480 ms after the trigger."
+    )
+    (sound,) = departures(diagnosis("none", traces=(replace(TRACE, lacking=0.4 * BUMP),)))
+    assert missed(sound) == "left ventricular volume: nothing beyond its noise."
+    (timeless,) = departures(diagnosis("unknown", phases=None))
+    assert "too low, 4.7" in missed(timeless)
+
+
+def test_what_was_not_searched_is_told():
+    told = card(diagnosis("none", unsearched=UNSEARCHED), "case 1")
+    assert "- right ventricular volume: not searched, the sphere" in told
 
 
 def test_the_card_tells_withdrawn_names_alternatives_and_gains():
@@ -75,6 +92,8 @@ def test_what_is_unknown_is_beside_the_best_of_the_library():
 
 def test_the_figure_has_a_row_for_each_curve_and_the_threshold():
     figure = plot_cause(diagnosis("named", (LEAK,)))
-    assert len(figure.axes) == 4
-    assert figure.axes[-1].get_xlabel() == "ln Bayes factor over none"
-    assert len(figure.axes[0].lines) == 3
+    curves, residuals, ranking = figure.axes
+    assert ranking.get_xlabel() == "ln Bayes factor over none"
+    assert {line.get_label() for line in curves.lines} >= {"measured", "simulated", "with the cause"}
+    assert residuals.get_title() == "LV volume too low in early filling: 4.7 sd"
+    assert "IVC" in {text.get_text() for text in residuals.texts}

@@ -1,3 +1,6 @@
+SCORES = ("rates", "mechanisms", "data", "cases")
+
+
 # answers are sealed apart from what was measured: diagnose_planted is given the one folder, and never the other
 rule plant_effects:
     input:
@@ -47,9 +50,7 @@ rule discovery_benchmark:
         sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=BATCHES),
         ventricles=f"{VENTRICLES.page}/discovery_benchmark_3d.md",
     output:
-        tables=expand(
-            "<results>/discovery_benchmark/{name}.csv", name=("rates", "mechanisms", "data", "cases")
-        ),
+        tables=expand("<results>/discovery_benchmark/{name}.csv", name=SCORES),
         page=f"{STUDY.discovery_benchmark.page}/discovery_benchmark.md",
         figures=expand(
             f"{STUDY.discovery_benchmark.page}/figures/discovery_{{name}}.png",

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from heartfit.geometry.arrays import Floats
+from heartfit.observation.beat_phases import BeatPhases
 
 Verdict = Literal["none", "named", "two", "group", "unknown", "insufficient"]
 
@@ -86,7 +87,8 @@ class Diagnosis:
     the best; threshold: the ln Bayes factor below which there is none; ranking: ln Bayes factors over none of every
     single mechanism and, as "unknown", of a discrepancy without a name; withdrawn: names that did not help on what was
     held out; refitted: the proof in three dimensions, where there was one. Without a name it is a trial of the best of
-    the ranking.
+    the ranking. unsearched: curves that were recorded and not searched, and why; phases: those of the beat without a
+    cause, None where a valve of it never moves.
     """
 
     verdict: Verdict
@@ -101,3 +103,5 @@ class Diagnosis:
     withdrawn: tuple[str, ...] = ()
     traces: tuple[Trace, ...] = ()
     refitted: Refitted | None = None
+    unsearched: Mapping[str, str] = field(default_factory=dict)
+    phases: BeatPhases | None = None

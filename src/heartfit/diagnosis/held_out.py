@@ -40,11 +40,15 @@ class Predicted:
 
     def helps(self) -> bool:
         """Whether the cause makes the held-out data likelier."""
+        return self.gained() > 0.0
+
+    def gained(self) -> float:
+        """ln likelihood of the held-out data with the cause over without."""
         whitening = Bench(self.data).whitening
         none, extended = (
             whitening.log_likelihood(self.data.values - each) for each in (self.none, self.extended)
         )
-        return extended > none
+        return extended - none
 
     def gains(self) -> tuple[Gain, ...]:
         """Curve by curve."""

@@ -11,6 +11,8 @@ from heartfit.observation.curve import require_pressures, require_volumes
 
 KNOWN = ("lv_volume", "lv_pressure", "aorta_pressure", "rv_volume")
 """Curves that a recording may hold."""
+UNSEARCHED = {"rv_volume": "the sphere of the search has no right ventricle"}
+"""Those that are kept and not searched, and why."""
 
 FEWEST, SHORTEST = 8, 0.7
 """Samples that a curve must have, and part of the period that they must span: less leaves a phase unseen."""
@@ -82,7 +84,7 @@ class Recording:
     @property
     def searched(self) -> tuple[str, ...]:
         """The curves that a left ventricle alone explains."""
-        return tuple(name for name in KNOWN[:3] if name in self.curves)
+        return tuple(name for name in KNOWN if name in self.curves and name not in UNSEARCHED)
 
     def end_diastolic_volume(self) -> float:
         """Of the left ventricle, m^3: the mean of the largest tenth of its volumes."""

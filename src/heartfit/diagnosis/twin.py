@@ -38,15 +38,21 @@ class Twin:
 
     def predicted(self, x: Floats, effects: Sequence[Mechanism]) -> Floats | None:
         """The curves (n,), one after the other, SI, at the coordinates x (23,); None where no beat is reached."""
+        reached = self.reached(x, effects)
+        if reached is None:
+            return None
+        heart, beat = reached
+        return np.concatenate([shown(beat, heart, name, at) for name, at in self.times.items()])
+
+    def reached(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Heart, Beat] | None:
+        """The heart at the coordinates x (23,) and its beat; None where there is none."""
         try:
             centre = moved(self.centre, x)
             heart = reduce(add, effects, centre.heart)
             beat = self._beat(replace(centre, heart=heart), x, effects)
         except ValueError:  # coordinates beyond what a heart can be
             return None
-        if not beat.completed or beat.volume["lv"].min() <= 0.0:
-            return None
-        return np.concatenate([shown(beat, heart, name, at) for name, at in self.times.items()])
+        return (heart, beat) if beat.completed and beat.volume["lv"].min() > 0.0 else None
 
     def _beat(self, centre: Centre, x: Floats, effects: Sequence[Mechanism]) -> Beat:
         felt = [each for each in effects if not isinstance(each, Sensor)]

@@ -39,7 +39,7 @@ class BeatPhases:
 
     @classmethod
     def of(cls, curves: Mapping[str, Curve]) -> "BeatPhases":
-        """From the "aortic_flow" and "mitral_flow" of a completed beat."""
+        """From the "aortic_flow" and "mitral_flow" of a beat; raises ValueError for a valve that never moves."""
         ejection, filling = (_open(curves[f"{valve}_flow"]) for valve in ("aortic", "mitral"))
         mitral = filling.values
         early = int(mitral[: max(1, int(EARLY * len(mitral)))].argmax())
@@ -75,6 +75,8 @@ class BeatPhases:
 def _open(flow: Curve) -> Curve:
     """The samples while the valve is open, in time from its opening; times may exceed the period."""
     is_open = flow.values > OPEN * flow.values.max()
+    if is_open.all() or not is_open.any():
+        raise ValueError("phases of the beat: a valve never opens or never closes")
     opening = int(np.flatnonzero(is_open & ~np.roll(is_open, 1))[0])
     turned = Curve(_unrolled(flow, opening), np.roll(flow.values, -opening), flow.period)
     last = int(np.roll(is_open, -opening).argmin()) + 1

@@ -5,8 +5,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
 
+from heartfit.diagnosis.case import Case
 from heartfit.diagnosis.cause import Cause, Diagnosis
-from heartfit.diagnosis.diagnose import Case, diagnose
+from heartfit.diagnosis.diagnose import concluded, diagnose
 from heartfit.diagnosis.recording import Recording
 from heartfit.errors import InputError
 
@@ -60,6 +61,6 @@ def found_by_data(rest: Recording, conditions: Mapping[str, Recording]) -> Findi
         return found(rest)
     searched = cache(Case.searched)  # once for both: a condition is never fitted
     volume = replace(rest, curves={"lv_volume": rest.curves["lv_volume"]})
-    said = found(rest, lambda each: searched(each).concluded({}))
-    more = found(rest, lambda each: searched(each).concluded(conditions))
+    said = found(rest, lambda each: concluded(searched(each), {}))
+    more = found(rest, lambda each: concluded(searched(each), conditions))
     return replace(said, other={VOLUME: found(volume), CONDITION: more})

@@ -3,9 +3,8 @@
 import re
 from collections.abc import Iterable
 
-import numpy as np
-
-from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Refitted, Trace
+from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Refitted
+from heartfit.diagnosis.departure import Departure, departures
 
 CURVES = {
     "lv_volume": "left ventricular volume",
@@ -14,8 +13,6 @@ CURVES = {
     "rv_volume": "right ventricular volume",
 }
 UNITS = {"m^2": ("cm²", 1e4), "m^3": ("mL", 1e6), "Pa": ("kPa", 1e-3), "s": ("ms", 1e3), "1": ("", 1.0)}
-PHASES = ((0.12, "early systole"), (0.36, "late systole"), (0.58, "early diastole"), (1.0, "late diastole"))
-"""Ends of the phases of a beat at rest, as shares of the period after the trigger."""
 
 
 def sentence(diagnosis: Diagnosis) -> str:
@@ -49,7 +46,8 @@ def _names(diagnosis: Diagnosis) -> str:
 
 def card(diagnosis: Diagnosis, title: str) -> str:
     """The card in Markdown: what is missed, what it is, what else it could be, what to measure, what is gained."""
-    lacking = [f"- {missed(each, diagnosis.period)}" for each in diagnosis.traces]
+    lacking = [f"- {missed(each)}" for each in departures(diagnosis)]
+    lacking += [f"- {CURVES[name]}: not searched, {why}." for name, why in diagnosis.unsearched.items()]
     parts = [
         f"# {title}\n\n**{sentence(diagnosis)}**",
         "## What the simulation misses\n\n" + "\n".join(lacking),
@@ -63,21 +61,27 @@ def card(diagnosis: Diagnosis, title: str) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def missed(trace: Trace, period: float) -> str:
-    """Where in the beat the curve departs most from the simulation without a cause, and in which direction."""
-    curve = CURVES.get(trace.curve, trace.curve)
-    worst = int(np.argmax(np.abs(trace.lacking) / trace.band))
-    size, doubt = trace.lacking[worst], trace.band[worst]
-    unit, factor = UNITS["m^3" if trace.curve.endswith("_volume") else "Pa"]
-    if abs(size) < 2.0 * doubt:
+def missed(each: Departure) -> str:
+    """ "aortic pressure: simulated 0.8 ± 0.2 kPa too low in ejection, 4.0 standard deviations, 120 ms after ..."."""
+    curve, (unit, factor) = CURVES.get(each.curve, each.curve), unit_of(each.curve)
+    if not each.clear:
         return f"{curve}: nothing beyond its noise."
-    phase = trace.times[worst] % period / period
-    name = next(name for end, name in PHASES if phase <= end)
-    way = "higher" if size > 0.0 else "lower"
+    size, doubt = factor * abs(each.size), factor * each.sd
     return (
-        f"{curve}: measured {factor * abs(size):.2g} ± {factor * doubt:.1g} {unit} {way} than simulated in {name}, "
-        f"{1e3 * phase * period:.0f} ms after the trigger."
+        f"{curve}: simulated {size:.2g} ± {doubt:.1g} {unit} {wrong(each)}, "
+        f"{abs(each.deviations):.1f} standard deviations, {1e3 * each.time:.0f} ms after the trigger."
     )
+
+
+def wrong(each: Departure) -> str:
+    """ "too low in ejection"."""
+    way = "too high" if each.size > 0.0 else "too low"
+    return f"{way} in {each.phase}" if each.phase else way
+
+
+def unit_of(curve: str) -> tuple[str, float]:
+    """Printed unit of a curve by name, and what one SI unit is in it."""
+    return UNITS["m^3" if curve.endswith("_volume") else "Pa"]
 
 
 def _ranking(diagnosis: Diagnosis) -> str:
