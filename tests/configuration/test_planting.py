@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from heartfit.configuration.planting import SCORING, DiscoveryBenchmark
+from heartfit.configuration.planting import SCORING, DiscoveryBenchmark, VentricularBenchmark
 from heartfit.configuration.strict import validated
 from heartfit.errors import InputError
 from heartfit.io.configuration import read_configuration, read_study
@@ -37,3 +37,12 @@ def test_seeds_of_tuning_are_refused():
     content = read_configuration([CONFIG / "config.yaml"])["discovery_benchmark"]
     with pytest.raises(InputError, match="first_seed"):
         validated(DiscoveryBenchmark, content | {"first_seed": SCORING - 1}, "here")
+
+
+@pytest.mark.parametrize(
+    "change", [{"effects": ["Nose"]}, {"outsiders": ["Nose"]}, {"pairs": [["Scar", "Nose"]]}]
+)
+def test_what_nobody_can_plant_in_3d_is_refused_by_name(change):
+    content = read_configuration([CONFIG / "config.yaml"])["discovery_benchmark"]["ventricles"]
+    with pytest.raises(InputError, match="'Nose' cannot be planted"):
+        validated(VentricularBenchmark, content | change, "here")

@@ -6,41 +6,77 @@ import numpy as np
 import pytest
 
 from heartfit.cohort.protocol import Protocol
+from heartfit.cohort.scanner import Scanner
 from heartfit.cohort.template import Template
+from heartfit.errors import InputError
+from heartfit.geometry.cavity import Cavity
 from heartfit.io.configuration import read_study
-from heartfit.planting import ventricles
+from heartfit.planting import imaging, ventricles
 from heartfit.planting.campaign import Plan
+from heartfit.planting.imaging import Imaging
 from heartfit.planting.ventricles import Ventricles
+from heartfit.registration.track import FreeForm
 from heartfit.simulation import Numerics
 
 CONFIG = Path(__file__).parents[2] / "config"
 COARSE = Numerics(time_step=0.02, max_beats=1, drift=1.0)
+SOUND = Plan(5, "none")
 LEAK = Plan(5, "single", ("MitralRegurgitation",), 3.0)
+
+
+SCANNER = Scanner(voxel=4e-3, slice_thickness=4e-3, subvoxel=2e-3, subframes=1)
+REGISTRATION = FreeForm(knots=16e-3, levels=((1, 3),))
 
 
 @pytest.fixture(scope="module")
 def hidden():
-    return Ventricles(Template.build(0.02, 0.0015), {"sigma_0": 257e3}, Protocol(COARSE, (1300.0, 520.0)))
+    template = Template.build(0.02, 0.0015)
+    seen_by = Imaging(SCANNER, REGISTRATION, template, template.mesh)
+    return Ventricles(template, {"sigma_0": 257e3}, Protocol(COARSE, (1300.0, 520.0)), seen_by)
+
+
+@pytest.fixture(scope="module")
+def sound(hidden):
+    return hidden.plant(SOUND)
 
 
 def volumes(case):
     return case.curves["rest"]["lv_volume"].values
 
 
-def test_a_leak_is_planted_in_the_heart_of_the_seed(hidden):
-    wall, leaking = hidden.plant(LEAK)
-    same, sound = hidden.plant(Plan(5, "none"))
-    assert wall.points.shape == same.points.shape
-    assert leaking.answer.truth == sound.answer.truth
+def test_a_leak_is_planted_in_the_heart_of_the_seed(hidden, sound):
+    _, leaking = hidden.plant(LEAK)
+    assert leaking.answer.truth == sound[1].answer.truth
     (effect,) = leaking.answer.effects
     assert (effect.name, effect.scales) == ("MitralRegurgitation", 3.0)
-    assert np.ptp(volumes(leaking)) > np.ptp(volumes(sound))
+    assert np.ptp(volumes(leaking)) > np.ptp(volumes(sound[1]))
     assert set(leaking.curves["rest"]) == {"lv_volume", "lv_pressure"}
 
 
-def test_a_seed_gives_one_case(hidden):
-    first, again = (hidden.plant(Plan(6, "none"))[1] for _ in range(2))
-    assert np.array_equal(volumes(first), volumes(again))
+def test_the_volume_is_that_of_the_mesh_that_followed_the_images(sound):
+    mesh, case = sound
+    volume = case.curves["rest"]["lv_volume"]
+    assert len(volume.times) in range(25, 31)
+    assert Cavity.of(mesh, "lv_endo").volume(mesh.points) == pytest.approx(volume.values[0])
+    assert 0.0 < case.answer.volume_noise < 0.05
+
+
+def test_what_registration_cannot_follow_is_counted_and_drawn_anew(hidden, monkeypatch):
+    calls, follow = [], imaging.track
+
+    def folding_once(*given):
+        calls.append(given)
+        if len(calls) == 1:
+            raise InputError("registration: frames [3] fold the wall")
+        return follow(*given)
+
+    monkeypatch.setattr(imaging, "track", folding_once)
+    _, case = hidden.plant(SOUND)
+    assert case.answer.rejected == {"not followed by registration": 1}
+
+
+def test_a_seed_gives_one_case(hidden, sound):
+    assert np.array_equal(volumes(hidden.plant(SOUND)[1]), volumes(sound[1]))
 
 
 def test_a_heart_that_does_not_beat_is_counted_and_drawn_anew(hidden, monkeypatch):
@@ -53,7 +89,7 @@ def test_a_heart_that_does_not_beat_is_counted_and_drawn_anew(hidden, monkeypatc
         return beat(*given)
 
     monkeypatch.setattr(ventricles, "generate", failing_once)
-    _, case = hidden.plant(Plan(5, "none"))
+    _, case = hidden.plant(SOUND)
     assert case.answer.rejected == {"no beat": 1}
 
 
@@ -61,4 +97,5 @@ def test_the_study_hides_what_the_project_set_itself():
     plans = read_study([CONFIG / "config.yaml"]).discovery_benchmark.ventricles.plans()
     assert sum(plan.kind == "single" for plan in plans) >= 20
     assert sum(plan.kind == "none" for plan in plans) >= 5
+    assert {plan.kind for plan in plans} == {"none", "single", "outside", "two"}
     assert len({plan.seed for plan in plans}) == len(plans)

@@ -159,4 +159,4 @@ def test_answers_are_read_by_the_scorer_only(workflow):
     assert readers(run.stdout, "/sealed/") == {*targets, "discovery_ventricles", "check_ventricles"}
     assert readers(run.stdout, "/measured/") == {"diagnose_planted", "diagnose_ventricles"}
     assert counts["plant_effects"] == counts["diagnose_planted"] == 2
-    assert counts["plant_ventricles"] == counts["diagnose_ventricles"] == 26
+    assert counts["plant_ventricles"] == counts["diagnose_ventricles"] == 35

@@ -5,16 +5,25 @@ FOUND_IN_3D = {
     ),
     "sealed": expand("<results>/discovery_benchmark/ventricles/sealed/{number}", number=HIDDEN_IN_3D),
 }
+HIDING = {
+    "generator": VENTRICLES.generator,
+    "diagnoser": VENTRICLES.diagnoser,
+    "scanner": STUDY.scanner(),
+    "registration": STUDY.registration.free_form(),
+    "standard": STUDY.cohort.heart,
+    "pressures": STUDY.end_diastolic_pressure,
+}
 
 
 rule plant_ventricles:
     input:
-        template="<results>/templates/planted.vtu",
+        generator="<results>/templates/planted.vtu",
+        template="<results>/templates/diagnoser.vtu",
         kernels="<results>/kernels.json",
     output:
         measured=directory("<results>/discovery_benchmark/ventricles/measured/{number}"),
         sealed=directory("<results>/discovery_benchmark/ventricles/sealed/{number}"),
-        wall="<results>/discovery_benchmark/ventricles/walls/{number}.vtu",
+        mesh="<results>/discovery_benchmark/ventricles/meshes/{number}.vtu",
     log:
         "<logs>/discovery_benchmark/plant_ventricles_{number}.log",
     benchmark:
@@ -23,12 +32,10 @@ rule plant_ventricles:
         mem_mb=1000,
         runtime=10,
     params:
+        **HIDING,
         plan=plan_of,
-        generator=VENTRICLES.generator,
-        standard=STUDY.cohort.heart,
-        pressures=STUDY.end_diastolic_pressure,
         library=every_mechanism(),
-        stated=stated(plan_of, VENTRICLES.generator, STUDY.cohort.heart, STUDY.end_diastolic_pressure),
+        stated=stated(plan_of, HIDING),
         code=code("plant_ventricles.py"),
     script:
         "../scripts/plant_ventricles.py"
@@ -38,9 +45,7 @@ rule diagnose_ventricles:
     input:
         kernels="<results>/kernels.json",
         measured="<results>/discovery_benchmark/ventricles/measured/{number}",
-        wall="<results>/discovery_benchmark/ventricles/walls/{number}.vtu",
-        generator="<results>/templates/planted.vtu",
-        template="<results>/templates/diagnoser.vtu",
+        mesh="<results>/discovery_benchmark/ventricles/meshes/{number}.vtu",
     output:
         "<results>/discovery_benchmark/ventricles/findings/{number}.json",
     log:

@@ -1,8 +1,7 @@
-"""Search the cause of what the model misses in planted ventricles, on a sphere centred on one beat of their wall."""
+"""Search the cause of what the model misses in planted ventricles, on a sphere centred on one beat of their mesh."""
 
 from pathlib import Path
 
-from heartfit.cohort.template import Template
 from heartfit.io.findings import read_planted, write_findings
 from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh
@@ -10,9 +9,8 @@ from heartfit.planting.trial import found
 from heartfit.proof.reference import Reference
 
 record(snakemake.log[0])
-files, given, size = snakemake.input, snakemake.params, snakemake.params.model.mesh
-template = Template(read_mesh(Path(files.template)), size.edge_length, size.tolerance)
-mesh = template.refilling(*map(read_mesh, map(Path, (files.wall, files.generator))))
+files, given = snakemake.input, snakemake.params
+mesh = read_mesh(Path(files.mesh))
 reference = Reference(mesh, given.setting, given.pressures, given.model.numerics)
 ((seed, recording),) = read_planted(Path(files.measured)).items()
 write_findings(Path(snakemake.output[0]), {seed: found(recording, reference.search)}, given.code)

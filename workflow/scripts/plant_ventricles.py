@@ -1,4 +1,4 @@
-"""Hide an effect in three-dimensional ventricles: what was measured and the wall here, the sealed answer there."""
+"""Hide an effect in three-dimensional ventricles: what was measured and the mesh here, the sealed answer there."""
 
 from pathlib import Path
 
@@ -6,12 +6,18 @@ from heartfit.cohort.template import Template
 from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh, write_mesh
 from heartfit.io.planted import write_planted
+from heartfit.planting.imaging import Imaging
 from heartfit.planting.ventricles import Ventricles
 
 record(snakemake.log[0])
-given, size = snakemake.params, snakemake.params.generator.mesh
-template = Template(read_mesh(Path(snakemake.input.template)), size.edge_length, size.tolerance)
-ventricles = Ventricles(template, given.standard, given.generator.protocol(given.pressures))
-wall, case = ventricles.plant(given.plan)
-write_mesh(Path(snakemake.output.wall), wall)
-write_planted(case, Path(snakemake.output.measured), Path(snakemake.output.sealed))
+files, out, given = snakemake.input, snakemake.output, snakemake.params
+hidden, seen = read_mesh(Path(files.generator)), read_mesh(Path(files.template))
+made, carried = given.generator, given.diagnoser.mesh
+imaging = Imaging(
+    given.scanner, given.registration, Template(seen, carried.edge_length, carried.tolerance), hidden
+)
+template = Template(hidden, made.mesh.edge_length, made.mesh.tolerance)
+ventricles = Ventricles(template, given.standard, made.protocol(given.pressures), imaging)
+mesh, case = ventricles.plant(given.plan)
+write_mesh(Path(out.mesh), mesh)
+write_planted(case, Path(out.measured), Path(out.sealed))

@@ -1,13 +1,16 @@
 """Hidden effects on which the search for causes is scored: how many of each kind, how large, on which seeds."""
 
-from itertools import count
+from collections.abc import Collection, Iterable
+from itertools import chain
+from typing import Self
 
-from pydantic import Field, NonNegativeInt, PositiveFloat, PositiveInt, field_validator
+from pydantic import Field, NonNegativeInt, PositiveFloat, PositiveInt, model_validator
 
 from heartfit.configuration.generator import Generator
 from heartfit.configuration.strict import Strict
-from heartfit.planting.campaign import Campaign, Plan, Reloaded
+from heartfit.planting.campaign import Campaign, Kind, Plan, Reloaded
 from heartfit.planting.effects import plantable
+from heartfit.planting.outsiders import OUTSIDERS
 
 SCORING = 100000
 """The first seed on which nothing is tuned; tuning keeps below 1000."""
@@ -20,6 +23,8 @@ class VentricularBenchmark(Strict):
     nulls: PositiveInt
     effects: tuple[str, ...] = Field(min_length=1, description="mechanisms that are hidden, by name")
     each: PositiveInt = Field(description="cases of each effect")
+    outsiders: tuple[str, ...] = Field((), description="effects outside the library, one case each")
+    pairs: tuple[tuple[str, str], ...] = Field((), description="two mechanisms in one heart, one case each")
     scales: PositiveFloat = Field(description="size, in scales of the mechanism")
     generator: Generator = Field(description="of the hidden hearts")
     diagnoser: Generator = Field(description="of the one beat on which the sphere is centred")
@@ -28,22 +33,21 @@ class VentricularBenchmark(Strict):
     page: str = Field(description="folder of the page; its figures go into `figures` there")
     claims: str = Field(description="table of what the rates are claimed to be")
 
-    @field_validator("effects")
-    @classmethod
-    def _can_be_planted(cls, effects: tuple[str, ...]) -> tuple[str, ...]:
-        known = plantable()
-        for name in effects:
-            if name not in known:
-                raise ValueError(f"{name!r} cannot be planted; known are {', '.join(known)}")
-        return effects
+    @model_validator(mode="after")
+    def _can_be_planted(self) -> Self:
+        _require_known((*self.effects, *chain(*self.pairs)), plantable())
+        _require_known(self.outsiders, [cls.__name__ for cls in OUTSIDERS])
+        return self
 
     def plans(self) -> list[Plan]:
-        """The cases to plant, one a job: nulls, then every effect, each as often as asked for."""
-        seeds = count(self.first_seed)
-        planted = [None] * self.nulls + [name for name in self.effects for _ in range(self.each)]
+        """The cases to plant, one a job: nulls, every effect as often as asked for, outsiders and pairs."""
+        planted: list[tuple[Kind, tuple[str, ...]]] = [("none", ())] * self.nulls
+        planted += [("single", (name,)) for name in self.effects for _ in range(self.each)]
+        planted += [("outside", (name,)) for name in self.outsiders]
+        planted += [("two", pair) for pair in self.pairs]
         return [
-            Plan(seed, "none") if name is None else Plan(seed, "single", (name,), self.scales)
-            for seed, name in zip(seeds, planted, strict=False)
+            Plan(seed, kind, names, self.scales if names else 0.0)
+            for seed, (kind, names) in enumerate(planted, self.first_seed)
         ]
 
 
@@ -53,6 +57,12 @@ class ReloadedBenchmark(Strict):
     nulls: NonNegativeInt = Field(description="the first so many")
     singles: NonNegativeInt = Field(description="the first so many of one size")
     scales: PositiveFloat = Field(description="that size, in scales of the mechanism")
+
+
+def _require_known(names: Iterable[str], known: Collection[str]) -> None:
+    for name in names:
+        if name not in known:
+            raise ValueError(f"{name!r} cannot be planted; known are {', '.join(known)}")
 
 
 class DiscoveryBenchmark(Strict):

@@ -48,7 +48,7 @@ def measured(
     true: Mapping[str, Curve] = beat_curves(beat, sensors)
     return {
         "lv_volume": _volume(true["lv_volume"], study, rng),
-        "lv_pressure": _pressure(true["lv_pressure"], rng),
+        "lv_pressure": recorded_pressure(true["lv_pressure"], rng),
     }
 
 
@@ -59,7 +59,8 @@ def _volume(true: Curve, study: Study, rng: np.random.Generator) -> Curve:
     return Curve(frames.times, frames.values + rough + error, true.period)
 
 
-def _pressure(true: Curve, rng: np.random.Generator) -> Curve:
+def recorded_pressure(true: Curve, rng: np.random.Generator) -> Curve:
+    """A catheter's record of a true pressure."""
     count = int(true.period * RATE) // AVERAGED
     times = np.arange(count * AVERAGED) / RATE
     samples = true(times) + PRESSURE_NOISE * rng.standard_normal(len(times))

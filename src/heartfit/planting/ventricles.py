@@ -1,7 +1,7 @@
 """Effects hidden in three dimensions: ventricles whose mesh, time step, valves and parameters are not the calibrator's.
 
-The beat is the cohort's, its parameters scatter as those of the hidden spheres, and volume and pressure are measured
-with the same errors. Size and rate come from the anatomy, which is drawn too.
+The beat is the cohort's and its parameters scatter as those of the hidden spheres; size and rate come from the anatomy,
+which is drawn too. The volume is that of a mesh carried through images; the pressure has the errors of the spheres'.
 """
 
 from collections.abc import Mapping
@@ -14,9 +14,11 @@ from heartfit.cohort.generate import Volunteer, VolunteerError, generate
 from heartfit.cohort.hidden_heart import OTHER_MODEL, VALVES
 from heartfit.cohort.protocol import Protocol
 from heartfit.cohort.template import Template
+from heartfit.errors import InputError
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart import Heart
 from heartfit.mechanics.body import StepFailed
+from heartfit.observation.beat import beat_curves
 from heartfit.planting.campaign import Plan
 from heartfit.planting.case import (
     REST,
@@ -29,7 +31,8 @@ from heartfit.planting.case import (
 )
 from heartfit.planting.effects import Inadmissible, described
 from heartfit.planting.hidden import RELATIVE, TIMES, Normal, deviating
-from heartfit.planting.measuring import Study, measured
+from heartfit.planting.imaging import Imaging, Seen
+from heartfit.planting.measuring import Study, recorded_pressure
 from heartfit.planting.outsiders import joined
 
 DEVIATES = (*RELATIVE, *TIMES, "mitral resistance")
@@ -37,14 +40,15 @@ DEVIATES = (*RELATIVE, *TIMES, "mitral resistance")
 
 @dataclass(frozen=True, eq=False)
 class Ventricles:
-    """How such hearts are made: the mesh that is moved to each, values about which they scatter, and the protocol."""
+    """How such hearts are made and imaged: the mesh that is moved to each, about which values they scatter."""
 
     template: Template
     standard: Mapping[str, float]
     protocol: Protocol
+    imaging: Imaging
 
     def plant(self, plan: Plan) -> tuple[VentricularMesh, PlantedCase]:
-        """The wall at end diastole, at the trigger, and the case; draws that no patient resembles are drawn anew."""
+        """The diagnoser's mesh of the first frame, and the case; draws that no patient resembles are drawn anew."""
         return redrawn(plan.seed, lambda rng, rejected: self._planted(plan, rng, rejected))
 
     def _planted(
@@ -57,11 +61,13 @@ class Ventricles:
         for effect in effects:
             heart = joined(heart, effect)
         volunteer = self._beating(self.template.shaped(anatomy.shape), heart)
-        curves = {REST: measured(volunteer.beat, heart.sensors, study, rng)}
+        seen = self._imaged(volunteer, heart, study.frames, int(rng.integers(2**31)))
+        pressure = recorded_pressure(beat_curves(volunteer.beat, heart.sensors)["lv_pressure"], rng)
+        curves = {REST: {"lv_volume": seen.volume, "lv_pressure": pressure}}
         require_recordable(curves)
         planted = described(effects, plan.scales)
-        answer = Answer(plan.seed, plan.kind, planted, dict(rejected), deviates, study.noise)
-        return volunteer.mesh, PlantedCase(curves, answer)
+        answer = Answer(plan.seed, plan.kind, planted, dict(rejected), deviates, seen.error)
+        return seen.mesh, PlantedCase(curves, answer)
 
     def _average(self, period: float) -> Heart:
         """The heart about which those of this period, s, scatter."""
@@ -74,3 +80,9 @@ class Ventricles:
             raise Inadmissible("no beat") from None
         plausible(volunteer.beat, self.protocol.numerics.drift)
         return volunteer
+
+    def _imaged(self, volunteer: Volunteer, heart: Heart, frames: int, seed: int) -> Seen:
+        try:
+            return self.imaging.seen(volunteer, heart.sensors, frames, seed)
+        except InputError:
+            raise Inadmissible("not followed by registration") from None
