@@ -1,5 +1,7 @@
 """The sphere of the search: its centre, its size, and beats that an instrument does not cost."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -49,6 +51,15 @@ def test_the_trigger_moves_the_recording_and_not_the_heart():
     shifted = Twin(HUMAN, {name: at + 0.008 for name, at in TIMES.items()}).predicted(CENTRE, ())
     assert twin.predicted(late, ()) == pytest.approx(shifted, rel=1e-9)
     assert twin.simulations == 1
+
+
+def test_nothing_that_is_free_is_held_by_a_centre_without_length_dependence():
+    centre = replace(HUMAN, heart=HUMAN.heart.with_parameters({"slope": 0.0}))
+    twin = Twin(centre, TIMES)
+    beat = twin.predicted(CENTRE, ())
+    for index, each in enumerate(FREE):
+        moved = twin.predicted(np.where(np.arange(len(FREE)) == index, 1.0, 0.0), ())
+        assert np.abs(moved / beat - 1.0).max() > 1e-3, each.name
 
 
 def test_coordinates_beyond_what_a_heart_can_be_predict_nothing():

@@ -1,6 +1,8 @@
 r"""What the search leaves free of every heart: twenty-three unknowns, each about a centre.
 
-.. math:: \theta = \theta_0 e^{s x} \quad\text{or}\quad \theta = \theta_0 + s x \text{ (times)}, \qquad x \sim N(0, 1) .
+.. math:: \theta = \theta_0 e^{s x} \quad\text{or}\quad \theta = \theta_0 + s x, \qquad x \sim N(0, 1) ,
+
+the latter for times, and for the length dependence, which a three-dimensional centre may not have at all.
 
 The calibrated parameters are among them and none of the others is frozen: a parameter held at a wrong value leaves a
 misfit that the next best mechanism explains, in every heart (docs/discovery.md). Size is free through the volume of the
@@ -18,7 +20,7 @@ from heartfit.geometry.arrays import Floats
 class Free:
     """Parameters by their paths below the heart, which scatter as one, and their standard deviation.
 
-    That is of their logarithms or, where they add, of a time in s.
+    That is of their logarithms or, where they add, of themselves, SI.
     """
 
     paths: tuple[str, ...]
@@ -54,7 +56,7 @@ PARAMETERS = (
     Free(("circulation.systemic.L",), 0.30),
     Free(("tissue.active.k_0",), 0.30),
     Free(("tissue.active.alpha",), 0.30),
-    Free(("tissue.active.starling.slope",), 0.50),
+    Free(("tissue.active.starling.slope",), 0.10, additive=True),
     Free(("circulation.left_atrium",), 0.15),
     Free(("circulation.mitral.open",), 0.40),
     Free(("circulation.aortic.open",), 0.40),
