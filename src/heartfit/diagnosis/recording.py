@@ -17,6 +17,9 @@ UNSEARCHED = {"rv_volume": "the sphere of the search has no right ventricle"}
 FEWEST, SHORTEST = 8, 0.7
 """Samples that a curve must have, and part of the period that they must span: less leaves a phase unseen."""
 
+STILL = 0.05
+"""Of its largest value, what a curve that beats exceeds at least from trough to peak."""
+
 PERIODS = (0.25, 2.5)
 """Of a human heart, s."""
 
@@ -79,7 +82,20 @@ class Recording:
                 f"{name}: {samples.times.size} samples over {span:g} s; expected at least {FEWEST} over "
                 f"{SHORTEST * self.period:.2g} s: record a whole beat of {self.period:g} s"
             )
+        if samples.times.size * self.period < FEWEST * span:
+            raise InputError(
+                f"{name}: {samples.times.size} samples over {span:g} s, {span / self.period:.0f} beats; expected at "
+                f"least {FEWEST} a beat: are the times milliseconds, or the period that of many beats?"
+            )
+        self._check_values(name, samples)
+
+    def _check_values(self, name: str, samples: Samples) -> None:
         (require_volumes if name.endswith("_volume") else require_pressures)(samples.values)
+        if np.ptp(samples.values) < STILL * np.abs(samples.values).max():
+            raise InputError(
+                f"{name}: values from {samples.values.min():g} to {samples.values.max():g}, SI; expected a curve that "
+                "beats: check the column"
+            )
 
     @property
     def searched(self) -> tuple[str, ...]:

@@ -125,11 +125,18 @@ def _read_csv(path: Path) -> "pd.DataFrame":
     if not Path(path).is_file():
         raise InputError(f"{path}: no such file; expected curves as CSV: correct the path")
     try:
-        table = pd.read_csv(path, comment="#", skipinitialspace=True, dtype=str, keep_default_na=False)
+        table = pd.read_csv(
+            path, comment="#", skipinitialspace=True, dtype=str, keep_default_na=False, encoding="utf-8-sig"
+        )
     except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
+        said = " ".join(str(error).split())
         raise InputError(
-            f"{path}: not a CSV table ({error}); expected a header such as time_s,lv_volume_ml"
+            f"{path}: not a CSV table ({said}); expected a header such as time_s,lv_volume_ml"
         ) from error
+    if len(table.columns) == 1 and re.search(r"[;\t]", table.columns[0]):
+        raise InputError(
+            f"{path}: no commas between columns; expected these, and points in numbers: export it anew"
+        )
     if "time_s" not in table.columns:
         raise InputError(
             f"{path}: no column time_s among {', '.join(table.columns)}; expected times in seconds: name it "
@@ -165,7 +172,9 @@ def stated_period(path: Path) -> float | None:
     if not Path(path).is_file():
         raise InputError(f"{path}: no such file; expected curves as CSV: correct the path")
     found = re.search(
-        r"^#\s*period_s\s*=\s*([0-9.eE+-]+)\s*$", Path(path).read_text(encoding="utf-8"), re.MULTILINE
+        r"^#\s*period_s\s*=\s*([0-9.eE+-]+)\s*$",
+        Path(path).read_text(encoding="utf-8-sig", errors="replace"),
+        re.MULTILINE,
     )
     return float(found[1]) if found else None
 
