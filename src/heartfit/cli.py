@@ -46,7 +46,7 @@ def _parser() -> argparse.ArgumentParser:
         )
         if carry_out is simulate:
             _simulate_arguments(command)
-    for page in (parameters, configuration_schema, verification, robustness):
+    for page in (parameters, configuration_schema, cause_schema, verification, robustness):
         command = commands.add_parser(page.__name__.replace("_", "-"), help=page.__doc__)
         command.set_defaults(carry_out=page)
     held = commands.add_parser("tolerances", help=tolerances.__doc__)
@@ -167,6 +167,14 @@ def parameters(_: argparse.Namespace) -> int:
 def configuration_schema(_: argparse.Namespace) -> int:
     """print the JSON schema of a configuration"""
     print(schema(), end="")
+    return 0
+
+
+def cause_schema(_: argparse.Namespace) -> int:
+    """print the JSON schema of a cause.json"""
+    from heartfit.io import causes  # with what draws the figures
+
+    print(causes.cause_schema(), end="")
     return 0
 
 

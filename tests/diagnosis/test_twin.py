@@ -25,7 +25,9 @@ def test_the_centre_is_a_human_heart():
 
 def test_size_changes_volumes_and_no_pressure():
     frames = np.arange(26) / 30
-    large = Recording(HUMAN.heart.period, {"lv_volume": Samples(frames, 2.0 * HUMAN.filled * np.repeat([0.4, 1.0], 13))})
+    large = Recording(
+        HUMAN.heart.period, {"lv_volume": Samples(frames, 2.0 * HUMAN.filled * np.repeat([0.4, 1.0], 13))}
+    )
     small, twice = (Twin(each, TIMES) for each in (HUMAN, HUMAN.of_the_size_of(large)))
     ratio = twice.predicted(CENTRE, ()) / small.predicted(CENTRE, ())
     assert ratio[:26] == pytest.approx(2.0, rel=1e-3)  # the mass of the wall alone breaks the similarity

@@ -31,7 +31,7 @@ def diagnose(
 
 def concluded(case: Case, conditions: Mapping[str, Recording]) -> Diagnosis:
     """The diagnosis after what was held out has decided which names are kept."""
-    tried = {each: held_out(case, each, conditions) for each in case.explanations}
+    tried = tested(case, conditions)
     helping = [each for each, said in tried.items() if all(one.helps() for one in said)]
     told = {each: case.findings.log_bayes_factor(each) + _gained(tried[each], conditions) for each in helping}
     kept = likeliest(told, case.rules.group)
@@ -52,6 +52,18 @@ def concluded(case: Case, conditions: Mapping[str, Recording]) -> Diagnosis:
         unsearched={name: why for name, why in UNSEARCHED.items() if name in case.recording.curves},
         phases=case.phases(),
     )
+
+
+def tested(case: Case, conditions: Mapping[str, Recording]) -> dict[Effects, list[Predicted]]:
+    """What each explanation predicts of other conditions.
+
+    Without any it is half of the recording, and the best answers for its group: what all of the data do not tell apart
+    half of them does not.
+    """
+    if conditions:
+        return {each: held_out(case, each, conditions) for each in case.explanations}
+    best = held_out(case, case.explanations[0], {}) if case.explanations else []
+    return dict.fromkeys(case.explanations, best)
 
 
 def held_out(case: Case, effects: Effects, conditions: Mapping[str, Recording]) -> list[Predicted]:

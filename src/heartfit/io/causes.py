@@ -1,35 +1,74 @@
 """The cause of what a simulation gets wrong as cause.json: SI numbers beside their units."""
 
 import json
-from dataclasses import asdict
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from heartfit.diagnosis.cause import Diagnosis
+from pydantic import TypeAdapter, ValidationError
+
+from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Refitted, Verdict
+from heartfit.diagnosis.departure import Departure, departures
 from heartfit.errors import InputError
 from heartfit.io.atomic import replacing, write_text
-from heartfit.tables.cause_card import card, sentence
+from heartfit.tables.cause_card import card, missed, sentence
 from heartfit.tables.cause_figure import plot_cause
 
-KEYS = ("verdict", "mechanisms", "alternatives", "next_measurement", "gain", "simulations", "fingerprint")
-"""What every cause.json has."""
+
+@dataclass(frozen=True)
+class CauseFile:
+    """What a cause.json holds; see :class:`heartfit.diagnosis.cause.Diagnosis`.
+
+    departures: the greatest of each curve; misses: the same in words.
+    """
+
+    verdict: Verdict
+    mechanisms: tuple[Cause, ...]
+    alternatives: tuple[tuple[str, ...], ...]
+    next_measurement: str
+    gain: tuple[Gain, ...]
+    simulations: int
+    fingerprint: str
+    ranking: Mapping[str, float] = field(default_factory=dict)
+    withdrawn: tuple[str, ...] = ()
+    departures: tuple[Departure, ...] = ()
+    misses: tuple[str, ...] = ()
+    unsearched: Mapping[str, str] = field(default_factory=dict)
+    refitted: Refitted | None = None
+
+    @classmethod
+    def of(cls, diagnosis: Diagnosis, fingerprint: str) -> "CauseFile":
+        """Everything but the curves."""
+        found = tuple(departures(diagnosis))
+        return cls(
+            diagnosis.verdict,
+            diagnosis.mechanisms,
+            diagnosis.alternatives,
+            diagnosis.next_measurement,
+            diagnosis.gain,
+            diagnosis.simulations,
+            fingerprint,
+            diagnosis.ranking,
+            diagnosis.withdrawn,
+            found,
+            tuple(map(missed, found)),
+            diagnosis.unsearched,
+            diagnosis.refitted,
+        )
+
+
+FILE = TypeAdapter(CauseFile)
+
+
+def cause_schema() -> str:
+    """The JSON schema of a cause.json."""
+    return json.dumps(FILE.json_schema(), indent=1) + "\n"
 
 
 def write_cause(path: Path, diagnosis: Diagnosis, fingerprint: str) -> None:
     """Write everything but the curves."""
-    content = {
-        "verdict": diagnosis.verdict,
-        "mechanisms": [asdict(each) for each in diagnosis.mechanisms],
-        "alternatives": diagnosis.alternatives,
-        "next_measurement": diagnosis.next_measurement,
-        "gain": [asdict(each) for each in diagnosis.gain],
-        "simulations": diagnosis.simulations,
-        "ranking": diagnosis.ranking,
-        "withdrawn": diagnosis.withdrawn,
-        "refitted": asdict(diagnosis.refitted) if diagnosis.refitted else None,
-        "fingerprint": fingerprint,
-    }
-    write_text(path, json.dumps(content, indent=1) + "\n")
+    write_text(path, json.dumps(asdict(CauseFile.of(diagnosis, fingerprint)), indent=1) + "\n")
 
 
 def write_cause_card(folder: Path, diagnosis: Diagnosis, title: str, fingerprint: str) -> str:
@@ -45,11 +84,12 @@ def read_cause(path: Path) -> dict[str, Any]:
     """The content by key; raises InputError for a missing or broken file."""
     try:
         content: dict[str, Any] = json.loads(Path(path).read_text(encoding="utf-8"))
+        FILE.validate_python(content)
+    except ValidationError as problem:
+        first = problem.errors()[0]
+        said = f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
     except (OSError, ValueError) as problem:
-        raise InputError(f"{path}: {problem}; expected a cause.json: diagnose the recording again") from None
-    missing = [key for key in KEYS if key not in content]
-    if missing:
-        raise InputError(
-            f"{path}: no {', '.join(missing)}; expected a cause.json: diagnose the recording again"
-        )
-    return content
+        said = str(problem)
+    else:
+        return content
+    raise InputError(f"{path}: {said}; expected a cause.json: diagnose the recording again")

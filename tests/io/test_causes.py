@@ -1,0 +1,79 @@
+"""cause.json: what the issue of a diagnosis has, its schema, and one line for a file that is none."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Trace
+from heartfit.errors import InputError
+from heartfit.io.causes import cause_schema, read_cause, write_cause
+from heartfit.observation.beat_phases import BeatPhases
+
+SCHEMA = Path(__file__).parents[2] / "config" / "cause.schema.json"
+TIMES = np.arange(20) * 0.04
+LACKING = -600.0 * np.exp(-(((TIMES - 0.2) / 0.05) ** 2))
+TRACE = Trace(
+    "lv_pressure", TIMES, 1e4 + LACKING, *np.full((3, 20), 1e4), lacking=LACKING, band=np.full(20, 200.0)
+)
+FOUND = Diagnosis(
+    "named",
+    (Cause("MitralRegurgitation", 12.0, 3e-5, "m^2", (2e-5, 4e-5)),),
+    (("SlowRelaxation",),),
+    "",
+    (Gain("lv_pressure", "legs_raised", 900.0, 450.0, 0.5, (0.4, 0.7)),),
+    900,
+    0.8,
+    5.0,
+    traces=(TRACE,),
+    phases=BeatPhases(np.array([0.0, 0.06, 0.3, 0.36, 0.55, 0.65]), 0.8),
+)
+
+
+@pytest.fixture
+def path(tmp_path):
+    write_cause(tmp_path / "cause.json", FOUND, "0123")
+    return tmp_path / "cause.json"
+
+
+def test_the_picture_is_there_in_numbers_and_in_words(path):
+    content = read_cause(path)
+    (departure,), (said,) = content["departures"], content["misses"]
+    assert departure["curve"] == "lv_pressure"
+    assert (departure["phase"], departure["size"]) == ("ejection", pytest.approx(600.0))
+    assert "simulated 0.6 ± 0.2 kPa too high in ejection, 3.0 standard deviations, 200 ms" in said
+
+
+def test_every_key_is_asked_for(path):
+    content = json.loads(path.read_text())
+    required = json.loads(cause_schema())["required"]
+    assert required == [
+        "verdict", "mechanisms", "alternatives", "next_measurement", "gain", "simulations", "fingerprint",
+    ]  # fmt: skip
+    for key in required:
+        path.write_text(json.dumps({name: each for name, each in content.items() if name != key}))
+        with pytest.raises(InputError, match=f"{key}: .*; expected a cause.json"):
+            read_cause(path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ('"named"', '"maybe"', "verdict"),
+        ('"amplitude": 3e-05', '"amplitude": "much"', "mechanisms.0.amplitude"),
+        ('"simulations": 900', '"simulations": null', "simulations"),
+        ("{", "", "Extra data|Expecting"),
+    ],
+)
+def test_a_broken_file_is_told_in_a_line(path, old, new, expected):
+    path.write_text(path.read_text().replace(old, new, 1))
+    with pytest.raises(InputError, match=expected) as told:
+        read_cause(path)
+    assert "\n" not in str(told.value)
+
+
+def test_the_schema_is_in_step():
+    assert SCHEMA.read_text() == cause_schema(), (
+        "write it anew: heartfit cause-schema > config/cause.schema.json"
+    )
