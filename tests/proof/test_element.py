@@ -33,7 +33,7 @@ def refits(ventricle: VentricularMesh) -> Mapping[str, Refit]:
     scheme = TimeScheme(time_step=0.02, max_beats=2, drift=0.02)
     model = Model(ventricle, 0.8, Pressures(lv=1000.0, rv=500.0), scheme)
     target = _target(model(RIVALS["element"], PARAMETERS))
-    return {name: refit(extension, model, target, 1) for name, extension in RIVALS.items()}
+    return {name: refit(extension, model, target, 4) for name, extension in RIVALS.items()}
 
 
 def _target(beat: Beat) -> Target:

@@ -143,7 +143,7 @@ def test_a_proved_diagnosis_has_the_sizes_and_evidence_of_the_refits() -> None:
 
 def test_an_attempt_asks_no_search() -> None:
     judge = Judge({1: 4.0}, ())
-    judge.setting = PLAIN
+    judge.setting, judge.none = PLAIN, Extension(PLAIN)
     judge.proof = lambda *_: Helped()
     found = Trial.attempt(cast("Trial", judge), "AorticStenosis", fitted(Extension(PLAIN), 1.0))
     assert [each.name for each in found.refitted.extension] == ["AorticStenosis"]

@@ -13,8 +13,6 @@ CALIBRATED_CASE = IMAGED_CASE | {
     "fitted": calibrated_beats("fitted"),
 }
 REFITTED_CASE = IMAGED_CASE | {
-    "points": "<results>/sensitivity/{setting}/points.json",
-    "around": surrounding_beats,
     "kernels": "<results>/kernels.json",
 }
 CENTRE = {
@@ -24,15 +22,11 @@ CENTRE = {
 GIVEN = {
     "case": case_of,
     "setting": setting_of,
-    "surroundings": surroundings_of,
     "mechanisms": mechanisms_of,
     "pressures": STUDY.end_diastolic_pressure,
     "scheme": STUDY.numerics,
-    "transform": STUDY.unscented,
     "most_steps": DISCOVERY.most_steps,
-    "stated": stated(
-        case_of, setting_of, STUDY.numerics, STUDY.end_diastolic_pressure, STUDY.unscented, DISCOVERY
-    ),
+    "stated": stated(case_of, setting_of, STUDY.numerics, STUDY.end_diastolic_pressure, DISCOVERY),
 }
 CAUSE = ("cause.json", "cause.md", "cause.png")
 

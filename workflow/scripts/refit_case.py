@@ -6,13 +6,12 @@ from heartfit.io.beats import write_beat
 from heartfit.io.log import record
 from heartfit.io.refits import read_trial, write_refit
 from heartfit.io.simulated_motion import write_simulated_motion
-from heartfit.proof.extension import Extension
 
 record(snakemake.log[0])
 trial = read_trial(dict(snakemake.input.items()), dict(snakemake.params.items()))
-extension, code = Extension(trial.setting), snakemake.params.code
-found = trial.refitted(extension)
-beat = trial.model(extension, found.parameters, keep_positions=True)
+code = snakemake.params.code
+found = trial.refitted(trial.none)
+beat = trial.model(trial.none, found.parameters, keep_positions=True)
 written, state, _, motion = map(Path, snakemake.output)
 write_refit(written, found, code)
 write_beat(state, beat, code)

@@ -19,9 +19,7 @@ class Discovery(Strict):
         default=(),
         description="mechanisms that these cases are extended by whatever is named, 20 to 50 beats each",
     )
-    most_steps: PositiveInt = Field(
-        default=3, description="unscented steps of a refit, if it does not settle before"
-    )
+    most_steps: PositiveInt = Field(default=20, description="steps of a refit, if it does not settle before")
 
     @field_validator("trials")
     @classmethod

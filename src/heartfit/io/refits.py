@@ -6,19 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from heartfit.configuration.setting import Setting
-from heartfit.io.beats import read_beat
 from heartfit.io.causes import read_cause
 from heartfit.io.curves import read_curves
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.noise_models import read_noise_model
-from heartfit.io.results import read_result, read_sigma_points, read_truth, write_result
+from heartfit.io.results import read_result, read_truth, write_result
 from heartfit.proof.model import Model
-from heartfit.proof.noise import Around
 from heartfit.proof.prove import Trial
 from heartfit.proof.refit import Refit
 from heartfit.proof.target import MeasuredCase
-from heartfit.protocol import curves_of_points
 from heartfit.tables.discovery_table import Proved
 
 
@@ -27,20 +23,12 @@ def read_measured_case(curves: Path, models: Sequence[Path]) -> MeasuredCase:
     return MeasuredCase.of(read_curves(Path(curves)), [read_noise_model(Path(model)) for model in models])
 
 
-def read_around(points: Path, beats: Sequence[Path], setting: Setting) -> Around:
-    """The beats about the prior's mean of a setting that frees all parameters."""
-    _, drawn = read_sigma_points(Path(points))
-    return Around(drawn, curves_of_points(setting, drawn, [read_beat(Path(beat)) for beat in beats]))
-
-
 def read_trial(files: Mapping[str, Any], given: Mapping[str, Any]) -> Trial:
     """What a rule of the workflow gives for the refits of a case: its inputs and its parameters, by name."""
     case, setting = read_measured_case(files["measured"], files.get("noise", [])), given["setting"]
-    around = read_around(files["points"], files["around"], given["surroundings"])
     mesh, motion = read_mesh(Path(files["mesh"])), read_motion(Path(files["registered"]))
     model = Model(mesh, given["case"].period, given["pressures"], given["scheme"])
-    target = case.target(setting.estimate, around, given["transform"].fixed_sd)
-    return Trial(case, motion, model, setting, target, given["most_steps"])
+    return Trial(case, motion, model, setting, case.target, given["most_steps"])
 
 
 def write_refit(path: Path, refit: Refit, fingerprint: str) -> None:

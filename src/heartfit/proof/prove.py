@@ -35,6 +35,11 @@ class Trial:
     target: Target
     most_steps: int
 
+    @property
+    def none(self) -> Extension:
+        """The model as it is."""
+        return Extension(self.setting).freeing()
+
     def refitted(self, extension: Extension) -> Refit:
         """The extension after its steps; raises CalibrationError where too many beats fail."""
         return refit(extension, self.model, self.target, self.most_steps)
@@ -55,7 +60,7 @@ class Trial:
 
         Where no extension is kept the last that was tried is shown; where none of them beats, the model without.
         """
-        base = self.at(Extension(self.setting), none)
+        base = self.at(self.none, none)
         steps = list(self.climb(base, extensions_of(found, self.setting)))
         kept = [each for each, helps in steps if helps]
         shown = (kept or [each for each, _ in steps] or [base])[-1]
@@ -70,8 +75,8 @@ class Trial:
 
     def attempt(self, mechanism: str, none: Refit) -> Attempt:
         """What one mechanism gains, whatever a search says of it; raises CalibrationError where it does not beat."""
-        extension = Extension.by(self.setting, mechanism)
-        base = self.at(Extension(self.setting), none)
+        extension = Extension.by(self.setting, mechanism).freeing()
+        base = self.at(self.none, none)
         extended = self.at(extension, self.refitted(extension))
         beats = none.simulations + extended.refit.simulations + 2
         tried = Tried(extension, none, extended.refit, (), beats)

@@ -1,13 +1,12 @@
-r"""An extension fitted to samples by repeated unscented steps with noise.
+r"""An extension fitted to samples: one unscented step, then steps of one beat each.
 
-The points of the first step lie about the centre of the priors, the mechanism switched on, closer together than the
-prior: what is far from the data says little of the slopes near them. Of all hearts that were simulated on the way the
-estimate is the one of least
+The points of the unscented step lie one standard deviation of the prior to either side of its centre, the mechanism
+switched on. Its slopes :math:`A = \mathrm{Cov}(Z, X) P^{-1}` begin a walk down
 
-.. math:: \tfrac12 r^T R^{-1} r + \tfrac12 |x|^2 .
+.. math:: \tfrac12 r^T R^{-1} r + \tfrac12 |x|^2 ,
 
-Steps end when one moves this by less than 0.5, or at their most; what still moves then has not converged. The
-covariance C is that of the last step, whose points are the closest. By Laplace's approximation
+see :mod:`heartfit.proof.walk`; where it ends lies the estimate, with the covariance
+:math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. By Laplace's approximation
 
 .. math:: \ln Z = -\tfrac12 r^T R^{-1} r - \tfrac12 |x|^2 + \tfrac12 \ln |C|
           + \sum_{a \ge 0} \ln 2 \Phi(x_a / \sigma_a) + \mathrm{const}
@@ -15,46 +14,23 @@ covariance C is that of the last step, whose points are the closest. By Laplace'
 compares extensions that were fitted to the same samples; the sum is over amplitudes whose sign is known.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from itertools import islice
 
 import numpy as np
 
 from heartfit.beat import Beat
-from heartfit.calibration.forward import Forward, Outcome, Remembered
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.calibration.iterated import iterated
-from heartfit.calibration.update import Posterior
+from heartfit.calibration.unscented import CalibrationError, sigma_points, transform
 from heartfit.geometry.arrays import Floats
 from heartfit.observation.beat import beat_curves
 from heartfit.proof.extension import Extension
-from heartfit.proof.split import Sampled, sampled, stacked
-
-SPREAD = 0.5
-"""Of the first step's points, over the prior's."""
-SETTLED = 0.5
-"""What a step has to move the objective by for another one to follow: less moves no verdict."""
+from heartfit.proof.split import Target as Target
+from heartfit.proof.split import sampled, stacked
+from heartfit.proof.walk import Walk
 
 Run = Callable[[Extension, Mapping[str, float]], Beat]
 """From an extended setting and all its parameters, by name and SI, to a beat."""
-
-
-@dataclass(frozen=True, eq=False)
-class Target:
-    """What is fitted: samples (n,) and the covariance (n, n) of a right model about them."""
-
-    samples: Sampled
-    covariance: Floats
-
-    def values(self) -> Floats:
-        """The samples one after the other (n,)."""
-        return stacked({name: samples.values for name, samples in self.samples.items()})
-
-    def misfit(self, predicted: Floats) -> float:
-        """r^T R^-1 r."""
-        residual = self.values() - predicted
-        return float(residual @ np.linalg.solve(self.covariance, residual))
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +38,7 @@ class Refit:
     """Names (d,), estimate x (d,) and covariance (d, d) of an extension's coordinates, and its parameters there, SI.
 
     misfit: r^T R^-1 r of n samples at the estimate; objective: what was minimised; log_evidence: up to a constant of
-    the samples; simulations: beats it took; converged: whether the last step hardly lowered the objective.
+    the samples; simulations: beats it took; converged: whether no step promised to lower the objective.
     """
 
     names: tuple[str, ...]
@@ -83,42 +59,48 @@ class Refit:
 
 
 def refit(extension: Extension, run: Run, target: Target, most: int, amplitude: float = 1.0) -> Refit:
-    """The refit after as many steps as it takes, or ``most``; CalibrationError where too many beats about one fail.
+    """The refit after the unscented step and as many more as it takes, or ``most``.
 
-    amplitude: of the mechanism at the first step's centre, in its scales.
+    amplitude: of the mechanism at the centre of the unscented step, in its scales. Raises CalibrationError where the
+    beat there or too many about it fail.
     """
-    prior, seen = extension.prior(), _Seen(extension, run, target)
-    names = [str(index) for index in range(target.values().size)]
-    observed = dict(zip(names, target.values().tolist(), strict=True))
-    start = Gaussian(prior.names, extension.start(amplitude), SPREAD**2 * prior.covariance)
-    forward = Remembered(seen)
-    walk = iterated(prior, forward, observed, target.covariance, start=start)
-    covariance, converged = _settled(islice(walk, most), forward, seen)
-    objective, x, misfit = seen.best
+    forward = _Forward(extension, run, target)
+    start = extension.start(amplitude)
+    predicted, slopes = _unscented(extension.names, forward, start)
+    walk = Walk(forward, target, np.where(extension.one_sided, 0.0, -np.inf), start, predicted, slopes)
+    for _ in range(most):
+        if walk.ended:
+            break
+        walk.advance()
+    covariance = walk.covariance()
     return Refit(
         extension.names,
-        x,
+        walk.x,
         covariance,
-        extension.parameters(x),
-        misfit,
-        objective,
-        _log_evidence(objective, x, covariance, extension.one_sided),
+        extension.parameters(walk.x),
+        target.misfit(walk.predicted),
+        walk.objective,
+        _log_evidence(walk.objective, walk.x, covariance, extension.one_sided),
         target.values().size,
-        seen.simulations,
-        converged,
+        forward.simulations,
+        walk.converged,
     )
 
 
-def _settled(steps: Iterator[Posterior], forward: Forward, seen: "_Seen") -> tuple[Floats, bool]:
-    """The covariance of the last step that was taken, and whether it left the objective where it was."""
-    before, converged = np.inf, False
-    for step in steps:
-        (outcome,) = forward([step.estimate.physical()])
-        after = np.inf if isinstance(outcome, str) else seen.seen[-1][0]
-        covariance, converged, before = step.estimate.covariance, abs(before - after) < SETTLED, after
-        if converged:
-            break
-    return covariance, converged
+def _unscented(names: tuple[str, ...], forward: "_Forward", start: Floats) -> tuple[Floats, Floats]:
+    """What the start (d,) predicts (n,), and the slopes (n, d) about it."""
+    around = Gaussian(names, start, np.eye(start.size) / start.size)
+    points = sigma_points(around)
+    seen = [forward(point.z) for point in points]
+    centre = seen[0]
+    if centre is None:
+        raise CalibrationError(
+            "refit: the beat at the centre of the prior fails; choose another prior or mesh"
+        )
+    values = np.array([centre if each is None else each for each in seen])
+    completed = np.array([each is not None for each in seen])
+    moments = transform(points, values, completed=completed)
+    return centre, np.linalg.solve(around.covariance, moments.cov_xz).T
 
 
 def _log_evidence(objective: float, x: Floats, covariance: Floats, one_sided: np.ndarray) -> float:
@@ -128,30 +110,18 @@ def _log_evidence(objective: float, x: Floats, covariance: Floats, one_sided: np
     return float(-objective + 0.5 * np.linalg.slogdet(covariance)[1] + beyond[one_sided].sum())
 
 
-class _Seen:
-    """The forward model of an extension; a calibration's positive parameters are the exponentials of coordinates."""
+class _Forward:
+    """What an extension predicts of the samples (n,) at coordinates (d,), None where its beat fails."""
 
     def __init__(self, extension: Extension, run: Run, target: Target) -> None:
         self.extension, self.run, self.target = extension, run, target
-        self.seen: list[tuple[float, Floats, float]] = []
         self.simulations = 0
 
-    @property
-    def best(self) -> tuple[float, Floats, float]:
-        """Objective, coordinates and misfit of the heart of least objective."""
-        return min(self.seen, key=lambda seen: seen[0])
-
-    def __call__(self, parameters: Sequence[Mapping[str, float]]) -> list[Outcome]:
-        return [self._outcome(np.log(list(each.values()))) for each in parameters]
-
-    def _outcome(self, x: Floats) -> Outcome:
+    def __call__(self, x: Floats) -> Floats | None:
         self.simulations += 1
         parameters = self.extension.parameters(x)
         beat = self.run(self.extension, parameters)
         if not beat.completed:
-            return beat.reason
+            return None
         curves = beat_curves(beat, self.extension.setting.sensors(parameters))
-        predicted = stacked(sampled(curves, self.target.samples))
-        misfit = self.target.misfit(predicted)
-        self.seen.append((0.5 * misfit + 0.5 * float(x @ x), x, misfit))
-        return {str(index): value for index, value in enumerate(predicted.tolist())}
+        return stacked(sampled(curves, self.target.samples))

@@ -65,3 +65,20 @@ def sampled(curves: Mapping[str, Curve], like: Sampled) -> dict[str, Floats]:
 def stacked(values: Mapping[str, Floats]) -> Floats:
     """All curves one after the other (n,)."""
     return np.concatenate(list(values.values()))
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """What is fitted: samples (n,) and the covariance (n, n) of a right model about them."""
+
+    samples: Sampled
+    covariance: Floats
+
+    def values(self) -> Floats:
+        """The samples one after the other (n,)."""
+        return stacked({name: samples.values for name, samples in self.samples.items()})
+
+    def misfit(self, predicted: Floats) -> float:
+        """r^T R^-1 r."""
+        residual = self.values() - predicted
+        return float(residual @ np.linalg.solve(self.covariance, residual))

@@ -10,9 +10,8 @@ from heartfit.geometry.arrays import Floats
 from heartfit.observation.curve import Curve
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.residual import with_noise
-from heartfit.proof.noise import Around, covariance, held_fixed
-from heartfit.proof.refit import Target
-from heartfit.proof.split import Split
+from heartfit.proof.noise import covariance
+from heartfit.proof.split import Split, Target
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,11 +35,11 @@ class MeasuredCase:
         """The samples by whether a fit may see them."""
         return Split.of(self.curves)
 
-    def target(self, estimated: Sequence[str], around: Around, fixed_sd: float) -> Target:
-        """What a refit of the ``estimated`` parameters aims at; see :mod:`heartfit.proof.noise` for the others."""
+    @property
+    def target(self) -> Target:
+        """What a refit aims at."""
         fitted = self.split.fitted
-        noise = covariance(fitted, self.raw, self.models)
-        return Target(fitted, noise + held_fixed(estimated, around, fitted, self.raw, fixed_sd))
+        return Target(fitted, covariance(fitted, self.raw, self.models))
 
     def recording(self) -> Recording:
         """All of it, for the search on the sphere."""

@@ -29,8 +29,8 @@ class Tried:
         return Refitted(
             tuple(sized(self.extension, self.extended, ranking)),
             self.extended.log_evidence - self.none.log_evidence,
-            dict(self.none.parameters),
-            {name: self.extended.parameters[name] for name in self.none.parameters},
+            {name: self.none.parameters[name] for name in self.extension.base.estimate},
+            {name: self.extended.parameters[name] for name in self.extension.base.estimate},
             self.simulations,
             self.none.converged and self.extended.converged,
         )
@@ -46,9 +46,9 @@ def extensions_of(found: Diagnosis, base: Setting) -> list[Extension]:
         (each.name for each in found.mechanisms), key=lambda name: -found.ranking.get(name, np.inf)
     )
     if found.verdict == "two":
-        return [Extension.by(base, *named[:count]) for count in (1, 2)]
+        return [Extension.by(base, *named[:count]).freeing() for count in (1, 2)]
     best = [each.name for each in found.mechanisms] or [each for each in found.ranking if each != "unknown"]
-    return [Extension.by(base, best[0])]
+    return [Extension.by(base, best[0]).freeing()]
 
 
 def proved(found: Diagnosis, tried: Tried, proof: Proof) -> Diagnosis:
