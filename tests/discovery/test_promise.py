@@ -9,8 +9,8 @@ from tests.discovery.linear import data, hypothesis, slopes
 
 from heartfit.discovery.bench import Bench
 from heartfit.discovery.companions import pairs_of
-from heartfit.discovery.hypothesis import Coordinate
-from heartfit.discovery.promise import promise
+from heartfit.discovery.hypothesis import Coordinate, Hypothesis
+from heartfit.discovery.promise import most_promising, promise
 from heartfit.discovery.rules import Rules
 
 J = slopes(3)
@@ -42,6 +42,18 @@ def test_where_the_typical_size_fails_a_smaller_one_does() -> None:
     half = promise(bench, base, replace(FURTHER, forward=lambda x: J @ x if x[2] < 0.5 else None))
     assert half.slopes == pytest.approx(whole.slopes)
     assert promise(bench, base, replace(FURTHER, forward=lambda x: None)) is None
+
+
+@pytest.mark.parametrize("side", [-1.0, 0.0, 1.0])
+def test_an_effect_starts_on_the_side_on_which_it_acts(side) -> None:
+    """Where it acts, its second coordinate says which of three columns it adds."""
+    shapes = slopes(3, seed=5)
+    coordinates = (*FURTHER.coordinates, Coordinate("place"))
+    placed = Hypothesis(("a",), coordinates, lambda x: J[:, :2] @ x[:2] + x[2] * shapes[:, round(x[3]) + 1])
+    bench = Bench(data(3.0 * shapes[:, int(side) + 1]))
+    base = bench.linear(hypothesis(J[:, :2]), np.zeros(2))
+    start = most_promising(bench, base, placed, (2.0, 2.0)).start
+    assert start[2:] == pytest.approx([2.0, side])
 
 
 def test_only_pairs_that_promise_enough_are_fitted() -> None:

@@ -27,11 +27,16 @@ class Bench:
         self.whitening, self.rival = Whitening.of(self.data), Rival.of(self.data)
 
     def explain(
-        self, hypothesis: Hypothesis, start: Floats, slopes: Floats | None = None, trusted: int = 0
+        self,
+        hypothesis: Hypothesis,
+        start: Floats,
+        slopes: Floats | None = None,
+        trusted: int = 0,
+        target: float = np.inf,
     ) -> Explanation | None:
         """The hypothesis as :func:`heartfit.discovery.optimise.fit` finds it, or None where its simulations fail."""
         model = Counted(hypothesis)
-        found = fit(model, self.data.values, self.whitening, start, slopes, trusted)
+        found = fit(model, self.data.values, self.whitening, start, slopes, trusted, target)
         self.simulations += model.runs
         return None if found is None else Explanation.of(found, self.data.values, self.whitening)
 
@@ -52,8 +57,17 @@ class Bench:
         return Explanation.of(there, self.data.values, self.whitening)
 
     def better(
-        self, old: Explanation, start: Floats, slopes: Floats | None = None, trusted: int = 0
+        self,
+        old: Explanation,
+        start: Floats,
+        slopes: Floats | None = None,
+        trusted: int = 0,
+        patience: float = np.inf,
     ) -> Explanation:
-        """The old explanation, or one of a lower objective if the fit finds it from ``start``."""
-        new = self.explain(old.fit.hypothesis, start, slopes, trusted)
+        """The old explanation, or one of a lower objective if the fit finds it from ``start``.
+
+        patience: above the old objective, what fresh slopes must promise at least.
+        """
+        target = old.fit.objective + patience
+        new = self.explain(old.fit.hypothesis, start, slopes, trusted, target)
         return new if new is not None and new.fit.objective < old.fit.objective else old

@@ -3,8 +3,9 @@ r"""Steps down the negative logarithm of a posterior, by Levenberg and Marquardt
 .. math:: (H + \lambda I)\, s = g, \quad H = I + J^T \bar\Lambda J, \quad g = J^T \bar\Lambda r - x
 
 with the mean precision of :mod:`heartfit.discovery.whitening`; coordinates on their bound and pushed against it stay.
-Broyden keeps the Jacobian true along the steps taken. It is taken anew by finite differences after every four of them,
-when a step fails, and before the end is believed. A simulation that fails shortens the step.
+Broyden keeps the Jacobian true along the steps taken. It is taken anew by finite differences after every two of them,
+when a step fails, and before the end is believed. A simulation that fails shortens the step. A descent may be told what
+it has to reach, and ends where fresh slopes do not promise it.
 
 References: Marquardt 1963, doi:10.1137/0111030; Broyden 1965, doi:10.1090/S0025-5718-1965-0198670-6.
 """
@@ -15,15 +16,16 @@ from heartfit.discovery.forward import Counted
 from heartfit.discovery.whitening import Whitening
 from heartfit.geometry.arrays import Floats
 
-SHORT = 0.05
+SHORT = 0.02
 """Prior standard deviations: a step that changes nothing one would report."""
-SLIGHT = 0.2
-"""Of the objective, in the unit of ln Z: a tenth of the least difference that a verdict rests on."""
+SLIGHT = 0.05
+"""Of the objective, in the unit of ln Z: a fortieth of the least difference that a verdict rests on."""
 ROUGH = 1.0
 """Of the objective: what a full step may promise in vain, the simulation not being smooth on its scale."""
-DAMPING = 0.1
-"""The least, over the curvature of the prior, 1; ten times more after a step that fails, a tenth after one down."""
-FRESH = 4
+DAMPING = 1.0
+"""The least, over the curvature of the prior, 1; ten times more after a step that fails, a tenth after one down. With a
+tenth of it fits leave a curved valley by steps that are too long and stop beside its floor. None near the end."""
+FRESH = 2
 """Steps after which the Jacobian is taken anew."""
 
 
@@ -39,9 +41,11 @@ class Descent:
         predicted: Floats,
         jacobian: Floats,
         trusted: int,
+        target: float,
     ) -> None:
         self.model, self.values, self.whitening = model, values, whitening
         self.x, self.predicted, self.jacobian, self.trusted = x, predicted, jacobian, trusted
+        self.target = target
         self.objective = self._objective(x, predicted)
         self.damping, self.steps, self.lower = DAMPING, 0, model.hypothesis.lower
         self.fresh = self.ended = self.converged = False
@@ -50,10 +54,14 @@ class Descent:
         """One step, one Jacobian, or the end."""
         slope, gram = self.whitening.normal(self.values - self.predicted, self.jacobian)
         slope, curvature = slope - self.x, np.eye(self.x.size) + gram
-        full, step = (self._step(slope, curvature, damping) for damping in (0.0, self.damping))
+        full, damped = (self._step(slope, curvature, damping) for damping in (0.0, self.damping))
+        left = _promise(full, slope, curvature)
+        step = full if left < ROUGH and self.damping == DAMPING else damped
         short = np.abs(full).max() < SHORT
-        if short or _promise(step, slope, curvature) < SLIGHT:
-            self._settle(bool(short or _promise(full, slope, curvature) < ROUGH))
+        if self.fresh and self.objective - left > self.target:
+            self.ended = True
+        elif short or _promise(step, slope, curvature) < SLIGHT:
+            self._settle(bool(short or left < ROUGH))
         else:
             self._try(self.x + step)
 
@@ -91,8 +99,7 @@ class Descent:
             self._refresh()
 
     def _refresh(self) -> None:
-        _, gram = self.whitening.normal(self.values - self.predicted, self.jacobian)
-        anew = self.model.jacobian(self.x, self.predicted, self.trusted, np.sqrt(np.diag(gram)))
+        anew = self.model.jacobian(self.x, self.predicted, self.trusted)
         self.jacobian = np.column_stack([self.jacobian[:, : self.trusted], anew])
         self.steps, self.fresh = 0, True
 

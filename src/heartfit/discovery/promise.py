@@ -31,12 +31,51 @@ class Promise:
         """The fit from there, or None where its simulations fail."""
         return bench.explain(self.hypothesis, self.start, self.slopes, trusted)
 
+    def bettered(self, bench: Bench, old: Explanation, patience: float) -> Explanation:
+        """The old explanation, or a better one from there: see :meth:`Bench.better`."""
+        return bench.better(old, self.start, self.slopes, patience=patience)
 
-def promise(bench: Bench, known: Explanation, further: Hypothesis) -> Promise | None:
-    """The promise of a hypothesis that adds one effect to a fitted one, or None where its simulation fails."""
+
+def most_promising(
+    bench: Bench, known: Explanation, further: Hypothesis, reach: tuple[float, float] = REACH
+) -> Promise | None:
+    """The best of the promises of an effect."""
+    return max(promises(bench, known, further, reach), key=lambda each: each.log_evidence, default=None)
+
+
+def promises(
+    bench: Bench, known: Explanation, further: Hypothesis, reach: tuple[float, float] = REACH
+) -> list[Promise]:
+    """What an effect promises, whatever else is unknown of it as expected or one step to either side.
+
+    Where and when an effect acts bends the way to it so much that a fit stays on the side on which it starts.
+    """
+    found = [promise(bench, known, further, beside, reach) for beside in _placements(known, further)]
+    return [each for each in found if each is not None]
+
+
+def _placements(known: Explanation, further: Hypothesis) -> list[Floats]:
+    """Coordinates (d,) of the further effect's other unknowns: all at 0, and each at -1 and at 1."""
+    names = known.fit.hypothesis.names
+    others = [i for i, each in enumerate(further.coordinates) if not (each.amplitude or each.name in names)]
+    unit = np.eye(len(further.names))
+    return [np.zeros(len(further.names)), *(sign * unit[i] for i in others for sign in (-1.0, 1.0))]
+
+
+def promise(
+    bench: Bench,
+    known: Explanation,
+    further: Hypothesis,
+    beside: Floats | float = 0.0,
+    reach: tuple[float, float] = REACH,
+) -> Promise | None:
+    """The promise of a hypothesis that adds one effect to a fitted one, or None where its simulation fails.
+
+    beside (d,): what else is unknown of the effect; reach: the least and the largest amplitude to start from.
+    """
     old = np.array([further.names.index(name) for name in known.fit.hypothesis.names], dtype=np.int64)
     new = further.amplitudes & ~np.isin(np.arange(len(further.names)), old)
-    x = np.zeros(len(further.names))
+    x = np.zeros(len(further.names)) + beside
     x[old] = known.fit.x
     secant = _secant(bench, further, x, new, known.fit.predicted)
     if secant is None:
@@ -47,7 +86,7 @@ def promise(bench: Bench, known: Explanation, further: Hypothesis) -> Promise | 
     residual = bench.data.values - known.fit.predicted
     seen = posterior(bench.whitening, x, residual, slopes, further.one_sided)
     sign = np.where(further.one_sided | (seen.mean > 0.0), 1.0, -1.0)
-    start = np.where(new, sign * np.clip(sign * seen.mean, *REACH), x)
+    start = np.where(new, sign * np.clip(sign * seen.mean, *reach), x)
     return Promise(further, start, slopes, seen.log_evidence)
 
 

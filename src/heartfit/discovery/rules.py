@@ -16,7 +16,8 @@ class Rules:
         integrator, valves and roughness, about 10 where its structure does (see ``strict``).
     suspected: the same after the first round of fits, below which there is no second.
     switched: the amplitude with which every effect starts from the centre of the priors; from 1 a leak of 3 is missed.
-    settled: how many effects the second round takes.
+    settled, spread: how many effects the second round takes, and how many of these start on every side once more, with
+        slopes of their own.
     rival: the best single effect over the Gaussian process alone.
     on_top: the largest gain of a Gaussian process on top of the explanation that is named.
     strong, strong_share: an effect over the Gaussian process by ``strong`` is named although one on top of it gains,
@@ -33,6 +34,7 @@ class Rules:
     suspected: float = 2.0
     switched: float = 2.0
     settled: int = 8
+    spread: int = 2
     rival: float = 2.0
     on_top: float = 4.0
     strong: float = 10.0
@@ -40,7 +42,7 @@ class Rules:
     second: float = 7.0
     group: float = 3.0
     polished: int = 6
-    polish: tuple[float, ...] = (0.7, 2.0)
+    polish: tuple[float, ...] = (0.7, 3.0)
     partners: int = 4
     pairs: int = 6
     promising: float = 2.0

@@ -7,13 +7,16 @@ from heartfit.discovery.bench import Bench
 from heartfit.discovery.decide import Effects, Evidences, suspected
 from heartfit.discovery.explanation import Explanation
 from heartfit.discovery.hypothesis import Hypothesis
-from heartfit.discovery.promise import promise
+from heartfit.discovery.promise import most_promising, promises
 from heartfit.discovery.rival import Rival
 from heartfit.discovery.rules import Rules
 from heartfit.errors import InputError
 
 ABOVE = 0.05
 """How much above none an effect's objective may end and count as its equal."""
+PATIENCE = 50.0
+"""How much above what it reached from none an effect from the centre may promise to end: one that is there comes to 30
+with its first fresh slopes, others to some 100, and only one in four of them goes on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,32 +49,41 @@ def surveyed(bench: Bench, none: Hypothesis, singles: Sequence[Hypothesis], rule
     """None and every single effect, fitted from none and from the centre; where anything is suspected, the best again.
 
     A weak effect hardly moves the fit without it, and the slopes there lead on. A strong one drags that fit to where
-    they no longer point at the cause: so each effect starts at the centre of the priors too, strongly switched on.
+    they no longer point at the cause: so each effect starts at the centre of the priors too, strongly switched on, on
+    every side of where and when it may act.
     """
-    centre = bench.linear(none, none.at(0.0))
-    base = None if centre is None else bench.explain(none, centre.fit.x, centre.fit.jacobian)
-    if centre is None or base is None:
-        raise InputError(
-            "search: the simulation at the centre of the priors fails; expected one to start from"
-        )
+    centre, base = _without_effect(bench, none)
     found = {each.effects: _found(bench, base, centre, each, rules) for each in singles}
     near = ranked(each for each in found.values() if each is not None)
     if not near:
         raise InputError("search: no effect has a simulation that is completed; expected one at least")
     survey = Survey(base, near, failed=tuple(name for name, each in found.items() if each is None))
-    return _again(bench, survey, rules) if suspected(survey.evidences(bench.rival), rules) else survey
+    return _again(bench, centre, survey, rules) if suspected(survey.evidences(bench.rival), rules) else survey
+
+
+def _without_effect(bench: Bench, none: Hypothesis) -> tuple[Explanation, Explanation]:
+    """None at the centre of the priors, and fitted, once more from where the first fit ends."""
+    centre = bench.linear(none, none.at(0.0))
+    fitted = None if centre is None else bench.explain(none, centre.fit.x, centre.fit.jacobian)
+    if centre is None or fitted is None:
+        raise InputError(
+            "search: the simulation at the centre of the priors fails; expected one to start from"
+        )
+    return centre, bench.better(fitted, fitted.fit.x)
 
 
 def _found(
     bench: Bench, base: Explanation, centre: Explanation, hypothesis: Hypothesis, rules: Rules
 ) -> Explanation | None:
-    near = from_none(bench, base, hypothesis)
-    return None if near is None else _from_centre(bench, centre, near, rules.switched)
+    found = from_none(bench, base, hypothesis)
+    for each in promises(bench, centre, hypothesis, (rules.switched, rules.switched)):
+        found = each.kept(bench) if found is None else each.bettered(bench, found, PATIENCE)
+    return found
 
 
 def from_none(bench: Bench, base: Explanation, hypothesis: Hypothesis) -> Explanation | None:
     """An effect fitted from where none ended, which it may not end above, with none's slopes of what both share."""
-    promised, shared = promise(bench, base, hypothesis), base.fit.x.size
+    promised, shared = most_promising(bench, base, hypothesis), base.fit.x.size
     found = None if promised is None else promised.kept(bench, shared)
     if promised is None or found is None or _nested(found, base):
         return found
@@ -84,13 +96,14 @@ def _nested(single: Explanation, none: Explanation) -> bool:
     return single.fit.objective <= none.fit.objective + ABOVE
 
 
-def _again(bench: Bench, survey: Survey, rules: Rules) -> Survey:
-    """The best effects with fresh slopes, and none from what explains most.
+def _again(bench: Bench, centre: Explanation, survey: Survey, rules: Rules) -> Survey:
+    """The best effects with fresh slopes and from every side, and none from what explains most.
 
     Where none comes to fit better than an effect, that one follows.
     """
     settled = ranked(_settled(bench, each) for each in survey.singles[: rules.settled])
-    singles = ranked([*settled, *survey.singles[rules.settled :]])
+    spread = [_from_every_side(bench, centre, each, rules) for each in settled[: rules.spread]]
+    singles = ranked([*spread, *settled[rules.spread :], *survey.singles[rules.settled :]])
     none = _none_again(bench, survey.none, singles[0])
     followed = [
         each if _nested(each, none) else from_none(bench, none, each.fit.hypothesis) for each in singles
@@ -102,10 +115,10 @@ def _settled(bench: Bench, near: Explanation) -> Explanation:
     return bench.explain(near.fit.hypothesis, near.fit.x, near.fit.jacobian) or near
 
 
-def _from_centre(bench: Bench, centre: Explanation, near: Explanation, amplitude: float) -> Explanation:
-    hypothesis = near.fit.hypothesis
-    promised = promise(bench, centre, hypothesis)
-    return bench.better(near, hypothesis.at(amplitude), None if promised is None else promised.slopes)
+def _from_every_side(bench: Bench, centre: Explanation, near: Explanation, rules: Rules) -> Explanation:
+    for promised in promises(bench, centre, near.fit.hypothesis, (rules.switched, rules.switched)):
+        near = bench.better(near, promised.start)
+    return near
 
 
 def _none_again(bench: Bench, base: Explanation, best: Explanation) -> Explanation:

@@ -1,0 +1,12 @@
+"""What shows plainly has a small limit, what the model absorbs has none."""
+
+from heartfit.diagnosis.limits import limits
+
+
+def test_a_delay_shows_and_a_scar_does_not():
+    found = {(each.name, each.sign): each for each in limits(1, names=("CatheterDelay", "Scar"))}
+    assert set(found) == {("CatheterDelay", 1.0), ("CatheterDelay", -1.0), ("Scar", 1.0)}
+    late, scar = found["CatheterDelay", 1.0], found["Scar", 1.0]
+    assert 0.005 < late.amplitude < 0.015
+    assert scar.least is scar.amplitude is None
+    assert max(scar.factors) < 5.0
