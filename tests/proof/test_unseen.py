@@ -1,14 +1,17 @@
 """The judge: error ratios where nothing was fitted, and which sphere and threshold a search is given."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from heartfit.diagnosis import recentred as recentred_module
-from heartfit.diagnosis.centre import HUMAN
+from heartfit.diagnosis.cause import Diagnosis
+from heartfit.diagnosis.centre import HUMAN, Centre
 from heartfit.diagnosis.recentred import recentred
-from heartfit.discovery.rules import RULES, STRICT
+from heartfit.diagnosis.recording import Recording
+from heartfit.discovery.rules import RULES, STRICT, Rules
 from heartfit.errors import InputError
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
@@ -92,18 +95,40 @@ def test_a_beat_that_no_sphere_has_is_refused(
         recentred(HUMAN.heart.with_parameters({"sigma_0": 260e3}), humped, ("lv_volume",))
 
 
+@pytest.fixture
+def searched(monkeypatch: pytest.MonkeyPatch) -> None:
+    def diagnosed(recording: Recording, centre: Centre | None = None, rules: Rules = RULES) -> Diagnosis:
+        about = "sphere" if centre is HUMAN else "adult"
+        return Diagnosis("none", (), (), about, (), 0, recording.period, rules.detected)
+
+    monkeypatch.setattr(centred_search, "diagnose", diagnosed)
+    monkeypatch.setattr(centred_search, "recentred", lambda *_: HUMAN)
+
+
+def said(beats: Sequence[Mapping[str, Curve]]) -> tuple[str, float, float | None]:
+    recording = MeasuredCase.of({"lv_volume": beats[0]["lv_volume"].resampled(25)}, []).recording()
+    found = centred_search.centred_search(recording, HUMAN.heart, beats)
+    return found.next_measurement, found.threshold, found.self_test
+
+
+@pytest.mark.usefixtures("searched")
 def test_a_search_without_a_centre_asks_for_more(
     monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve]
 ) -> None:
-    monkeypatch.setattr(
-        centred_search, "diagnose", lambda recording, centre=None, rules=RULES: (centre, rules)
-    )
-    recording = MeasuredCase.of({"lv_volume": beat["lv_volume"].resampled(25)}, []).recording()
-    monkeypatch.setattr(centred_search, "recentred", lambda *_: HUMAN)
-    assert centred_search.centred_search(recording, HUMAN.heart, beat) == (HUMAN, RULES)
-
     def refusing(*_: object) -> None:
         raise InputError("the sphere does not follow")
 
+    assert said([beat]) == ("sphere", RULES.detected, None)
     monkeypatch.setattr(centred_search, "recentred", refusing)
-    assert centred_search.centred_search(recording, HUMAN.heart, beat) == (None, STRICT)
+    assert said([beat]) == ("adult", STRICT.detected, None)
+
+
+@pytest.mark.usefixtures("searched")
+@pytest.mark.parametrize(("tested", "rules"), [(0.4, RULES), (3.1, STRICT)])
+def test_a_sphere_that_finds_what_nobody_hid_asks_for_more(
+    monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve], tested: float, rules: Rules
+) -> None:
+    seen: list[object] = []
+    monkeypatch.setattr(centred_search, "self_test", lambda *given: seen.extend(given[2]) or tested)
+    assert said([beat, {}, beat]) == ("sphere", rules.detected, tested)
+    assert len(seen) == 1, "the centre's own beat and one that failed"

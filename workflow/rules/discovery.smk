@@ -15,10 +15,6 @@ CALIBRATED_CASE = IMAGED_CASE | {
 REFITTED_CASE = IMAGED_CASE | {
     "kernels": "<results>/kernels.json",
 }
-CENTRE = {
-    "centre": "<results>/{case}/{setting}/calibration/beats/0.json",
-    "curves": "<results>/{case}/{setting}/calibration/beats/0.csv",
-}
 GIVEN = {
     "case": case_of,
     "setting": setting_of,
@@ -56,7 +52,7 @@ rule plot_residual:
 rule search_cause:
     input:
         **MEASURED_CASE,
-        **CENTRE,
+        beats=sigma_point_beats,
         kernels="<results>/kernels.json",
     output:
         expand("<results>/{{case}}/discovery/{{setting}}/search/{file}", file=CAUSE),
@@ -102,7 +98,7 @@ rule refit_case:
 rule prove_cause:
     input:
         **REFITTED_CASE,
-        **CENTRE,
+        beats=sigma_point_beats,
         refit="<results>/{case}/discovery/{setting}/none/refit.json",
     output:
         expand("<results>/{{case}}/discovery/{{setting}}/{file}", file=(*CAUSE, "refit.json")),

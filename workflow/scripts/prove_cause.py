@@ -13,8 +13,8 @@ record(snakemake.log[0])
 files, given, names = snakemake.input, snakemake.params, snakemake.wildcards
 trial = read_trial(dict(files.items()), dict(given.items()))
 heart = given.setting.base_heart(given.case.period)
-centre = beat_curves(read_beat(Path(files.centre)))
-found = centred_search(trial.case.recording(), heart, centre)
+beats = [beat_curves(read_beat(Path(beat))) for beat in files.beats]
+found = centred_search(trial.case.recording(), heart, beats)
 proved, extended = trial.prove(found, read_refit(Path(files.refit)))
 card, *_, written = map(Path, snakemake.output)
 write_cause_card(card.parent, proved, f"{names.case}, {names.setting} setting", given.code)

@@ -13,7 +13,7 @@ record(snakemake.log[0])
 files, given, names = snakemake.input, snakemake.params, snakemake.wildcards
 recording = read_measured_case(files.measured, files.get("noise", [])).recording()
 heart = given.setting.base_heart(given.case.period)
-found = centred_search(recording, heart, beat_curves(read_beat(Path(files.centre))))
+found = centred_search(recording, heart, [beat_curves(read_beat(Path(beat))) for beat in files.beats])
 folder, title = (
     Path(snakemake.output[0]).parent,
     f"{names.case}, {names.setting} setting: search on the sphere",

@@ -13,6 +13,8 @@ from heartfit.mechanics.body import Tissue
 from heartfit.mechanism import Sensor
 from heartfit.parameter import Parameter
 
+Element = Literal["mixed", "p1", "sphere"]
+
 
 class Prior(Strict):
     """Median and relative standard deviation of a parameter; where nothing is said, the declared ones."""
@@ -29,7 +31,7 @@ class Prior(Strict):
 class Setting(Strict):
     """A model and what is estimated of it."""
 
-    element: Literal["mixed", "p1", "sphere"]
+    element: Element
     reference: Literal["unloaded", "end_diastolic"] = Field("unloaded", description="the stress-free state")
     mechanisms: tuple[str, ...] = Field((), description="added to the heart, by name")
     estimate: tuple[str, ...] = Field(min_length=1)

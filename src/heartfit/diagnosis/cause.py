@@ -88,7 +88,8 @@ class Diagnosis:
     single mechanism and, as "unknown", of a discrepancy without a name; withdrawn: names that did not help on what was
     held out; refitted: the proof in three dimensions, where there was one. Without a name it is a trial of the best of
     the ranking. unsearched: curves that were recorded and not searched, and why; phases: those of the beat without a
-    cause, None where a valve of it never moves.
+    cause, None where a valve of it never moves; self_test: the median of the largest ln Bayes factors in beats of the
+    model in which nothing is hidden, None where no sphere was centred or no such beats were at hand.
     """
 
     verdict: Verdict
@@ -105,3 +106,4 @@ class Diagnosis:
     refitted: Refitted | None = None
     unsearched: Mapping[str, str] = field(default_factory=dict)
     phases: BeatPhases | None = None
+    self_test: float | None = None

@@ -20,7 +20,8 @@ from heartfit.tables.cause_figure import plot_cause
 class CauseFile:
     """What a cause.json holds; see :class:`heartfit.diagnosis.cause.Diagnosis`.
 
-    departures: the greatest of each curve; misses: the same in words.
+    departures: the greatest of each curve; misses: the same in words; threshold: the least ln Bayes factor of a
+    detection; self_test: the median of the largest where nothing is hidden.
     """
 
     verdict: Verdict
@@ -36,6 +37,8 @@ class CauseFile:
     misses: tuple[str, ...] = ()
     unsearched: Mapping[str, str] = field(default_factory=dict)
     refitted: Refitted | None = None
+    threshold: float | None = None
+    self_test: float | None = None
 
     @classmethod
     def of(cls, diagnosis: Diagnosis, fingerprint: str) -> "CauseFile":
@@ -55,6 +58,8 @@ class CauseFile:
             tuple(map(missed, found)),
             diagnosis.unsearched,
             diagnosis.refitted,
+            diagnosis.threshold,
+            diagnosis.self_test,
         )
 
 

@@ -1,24 +1,32 @@
 """The search for a case's cause, on a sphere centred on its own three-dimensional beat where one can follow it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from heartfit.diagnosis.cause import Diagnosis
 from heartfit.diagnosis.diagnose import diagnose
 from heartfit.diagnosis.recentred import recentred
 from heartfit.diagnosis.recording import Recording
+from heartfit.diagnosis.self_test import LARGEST, self_test
 from heartfit.discovery.rules import RULES, STRICT
 from heartfit.errors import InputError
 from heartfit.heart import Heart
 from heartfit.observation.curve import Curve
 
 
-def centred_search(recording: Recording, heart: Heart, beat: Mapping[str, Curve]) -> Diagnosis:
-    """The diagnosis of a recording, the sphere centred on a ``beat`` of the ``heart``.
+def centred_search(recording: Recording, heart: Heart, beats: Sequence[Mapping[str, Curve]]) -> Diagnosis:
+    """The diagnosis of a recording, the sphere centred on the first of the ``beats``, which is the ``heart``'s.
 
-    Where the sphere cannot follow that beat it stays that of any adult, and the threshold of a detection is raised.
+    The others are of the same model at other parameters: a sphere that finds effects in them fails its self-test, and
+    the threshold of a detection is raised. So it is where the sphere cannot follow the first beat, and stays that of
+    any adult. Beats without curves failed.
     """
+    first, *others = beats
     try:
-        centre = recentred(heart, beat, recording.searched)
+        centre = recentred(heart, first, recording.searched)
     except InputError:
         return diagnose(recording, rules=STRICT)
-    return diagnose(recording, centre=centre, rules=RULES)
+    sound = [each for each in others if each]
+    tested = self_test(recording, centre, sound) if sound else None
+    rules = STRICT if tested is not None and tested > LARGEST else RULES
+    return replace(diagnose(recording, centre=centre, rules=rules), self_test=tested)

@@ -7,12 +7,11 @@ mechanism, as that search takes them.
 """
 
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.configuration.setting import Setting
+from heartfit.configuration.setting import Element, Setting
 from heartfit.diagnosis.free import PARAMETERS, Free
 from heartfit.diagnosis.library import Candidate
 from heartfit.geometry.arrays import Floats
@@ -29,7 +28,7 @@ class Extension:
 
     base: Setting
     added: tuple[Candidate, ...] = ()
-    element: Literal["mixed", "p1", "sphere"] | None = None
+    element: Element | None = None
     freed: tuple[Free, ...] = ()
 
     @classmethod

@@ -1,6 +1,6 @@
 """The refitted model without and with an extension, judged by what was never fitted."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from heartfit.diagnosis.held_out import error_ratio
 from heartfit.geometry.arrays import Floats
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
+from heartfit.observation.curve import Curve
 from heartfit.observation.strain import DIRECTIONS, segment_strain
 from heartfit.proof.model import Shown
 from heartfit.proof.target import MeasuredCase
@@ -34,14 +35,7 @@ class Proof:
 
     def gains(self) -> list[Gain]:
         """One for each curve of which something was not fitted, and one for the strain."""
-        period = self.case.curves["lv_volume"].period
-        found = []
-        for name, held in self.case.split.held.items():
-            before, after = (
-                held.values - each.curves[name](held.times) for each in (self.none, self.extended)
-            )
-            found.append(_gain(name, UNSEEN[name], held.times / period, before, after))
-        return [*found, *self._strain_gains()]
+        return [*curve_gains(self.case, self.none.curves, self.extended.curves), *self._strain_gains()]
 
     def _strain_gains(self) -> Iterator[Gain]:
         """Of the strain of all segments in all frames, round the heart and along it."""
@@ -72,6 +66,16 @@ class Proof:
         curve, noise = self.case.curves[name], self.case.noise[name]
         none, extended = (each.curves[name](curve.times) for each in (self.none, self.extended))
         return Trace(name, curve.times, curve.values, none, extended, noise, curve.values - none, noise)
+
+
+def curve_gains(
+    case: MeasuredCase, none: Mapping[str, Curve], extended: Mapping[str, Curve]
+) -> Iterator[Gain]:
+    """One for each curve of which something was not fitted."""
+    period = case.curves["lv_volume"].period
+    for name, held in case.split.held.items():
+        before, after = (held.values - each[name](held.times) for each in (none, extended))
+        yield _gain(name, UNSEEN[name], held.times / period, before, after)
 
 
 def _gain(name: str, on: str, phase: Floats, before: Floats, after: Floats) -> Gain:

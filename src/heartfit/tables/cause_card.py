@@ -56,9 +56,18 @@ def card(diagnosis: Diagnosis, title: str) -> str:
         "## What to measure next\n\n" + (diagnosis.next_measurement or "Nothing: the data decide."),
         f"## What {gaining(diagnosis)} gains where nothing was fitted\n\n" + _gains(diagnosis.gain),
         *([f"## In three dimensions\n\n{in_three_dimensions(diagnosis.refitted)}"] if diagnosis.refitted else []),
+        *([tested(diagnosis)] if diagnosis.self_test is not None else []),
         f"{diagnosis.simulations} simulated beats in all.",
     ]  # fmt: skip
     return "\n\n".join(parts) + "\n"
+
+
+def tested(diagnosis: Diagnosis) -> str:
+    """What the search finds where nothing is hidden, and the threshold that follows from it."""
+    return (
+        "In beats of the model itself, in which nothing is hidden, the largest ln Bayes factor is "
+        f"{diagnosis.self_test:.1f} (median): an effect is detected from {diagnosis.threshold:g}."
+    )
 
 
 def missed(each: Departure) -> str:
