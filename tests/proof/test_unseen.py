@@ -11,7 +11,7 @@ from heartfit.diagnosis.cause import Diagnosis
 from heartfit.diagnosis.centre import HUMAN, Centre
 from heartfit.diagnosis.recentred import recentred
 from heartfit.diagnosis.recording import Recording
-from heartfit.discovery.rules import RULES, STRICT, Rules
+from heartfit.discovery.rules import CENTRED, RULES, STRICT, Rules
 from heartfit.errors import InputError
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
@@ -118,13 +118,13 @@ def test_a_search_without_a_centre_asks_for_more(
     def refusing(*_: object) -> None:
         raise InputError("the sphere does not follow")
 
-    assert said([beat]) == ("sphere", RULES.detected, None)
+    assert said([beat]) == ("sphere", CENTRED.detected, None)
     monkeypatch.setattr(centred_search, "recentred", refusing)
     assert said([beat]) == ("adult", STRICT.detected, None)
 
 
 @pytest.mark.usefixtures("searched")
-@pytest.mark.parametrize(("tested", "rules"), [(0.4, RULES), (3.1, STRICT)])
+@pytest.mark.parametrize(("tested", "rules"), [(0.4, CENTRED), (3.1, STRICT)])
 def test_a_sphere_that_finds_what_nobody_hid_asks_for_more(
     monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve], tested: float, rules: Rules
 ) -> None:

@@ -13,7 +13,7 @@ record(snakemake.log[0])
 files, given, names = snakemake.input, snakemake.params, snakemake.wildcards
 trial = read_trial(dict(files.items()), dict(given.items()))
 heart = given.setting.base_heart(given.case.period)
-beats = [beat_curves(read_beat(Path(beat))) for beat in files.beats]
+beats = list(map(beat_curves, map(read_beat, map(Path, files.beats))))
 found = centred_search(trial.case.recording(), heart, beats)
 proved, extended = trial.prove(found, read_refit(Path(files.refit)))
 card, *_, written = map(Path, snakemake.output)

@@ -13,7 +13,8 @@ record(snakemake.log[0])
 files, given, names = snakemake.input, snakemake.params, snakemake.wildcards
 recording = read_measured_case(files.measured, files.get("noise", [])).recording()
 heart = given.setting.base_heart(given.case.period)
-found = centred_search(recording, heart, [beat_curves(read_beat(Path(beat))) for beat in files.beats])
+beats = list(map(beat_curves, map(read_beat, map(Path, files.beats))))
+found = centred_search(recording, heart, beats)
 folder, title = (
     Path(snakemake.output[0]).parent,
     f"{names.case}, {names.setting} setting: search on the sphere",

@@ -8,7 +8,7 @@ from heartfit.diagnosis.diagnose import diagnose
 from heartfit.diagnosis.recentred import recentred
 from heartfit.diagnosis.recording import Recording
 from heartfit.diagnosis.self_test import LARGEST, self_test
-from heartfit.discovery.rules import RULES, STRICT
+from heartfit.discovery.rules import CENTRED, STRICT
 from heartfit.errors import InputError
 from heartfit.heart import Heart
 from heartfit.observation.curve import Curve
@@ -28,5 +28,5 @@ def centred_search(recording: Recording, heart: Heart, beats: Sequence[Mapping[s
         return diagnose(recording, rules=STRICT)
     sound = [each for each in others if each]
     tested = self_test(recording, centre, sound) if sound else None
-    rules = STRICT if tested is not None and tested > LARGEST else RULES
+    rules = STRICT if tested is not None and tested > LARGEST else CENTRED
     return replace(diagnose(recording, centre=centre, rules=rules), self_test=tested)

@@ -25,7 +25,7 @@ class Reference:
     """A model of a heart that nothing was fitted to: its wall at end diastole, the setting and how it beats.
 
     The sphere is taken however well it follows the beat: about one that it followed to 0.13 kPa only, a heart without
-    an effect gave an ln Bayes factor of 6, about an adult's 15.
+    an effect gave an ln Bayes factor of 6, about an adult's 15. Where it does not follow, more is asked of a detection.
     """
 
     mesh: VentricularMesh
