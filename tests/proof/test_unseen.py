@@ -115,11 +115,17 @@ def said(beats: Sequence[Mapping[str, Curve]]) -> tuple[str, float, float | None
 def test_a_search_without_a_centre_asks_for_more(
     monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve]
 ) -> None:
-    def refusing(*_: object) -> None:
-        raise InputError("the sphere does not follow")
+    def following(*given: object) -> Centre:
+        if given[2] not in allowed:
+            raise InputError("the sphere does not follow")
+        return HUMAN
 
+    monkeypatch.setattr(centred_search, "recentred", following)
+    allowed: list[object] = [("lv_volume",)]
     assert said([beat]) == ("sphere", CENTRED.detected, None)
-    monkeypatch.setattr(centred_search, "recentred", refusing)
+    allowed = [()]
+    assert said([beat]) == ("sphere", STRICT.detected, None)
+    allowed = []
     assert said([beat]) == ("adult", STRICT.detected, None)
 
 

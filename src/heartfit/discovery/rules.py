@@ -50,7 +50,7 @@ class Rules:
 
 RULES = Rules()
 CENTRED = Rules(detected=7.0)
-"""For data of a 3-D heart about a model that is centred on a 3-D beat of it: of nine such hearts without an effect, seen
-through images, the largest ln Bayes factors were 5.9, 5.6 and 5.0."""
+"""For data of a 3-D heart about a model that is centred on a 3-D beat of it: of nine such hearts without an effect,
+seen through images, the largest ln Bayes factors were 5.9, 5.6 and 5.0."""
 STRICT = Rules(detected=10.0)
 """For a model that differs in structure from what made the data and is not centred on it."""

@@ -6,10 +6,7 @@ from heartfit.configuration.generator import Pressures
 from heartfit.configuration.numerics import TimeScheme
 from heartfit.configuration.setting import Setting
 from heartfit.diagnosis.cause import Diagnosis
-from heartfit.diagnosis.diagnose import diagnose
-from heartfit.diagnosis.recentred import recentred
 from heartfit.diagnosis.recording import Recording
-from heartfit.discovery.rules import STRICT
 from heartfit.electrophysiology.conduction import HEALTHY
 from heartfit.electrophysiology.onset import assign_activation
 from heartfit.electrophysiology.personalise import personalised
@@ -17,16 +14,13 @@ from heartfit.errors import InputError
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.prepare import prepare
 from heartfit.observation.beat import beat_curves
+from heartfit.proof.centred_search import centred_search
 from heartfit.protocol import run_beat
 
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """A model of a heart that nothing was fitted to: its wall at end diastole, the setting and how it beats.
-
-    The sphere is taken however well it follows the beat: about one that it followed to 0.13 kPa only, a heart without
-    an effect gave an ln Bayes factor of 6, about an adult's 15. Where it does not follow, more is asked of a detection.
-    """
+    """A model of a heart that nothing was fitted to: its wall at end diastole, the setting and how it beats."""
 
     mesh: VentricularMesh
     setting: Setting
@@ -43,5 +37,4 @@ class Reference:
         beat = run_beat(mesh, self.setting, recording.period, {}, self.pressures, self.scheme)
         if not beat.completed:
             raise InputError(f"reference beat: {beat.reason}; expected one: choose another prior or mesh")
-        centre = recentred(self.setting.base_heart(recording.period), beat_curves(beat), recorded=())
-        return diagnose(recording, centre=centre, rules=STRICT)
+        return centred_search(recording, self.setting.base_heart(recording.period), [beat_curves(beat)])

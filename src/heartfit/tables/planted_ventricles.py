@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from heartfit.discovery.rules import STRICT
+from heartfit.discovery.rules import CENTRED
 from heartfit.planting.scoring import Scored
 from heartfit.tables.planted_table import cases_table, mechanisms_table, rates_table
 from heartfit.tables.text import to_markdown
@@ -67,7 +67,7 @@ def ventricles_page(scored: Sequence[Scored], planned: int) -> str:
         seeds=f"{min(seeds)} to {max(seeds)}",
         refused=refused,
         drawn=refused + len(scored),
-        detected=STRICT.detected,
+        detected=CENTRED.detected,
         error=100.0 * np.median(errors),
         worst=100.0 * max(errors),
         rates=to_markdown(rates_table(scored)),

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from heartfit.discovery.rules import STRICT
+from heartfit.discovery.rules import CENTRED
 from heartfit.planting.scoring import Scored
 from heartfit.tables.figures import clean
 from heartfit.tables.planted_figures import OUTCOMES
@@ -25,7 +25,7 @@ def plot_ventricles(scored: Sequence[Scored]) -> Figure:
             _, colour, marker = next(style for style in OUTCOMES.values() if style[0](each))
             height = place + FURTHER * (number - 0.5 * (len(cases) - 1))
             axes.plot(_best(each), height, marker, color=colour, markersize=6, alpha=0.85)
-    axes.axvline(STRICT.detected, color="black", linewidth=0.8, linestyle=":")
+    axes.axvline(CENTRED.detected, color="black", linewidth=0.8, linestyle=":")
     axes.set_yticks(range(len(rows)), rows, fontsize=9)
     axes.invert_yaxis()
     axes.set_xscale("symlog", linthresh=10.0)
