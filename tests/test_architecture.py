@@ -40,6 +40,7 @@ HEIGHTS = (
     ("kernels",),
     ("console",),
     ("io",),
+    ("pages",),
     ("cli",),
 )
 HEIGHT = {layer: height for height, layers in enumerate(HEIGHTS) for layer in layers}
@@ -150,7 +151,7 @@ def test_only_io_and_the_command_line_open_files():
 
 def test_only_scripts_and_the_command_line_call_io():
     for file in FILES:
-        if layer(file) not in {"io", "cli"}:
+        if layer(file) not in {"io", "pages", "cli"}:
             assert "io" not in layers_imported(file), file
 
 

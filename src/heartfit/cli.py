@@ -8,14 +8,15 @@ from pathlib import Path
 import numpy as np
 
 from heartfit import protocol
-from heartfit.catalogue import declared, parameter_page
+from heartfit.catalogue import declared
 from heartfit.console import Progress, beat_summary
 from heartfit.errors import InputError
 from heartfit.io.beats import write_beat
-from heartfit.io.configuration import plan_study, read_configuration, read_study, schema
+from heartfit.io.configuration import plan_study, read_configuration, read_study
 from heartfit.io.fingerprint import fingerprint
 from heartfit.io.measured_heart import read_measured_heart
 from heartfit.io.meshes import read_mesh
+from heartfit.pages import PAGES
 
 STANDARD = Path("config/config.yaml")
 
@@ -46,7 +47,7 @@ def _parser() -> argparse.ArgumentParser:
         )
         if carry_out is simulate:
             _simulate_arguments(command)
-    for page in (parameters, configuration_schema, cause_schema, verification, robustness):
+    for page in PAGES:
         command = commands.add_parser(page.__name__.replace("_", "-"), help=page.__doc__)
         command.set_defaults(carry_out=page)
     held = commands.add_parser("tolerances", help=tolerances.__doc__)
@@ -155,43 +156,6 @@ def check(given: argparse.Namespace) -> int:
         print(f"measured heart: {phases} phases of {points} points, {heart.period:.3f} s")
     if plan.left_out:
         print(plan.left_out)
-    return 0
-
-
-def parameters(_: argparse.Namespace) -> int:
-    """print the reference page of all parameters"""
-    print(parameter_page(), end="")
-    return 0
-
-
-def configuration_schema(_: argparse.Namespace) -> int:
-    """print the JSON schema of a configuration"""
-    print(schema(), end="")
-    return 0
-
-
-def cause_schema(_: argparse.Namespace) -> int:
-    """print the JSON schema of a cause.json"""
-    from heartfit.io import causes  # with what draws the figures
-
-    print(causes.cause_schema(), end="")
-    return 0
-
-
-def verification(_: argparse.Namespace) -> int:
-    """print the page of verification, in a minute or two; fails if a check is missed"""
-    from heartfit.verification.page import MISSED, verification_page
-
-    page = verification_page()
-    print(page, end="")
-    return int(MISSED in page)
-
-
-def robustness(_: argparse.Namespace) -> int:
-    """print the page of robustness, in a quarter of an hour"""
-    from heartfit.verification.robustness_page import robustness_page
-
-    print(robustness_page(say=lambda text: print(text, file=sys.stderr)), end="")
     return 0
 
 
