@@ -31,10 +31,6 @@ class Promise:
         """The fit from there, or None where its simulations fail."""
         return bench.explain(self.hypothesis, self.start, self.slopes, trusted)
 
-    def bettered(self, bench: Bench, old: Explanation, patience: float) -> Explanation:
-        """The old explanation, or a better one from there: see :meth:`Bench.better`."""
-        return bench.better(old, self.start, self.slopes, patience=patience)
-
 
 def most_promising(
     bench: Bench, known: Explanation, further: Hypothesis, reach: tuple[float, float] = REACH
