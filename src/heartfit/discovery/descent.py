@@ -18,8 +18,8 @@ from heartfit.geometry.arrays import Floats
 
 SHORT = 0.02
 """Prior standard deviations: a step that changes nothing one would report."""
-SLIGHT = 0.1
-"""Of the objective, in the unit of ln Z: a twentieth of the least difference that a verdict rests on."""
+SLIGHT = 0.05
+"""Of the objective, in the unit of ln Z: a fortieth of the least difference that a verdict rests on."""
 ROUGH = 1.0
 """Of the objective: what a full step may promise in vain, the simulation not being smooth on its scale."""
 DAMPING = 1.0

@@ -2,7 +2,7 @@ r"""The most probable coordinates of a hypothesis.
 
 Minimises :math:`-\ln p(y - f(x)) + \tfrac12 |x|^2` over x, one-sided coordinates not negative; see
 :mod:`heartfit.discovery.descent` for the steps. A fit is converged when no step with fresh slopes promises to change
-the objective by 0.1 and the undamped one, which the simulation's roughness may refuse, not by 1.
+the objective by 0.05 and the undamped one, which the simulation's roughness may refuse, not by 1.
 """
 
 from dataclasses import dataclass

@@ -49,8 +49,8 @@ def surveyed(bench: Bench, none: Hypothesis, singles: Sequence[Hypothesis], rule
     """None and every single effect, fitted from none and from the centre; where anything is suspected, the best again.
 
     A weak effect hardly moves the fit without it, and the slopes there lead on. A strong one drags that fit to where
-    they no longer point at the cause: so each effect starts at the centre of the priors too, strongly switched on, where
-    and when it promises most.
+    they no longer point at the cause: so each effect starts at the centre of the priors too, strongly switched on, at
+    the place and time where it promises most.
     """
     centre, base = _without_effect(bench, none)
     found = {each.effects: _found(bench, base, centre, each, rules) for each in singles}
