@@ -5,9 +5,10 @@ import pytest
 
 from heartfit.observation.beat_phases import BeatPhases
 from heartfit.observation.residual import CaseResidual, Misfit, Residual
+from heartfit.observation.strain import DIRECTIONS
 from heartfit.observation.strain_residual import StrainResidual
 from heartfit.tables.residual_figure import CONVERGED, ONE_STEP, plot_residual
-from heartfit.tables.residual_table import residual_table, sentence
+from heartfit.tables.residual_table import residual_table, segment_sentence, sentence
 
 TIMES = 0.08 * np.arange(10)
 PHASES = BeatPhases(np.array([0.0, 0.06, 0.3, 0.36, 0.55, 0.65]), 0.8)
@@ -37,9 +38,19 @@ def test_the_sentence_says_which_curve_when_and_which_sign() -> None:
     )
 
 
+def test_a_segment_is_named_with_its_sign() -> None:
+    difference = np.zeros((3, 16))
+    difference[DIRECTIONS.index("circumferential"), 15] = -0.1
+    expected = "segment 16, apical lateral, shortens too much by 10 % of its length"
+    assert segment_sentence(StrainResidual(0.3, difference, None)) == expected
+    noisy = StrainResidual(0.3, -difference, np.full((3, 16), 0.05))
+    assert segment_sentence(noisy) == f"{expected.replace('much', 'little')} (2.0 times its noise)"
+
+
 def test_the_figure_has_a_strip_per_curve_and_names_the_worst() -> None:
     figure = plot_residual(FOUND, "volunteer1, physical setting")
     assert "simulated 4.0 mL too small" in figure.get_suptitle()
+    assert "segment 1, basal anterior, shortens too little by 2 %" in figure.get_suptitle()
     assert "may be physics" in figure.get_supxlabel()
     lines = figure.subfigs[0].axes[0].get_lines()
     assert {line.get_label() for line in lines} >= {ONE_STEP, CONVERGED}

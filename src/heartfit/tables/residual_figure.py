@@ -15,7 +15,7 @@ from heartfit.observation.strain import DIRECTIONS, SEGMENTS
 from heartfit.observation.strain_residual import StrainResidual
 from heartfit.tables.bullseye import draw_bullseye
 from heartfit.tables.figures import CALIBRATED, REFERENCE, clean
-from heartfit.tables.residual_table import NAMES, sentence
+from heartfit.tables.residual_table import NAMES, segment_sentence, sentence
 
 LABELS = ONE_STEP, CONVERGED = "after one step", "converged"
 STYLE: dict[str, dict[str, Any]] = {
@@ -39,10 +39,10 @@ PALER = 1.5
 def plot_residual(residual: CaseResidual, title: str) -> Figure:
     """One strip per curve over the phases of the beat, in units of noise, and the strain at end systole by segment.
 
-    The heading names the largest mean misfit of the last beat, or says that no beat was completed.
+    The heading names the largest mean misfit of the last beat and its worst segment, or that no beat was completed.
     """
     found, phases = residual.curves, residual.phases
-    figure = Figure(figsize=(11, 1.2 + 1.55 * max(len(found), 1)), layout="constrained")
+    figure = Figure(figsize=(11, 1.4 + 1.55 * max(len(found), 1)), layout="constrained")
     if phases is None:
         figure.suptitle(f"{title}: no beat was completed", fontsize=11)
         return figure
@@ -56,9 +56,15 @@ def plot_residual(residual: CaseResidual, title: str) -> Figure:
     left.supylabel("simulated − measured, in units of noise", fontsize=9)
     if residual.strain is not None:
         _segments(right, residual.strain)
-    figure.suptitle(f"{title}, {residual.label}\n{sentence(residual.misfits()[0])}", fontsize=11)
+    figure.suptitle("\n".join([f"{title}, {residual.label}", *_heading(residual)]), fontsize=11)
     figure.supxlabel(CAUTION, fontsize=8)
     return figure
+
+
+def _heading(residual: CaseResidual) -> list[str]:
+    """Of the curves and of the segments the worst, a sentence each."""
+    segment = [] if residual.strain is None else [f"At end systole {segment_sentence(residual.strain)}"]
+    return [sentence(residual.misfits()[0]), *segment]
 
 
 def _strip(axes: Axes, residual: Residual, phases: BeatPhases) -> None:

@@ -14,6 +14,13 @@ NAMES = {
     "lv_pressure": "LV pressure",
     "aorta_pressure": "aortic pressure",
 }
+WALLS = ("anterior", "anteroseptal", "inferoseptal", "inferior", "inferolateral", "anterolateral")
+APICAL = ("anterior", "septal", "inferior", "lateral")
+AHA = [
+    *(f"{level} {wall}" for level in ("basal", "mid") for wall in WALLS),
+    *(f"apical {wall}" for wall in APICAL),
+]
+"""Names of the segments 1 to 16 (Cerqueira et al. 2002, doi 10.1161/hc0402.102975)."""
 COLUMNS = ["curve", "beat", "time (s)", "phase", "unit", "difference", "noise", "score"]
 UNITS = {"volume": ("mL", 1e-6), "pressure": ("kPa", 1e3)}
 """Printed unit and what one of it is in SI."""
@@ -79,3 +86,14 @@ def sentence(worst: Misfit) -> str:
         f"{NAMES[worst.curve]} in {worst.phase}: simulated {abs(worst.difference) / size:.1f} {unit} too {sign} "
         f"({abs(worst.score):.1f} times its noise)"
     )
+
+
+def segment_sentence(strain: StrainResidual) -> str:
+    """ "segment 16, apical lateral, shortens too much by 10 % of its length (3.1 times its noise)": the worst one."""
+    scores = strain.score()[DIRECTIONS.index("circumferential")]
+    worst = int(np.abs(scores).argmax())
+    difference = 100.0 * strain.difference[DIRECTIONS.index("circumferential"), worst]
+    way = "much" if difference < 0.0 else "little"
+    noise = "" if strain.noise is None else f" ({abs(scores[worst]):.1f} times its noise)"
+    size = f"{abs(difference):.0f} % of its length{noise}"
+    return f"segment {SEGMENTS[worst]}, {AHA[worst]}, shortens too {way} by {size}"
