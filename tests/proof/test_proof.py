@@ -16,7 +16,7 @@ from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.scatter import Scatter
 from heartfit.proof.extension import Extension
 from heartfit.proof.noise import covariance
-from heartfit.proof.refit import Refit, refit
+from heartfit.proof.refit import Refit, continued, refit
 from heartfit.proof.split import BIN, BLOCK, Split, Target, binned
 from heartfit.proof.target import MeasuredCase
 from heartfit.proof.verdict import sized
@@ -149,6 +149,28 @@ def test_a_heart_that_contracts_for_shorter_is_given_a_leak_where_that_is_frozen
     )
     assert frozen[1] - frozen[0] > 5.0
     assert freed[1] - freed[0] < 1.0
+
+
+def test_an_extension_is_found_from_where_the_model_without_it_ended(
+    case: MeasuredCase, refits: tuple[Refit, Refit]
+) -> None:
+    none, extended = refits
+    found = continued(Extension.by(PLAIN, "MitralRegurgitation"), run, target(case), 20, none)
+    assert found.converged
+    assert found.objective == pytest.approx(extended.objective, abs=1.0)
+    assert found.log_evidence == pytest.approx(extended.log_evidence, abs=1.5)
+    assert found.simulations < extended.simulations + 5
+
+
+def test_an_effect_that_is_not_there_ends_off_where_the_model_without_it_ended() -> None:
+    plain = Extension(PLAIN)
+    curves = beat_curves(run(plain, plain.parameters(np.array([0.5, -0.5]))))
+    sound = MeasuredCase.of({name: curves[name].resampled(50) for name in ("lv_volume", "lv_pressure")}, [])
+    none = refit(plain, run, target(sound), 20)
+    found = continued(Extension.by(PLAIN, "MitralRegurgitation"), run, target(sound), 20, none)
+    assert found.estimate[-1] == pytest.approx(0.0, abs=0.05)
+    assert found.objective < none.objective + 0.3
+    assert found.log_evidence < none.log_evidence
 
 
 def test_the_estimate_is_a_heart_that_was_simulated(case: MeasuredCase, refits: tuple[Refit, Refit]) -> None:

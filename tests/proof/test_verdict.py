@@ -43,7 +43,20 @@ def test_of_two_the_stronger_is_tried_alone_before_both() -> None:
 def fitted(extension: Extension, evidence: float) -> Refit:
     x = extension.start(2.0)
     covariance = 0.01 * np.eye(len(x))
-    return Refit(extension.names, x, covariance, extension.parameters(x), 1.0, 1.0, evidence, 10, 9, True)
+    return Refit(
+        extension.names,
+        x,
+        covariance,
+        extension.parameters(x),
+        1.0,
+        1.0,
+        evidence,
+        10,
+        9,
+        True,
+        x,
+        covariance,
+    )
 
 
 @dataclass
@@ -53,10 +66,12 @@ class Judge:
     evidence: dict[int, float]
     nearer: tuple[int, ...]
 
-    def refitted(self, extension: Extension) -> Refit:
+    def extended(self, extension: Extension, _: Refit) -> Refit:
         if len(extension.added) not in self.evidence:
             raise CalibrationError("no beat")
         return fitted(extension, self.evidence[len(extension.added)])
+
+    continued = extended
 
     def at(self, extension: Extension, found: Refit) -> SimpleNamespace:
         return SimpleNamespace(extension=extension, refit=found)

@@ -10,7 +10,7 @@ from heartfit.io.simulated_motion import write_simulated_motion
 record(snakemake.log[0])
 trial = read_trial(dict(snakemake.input.items()), dict(snakemake.params.items()))
 code = snakemake.params.code
-found = trial.refitted(trial.none)
+found = trial.refitted()
 beat = trial.model(trial.none, found.parameters, keep_positions=True)
 written, state, _, motion = map(Path, snakemake.output)
 write_refit(written, found, code)

@@ -41,7 +41,7 @@ def write_refit(path: Path, refit: Refit, fingerprint: str) -> None:
 def read_refit(path: Path) -> Refit:
     """What write_refit wrote; raises InputError for a missing or broken file."""
     content: Mapping[str, Any] = read_result(path)["refit"]
-    arrays = {name: np.array(content[name]) for name in ("estimate", "covariance")}
+    arrays = {name: np.array(content[name]) for name in ("estimate", "covariance", "predicted", "slopes")}
     return Refit(**{**content, **arrays, "names": tuple(content["names"])})
 
 

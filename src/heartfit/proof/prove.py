@@ -1,7 +1,7 @@
 """A case's three-dimensional model extended step by step, as long as each step helps where nothing was fitted."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.configuration.setting import Setting
@@ -10,7 +10,8 @@ from heartfit.geometry.motion import Motion
 from heartfit.proof.extension import Extension
 from heartfit.proof.model import Model, Shown
 from heartfit.proof.proof import Proof
-from heartfit.proof.refit import Refit, Target, refit
+from heartfit.proof.refit import Refit, continued, refit
+from heartfit.proof.split import Target
 from heartfit.proof.target import MeasuredCase
 from heartfit.proof.verdict import Tried, extensions_of, proved
 
@@ -40,9 +41,23 @@ class Trial:
         """The model as it is."""
         return Extension(self.setting).freeing()
 
-    def refitted(self, extension: Extension) -> Refit:
-        """The extension after its steps; raises CalibrationError where too many beats fail."""
-        return refit(extension, self.model, self.target, self.most_steps)
+    def refitted(self) -> Refit:
+        """The model as it is after its steps; raises CalibrationError where too many beats fail."""
+        return refit(self.none, self.model, self.target, self.most_steps)
+
+    def extended(self, extension: Extension, base: Refit) -> Refit:
+        """The better of two refits, from the centre of the priors and from where the model without it ended.
+
+        A strong effect drags the model without it far off, and a weak one is found from there. Raises CalibrationError
+        where too many beats fail.
+        """
+        both = self.continued(extension, base), refit(extension, self.model, self.target, self.most_steps)
+        best = min(both, key=lambda each: each.objective)
+        return replace(best, simulations=sum(each.simulations for each in both))
+
+    def continued(self, extension: Extension, base: Refit) -> Refit:
+        """The refit from where the model without it ended; raises CalibrationError where the beat there fails."""
+        return continued(extension, self.model, self.target, self.most_steps, base)
 
     def at(self, extension: Extension, fitted: Refit) -> Fitted:
         """The beat at a refit's estimate; raises CalibrationError where it fails."""
@@ -77,7 +92,7 @@ class Trial:
         """What one mechanism gains, whatever a search says of it; raises CalibrationError where it does not beat."""
         extension = Extension.by(self.setting, mechanism).freeing()
         base = self.at(self.none, none)
-        extended = self.at(extension, self.refitted(extension))
+        extended = self.at(extension, self.continued(extension, none))
         beats = none.simulations + extended.refit.simulations + 2
         tried = Tried(extension, none, extended.refit, (), beats)
         proof = self.proof(base, extended)
@@ -90,7 +105,7 @@ class Trial:
         """
         for extension in extensions:
             try:
-                tried = self.at(extension, self.refitted(extension))
+                tried = self.at(extension, self.extended(extension, base.refit))
             except CalibrationError:
                 return
             likelier = tried.refit.log_evidence > base.refit.log_evidence

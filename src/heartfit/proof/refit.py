@@ -6,7 +6,9 @@ switched on. Its slopes :math:`A = \mathrm{Cov}(Z, X) P^{-1}` begin a walk down
 .. math:: \tfrac12 r^T R^{-1} r + \tfrac12 |x|^2 ,
 
 see :mod:`heartfit.proof.walk`; where it ends lies the estimate, with the covariance
-:math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. By Laplace's approximation
+:math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. An extension may also begin where the model without it ended,
+with the slopes of there: that takes a fifth of the beats, and a weak effect is not lost on the way. By Laplace's
+approximation
 
 .. math:: \ln Z = -\tfrac12 r^T R^{-1} r - \tfrac12 |x|^2 + \tfrac12 \ln |C|
           + \sum_{a \ge 0} \ln 2 \Phi(x_a / \sigma_a) + \mathrm{const}
@@ -38,7 +40,8 @@ class Refit:
     """Names (d,), estimate x (d,) and covariance (d, d) of an extension's coordinates, and its parameters there, SI.
 
     misfit: r^T R^-1 r of n samples at the estimate; objective: what was minimised; log_evidence: up to a constant of
-    the samples; simulations: beats it took; converged: whether no step promised to lower the objective.
+    the samples; simulations: beats it took; converged: whether no step promised to lower the objective; predicted (n,),
+    slopes (n, d): of the samples at the estimate.
     """
 
     names: tuple[str, ...]
@@ -51,6 +54,8 @@ class Refit:
     samples: int
     simulations: int
     converged: bool
+    predicted: Floats
+    slopes: Floats
 
     @property
     def sd(self) -> Floats:
@@ -66,7 +71,36 @@ def refit(extension: Extension, run: Run, target: Target, most: int, amplitude: 
     """
     forward = _Forward(extension, run, target)
     start = extension.start(amplitude)
-    predicted, slopes = _unscented(extension.names, forward, start)
+    return _walked(forward, start, *_unscented(extension.names, forward, start), most)
+
+
+def continued(extension: Extension, run: Run, target: Target, most: int, none: Refit) -> Refit:
+    """The refit from where the model without the last of the mechanisms ended, those half a scale on.
+
+    Raises CalibrationError where the beat there fails.
+    """
+    forward = _Forward(extension, run, target)
+    kept = none.estimate.size
+    start = np.concatenate([none.estimate, extension.start(0.5)[kept:]])
+    predicted = forward(start)
+    if predicted is None:
+        raise CalibrationError(f"refit: {', '.join(extension.effects)} half a scale on does not beat")
+    added = [_column(forward, start, predicted, index) for index in range(kept, start.size)]
+    return _walked(forward, start, predicted, np.column_stack([none.slopes, *added]), most)
+
+
+def _column(forward: "_Forward", start: Floats, predicted: Floats, index: int) -> Floats:
+    """The slope (n,) between the start and a point with an amplitude off, or another unknown one deviation on."""
+    moved = start.copy()
+    moved[index] = 0.0 if start[index] else 1.0
+    seen = forward(moved)
+    if seen is None:
+        return np.zeros_like(predicted)
+    return (predicted - seen) / (start[index] - moved[index])
+
+
+def _walked(forward: "_Forward", start: Floats, predicted: Floats, slopes: Floats, most: int) -> Refit:
+    extension, target = forward.extension, forward.target
     walk = Walk(forward, target, np.where(extension.one_sided, 0.0, -np.inf), start, predicted, slopes)
     for _ in range(most):
         if walk.ended:
@@ -84,6 +118,8 @@ def refit(extension: Extension, run: Run, target: Target, most: int, amplitude: 
         target.values().size,
         forward.simulations,
         walk.converged,
+        walk.predicted,
+        walk.slopes,
     )
 
 
