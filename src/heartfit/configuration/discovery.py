@@ -13,11 +13,11 @@ class Discovery(Strict):
         default=(), description="whose cases are searched, about ten seconds each"
     )
     cases: tuple[str, ...] = Field(
-        default=(), description="that are refitted and proved, about 100 beats each"
+        default=(), description="that are refitted and proved, about 120 beats each"
     )
     trials: tuple[str, ...] = Field(
         default=(),
-        description="mechanisms that these cases are extended by whatever is named, 20 to 50 beats each",
+        description="mechanisms that these cases are extended by whatever is named, 10 to 20 beats each",
     )
     most_steps: PositiveInt = Field(default=20, description="steps of a refit, if it does not settle before")
 

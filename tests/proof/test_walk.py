@@ -1,0 +1,82 @@
+"""The walk of a refit: exact on a linear model, right despite slopes that are off, within bounds, past a failed beat."""
+
+import numpy as np
+import pytest
+
+from heartfit.diagnosis.recording import Samples
+from heartfit.geometry.arrays import Floats
+from heartfit.proof.split import Target
+from heartfit.proof.walk import STRIDE, Walk
+
+RNG = np.random.default_rng(5)
+SLOPES = RNG.standard_normal((12, 3))
+TRUTH = np.array([0.6, -0.4, 1.0])
+NOISE = 0.05**2 * np.eye(12)
+TARGET = Target({"lv_volume": Samples(np.arange(12.0), SLOPES @ TRUTH)}, NOISE)
+FREE = np.full(3, -np.inf)
+
+
+def linear(x: Floats) -> Floats:
+    return SLOPES @ x
+
+
+def bent(x: Floats) -> Floats:
+    return SLOPES @ (x + 0.15 * x**2)
+
+
+def walked(walk: Walk, most: int = 30) -> Walk:
+    for _ in range(most):
+        if walk.ended:
+            break
+        walk.advance()
+    return walk
+
+
+def started(forward, slopes: Floats = SLOPES, lower: Floats = FREE) -> Walk:
+    x = np.zeros(3)
+    return Walk(forward, TARGET, lower, x, forward(x), slopes)
+
+
+def test_a_linear_model_ends_at_its_posterior() -> None:
+    precision = np.eye(3) + SLOPES.T @ np.linalg.solve(NOISE, SLOPES)
+    mean = np.linalg.solve(precision, SLOPES.T @ np.linalg.solve(NOISE, TARGET.values()))
+    walk = walked(started(linear))
+    assert walk.converged
+    assert walk.x == pytest.approx(mean, abs=5e-3)
+    assert walk.covariance() == pytest.approx(np.linalg.inv(precision))
+
+
+def test_slopes_that_are_off_are_corrected_on_the_way() -> None:
+    off = 1.5 * np.random.default_rng(3).standard_normal(SLOPES.shape)
+    walk = walked(started(bent, SLOPES + off), 12)
+    assert walk.converged
+    assert bent(walk.x) == pytest.approx(TARGET.values(), abs=0.05)
+
+
+def test_an_amplitude_that_the_data_push_below_its_bound_stays_there() -> None:
+    start = np.array([0.0, 0.3, 0.0])
+    walk = walked(Walk(linear, TARGET, np.array([-np.inf, 0.0, -np.inf]), start, linear(start), SLOPES))
+    assert walk.converged
+    assert walk.x[1] == 0.0
+
+
+def test_no_step_is_longer_than_slopes_hold() -> None:
+    walk = started(lambda x: 0.1 * linear(x), 0.1 * SLOPES)
+    walk.advance()
+    assert np.abs(walk.x).max() <= STRIDE
+
+
+def test_a_beat_that_fails_shortens_the_step_and_changes_nothing_else() -> None:
+    asked: list[Floats] = []
+
+    def failing(x: Floats) -> Floats | None:
+        asked.append(x)
+        return linear(x) if np.abs(x).max() < 0.5 else None
+
+    walk = Walk(failing, TARGET, FREE, np.zeros(3), np.zeros(12), SLOPES)
+    walk.advance()
+    assert not walk.x.any()
+    assert np.array_equal(walk.slopes, SLOPES)
+    walked(walk)
+    assert 0.0 < np.abs(walk.x).max() < 0.5
+    assert not walk.converged, "it would go on"
