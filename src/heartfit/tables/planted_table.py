@@ -14,9 +14,9 @@ UNITS = {"m^2": ("cm^2", 1e-4), "s": ("ms", 1e-3), "Pa": ("kPa", 1e3), "1": ("",
 """Printed unit and its SI value."""
 
 
-def rates_table(scored: Sequence[Scored]) -> pd.DataFrame:
+def rates_table(scored: Sequence[Scored], rates: Sequence[Rate] = RATES) -> pd.DataFrame:
     """One row per rate that has a case: count, share with exact 95 % interval, and target."""
-    shares = [(rate, rate.counted(scored)) for rate in RATES]
+    shares = [(rate, rate.counted(scored)) for rate in rates]
     return pd.DataFrame([_rate(rate, share) for rate, share in shares if share is not None])
 
 

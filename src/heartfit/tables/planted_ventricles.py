@@ -3,8 +3,11 @@
 from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 
 from heartfit.discovery.rules import CENTRED
+from heartfit.planting.least import Least
+from heartfit.planting.rates import RATES, Rate
 from heartfit.planting.scoring import Scored
 from heartfit.tables.planted_table import cases_table, mechanisms_table, rates_table
 from heartfit.tables.text import to_markdown
@@ -32,11 +35,13 @@ pressure is a catheter's, 0.3 kPa a sample at 1 kHz with a smooth error of 0.15 
 
 The diagnosis gets volume, pressure and the mesh of the first frame. It runs **one** three-dimensional beat of that mesh
 with all parameters at the mean of the prior, centres the sphere on it and searches on the sphere. It detects from a ln
-Bayes factor of {detected:g}, the threshold for data of another structure.
+Bayes factor of {detected:g}, the threshold for data of another structure: of nine hearts without an effect on seeds
+below 1000 the largest reached 5.9.
 
 ## Rates
 
-Intervals are exact (Clopper and Pearson 1934).
+Intervals are exact (Clopper and Pearson 1934). The detection limit of an effect is the size at which that ln Bayes
+factor is expected, on the sphere of an average adult (`diagnosis/limits.py`).
 
 {rates}
 ![Largest ln Bayes factor of every case](figures/discovery_3d.png)
@@ -56,7 +61,13 @@ included (medians).
 SHOWN = ["seed", "planted", "amplitude (SI)", "verdict", "named", "ln Bayes factor"]
 
 
-def ventricles_page(scored: Sequence[Scored], planned: int) -> str:
+def ventricles_rates(scored: Sequence[Scored], least: Least) -> pd.DataFrame:
+    """The rates of the benchmark on spheres, and that of the effects that are large enough to be expected to show."""
+    above = Rate("singles above their limit, named right", least.reached, lambda each: each.right, 0.80)
+    return rates_table(scored, (*RATES, above))
+
+
+def ventricles_page(scored: Sequence[Scored], planned: int, least: Least) -> str:
     """The page in Markdown; its figure is planted_ventricles_figure's; planned: the number of all cases."""
     seeds = [each.answer.seed for each in scored]
     errors = [each.answer.volume_noise for each in scored]
@@ -70,13 +81,19 @@ def ventricles_page(scored: Sequence[Scored], planned: int) -> str:
         detected=CENTRED.detected,
         error=100.0 * np.median(errors),
         worst=100.0 * max(errors),
-        rates=to_markdown(rates_table(scored)),
-        mechanisms=to_markdown(mechanisms_table(scored)),
+        rates=to_markdown(ventricles_rates(scored, least)),
+        mechanisms=to_markdown(_limited(mechanisms_table(scored), least)),
         amplitudes=_amplitudes([each for each in scored if each.right]),
         table=to_markdown(cases_table(scored)[SHOWN]),
         simulations=np.median([each.finding.simulations for each in scored]),
         seconds=np.median([each.finding.seconds for each in scored]),
     )
+
+
+def _limited(table: pd.DataFrame, least: Least) -> pd.DataFrame:
+    if len(table):
+        table.insert(2, "limit (scales)", [least.told(name) for name in table["planted"]])
+    return table
 
 
 def _amplitudes(right: Sequence[Scored]) -> str:
