@@ -16,7 +16,7 @@ class AorticRegurgitation(Flow):
     .. math:: q = A \sqrt{2 \Delta p / \rho}, \qquad \Delta p = p_{ao} - p_{LV} > 0,
 
     with blood density 1060 kg/m^3. The drop lasts for all of diastole, so areas are smaller than those of the mitral
-    valve: regurgitation is mild below 0.1 cm^2 and severe from 0.3 cm^2.
+    valve: regurgitation is mild below 0.1 cm^2 and severe from 0.3 cm^2; two scales are the middle of moderate.
     Source: the orifice equation of clinical echocardiography (Zoghbi et al., JASE 2017, 30:303).
     """
 
@@ -29,7 +29,7 @@ class AorticRegurgitation(Flow):
         meaning="effective regurgitant orifice",
         sd=0.5,
         off=0.0,
-        scale=0.08e-4,
+        scale=0.1e-4,
     )
 
     def __post_init__(self) -> None:

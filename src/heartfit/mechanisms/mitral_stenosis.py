@@ -17,8 +17,9 @@ class MitralStenosis(Narrowing):
 
     .. math:: \Delta p = \Delta p_{valve} + G (q/Q)^2, \qquad G = \tfrac12 \rho\, Q^2 / A^2
 
-    An effective orifice of A = 2 cm^2 (mild) has G = 0.5 kPa, one of 1.5 cm^2 (severe from here) 0.94 kPa. The atrium
-    keeps its pressure, so a ventricle that relaxes fast sucks; a patient's atrium stands higher instead.
+    An effective orifice of A = 2 cm^2 (mild) has G = 0.5 kPa, one of 1.5 cm^2 (moderate from here) 0.94 kPa, one of
+    1 cm^2 (severe from here) 2.1 kPa: two scales are moderate. The atrium keeps its pressure, so a ventricle that
+    relaxes fast sucks; a patient's atrium stands higher instead.
     Source: Baumgartner et al., JASE 2009, 22:1.
     """
 
@@ -30,7 +31,7 @@ class MitralStenosis(Narrowing):
         meaning="pressure that the narrowing takes at 200 mL/s",
         sd=0.5,
         off=0.0,
-        scale=250.0,
+        scale=500.0,
     )
 
     def __post_init__(self) -> None:
