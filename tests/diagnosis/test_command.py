@@ -1,0 +1,45 @@
+"""The command on two beats of a heart with a right ventricle, and a condition of which only the volume is known."""
+
+import numpy as np
+import pytest
+
+from heartfit import cli
+from heartfit.diagnosis import library
+from heartfit.io.causes import read_cause
+from heartfit.io.curves import write_table_of_curves
+from heartfit.mechanism import registered
+from heartfit.planting.campaign import Plan
+from heartfit.planting.case import plant
+
+OFFSET = Plan(11, "single", ("CatheterOffset",), 2.5, reloaded=True)
+
+
+@pytest.fixture
+def given(tmp_path, monkeypatch):
+    """The arguments; instruments cost no simulation."""
+    few = {name: registered()[name] for name in ("CatheterOffset", "ImageShrinkage")}
+    monkeypatch.setattr(library, "registered", lambda: few)
+    rest, raised = (plant(OFFSET).curves[name] for name in ("rest", "legs_raised"))
+    volume, pressure = rest["lv_volume"], rest["lv_pressure"]
+    times = np.arange(60) * volume.period / 30
+    curves = {"lv_volume": volume(times), "rv_volume": 1.1 * volume(times), "lv_pressure": pressure(times)}
+    write_table_of_curves(tmp_path / "m.csv", times, curves, volume.period)
+    filled = {"lv_volume": raised["lv_volume"](times[:30])}
+    write_table_of_curves(tmp_path / "legs.csv", times[:30], filled, volume.period)
+    return [
+        str(tmp_path / "m.csv"),
+        "--condition",
+        f"legs={tmp_path / 'legs.csv'}",
+        "-o",
+        str(tmp_path / "out"),
+    ]
+
+
+def test_it_names_the_cause_and_says_what_it_did_not_search(given, tmp_path, capsys):
+    assert cli.main(["diagnose", *given]) == 0
+    said, content = capsys.readouterr().out, read_cause(tmp_path / "out" / "cause.json")
+    assert said.count("\n") == 1
+    assert set(content["unsearched"]) == {"rv_volume"}
+    assert {each["curve"] for each in content["departures"]} == {"lv_volume", "lv_pressure"}
+    assert {(each["curve"], each["on"]) for each in content["gain"]} <= {("lv_volume", "legs")}
+    assert "CatheterOffset" in {*content["withdrawn"], *(each["name"] for each in content["mechanisms"])}
