@@ -74,6 +74,7 @@ def test_less_and_more_data_are_a_row_each_over_the_same_cases():
     assert table["false alarms"].tolist() == ["0 of 1"] * 3
     assert table["detected"].tolist() == ["1 of 1"] * 3
     assert table["named right"].tolist() == [0, 1, 1]
+    assert table["in their group"].tolist() == [0, 0, 0]
     assert table["named wrong"].tolist() == [1, 0, 0]
     assert table["insufficient"].tolist() == [1, 0, 0]
     assert table["held-out pressure"].tolist()[1:] == [0.5, 0.3]

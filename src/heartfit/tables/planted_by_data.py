@@ -15,9 +15,9 @@ SECTION = """
 
 Of these hearts {nulls} without an effect and {singles} with one mechanism of {scales} scales were searched by their
 volume alone as well, and with a recording under another loading, the legs raised. That is never fitted: it decides
-whether a name is kept, and a name that does not help there is withdrawn and called unknown. Its ratio is that of the
-errors with the named cause and without, medians over right names; without another condition it is of a held-out half
-of the recording.
+which names are kept: one that does not help there is withdrawn, and of a group what has become less likely. Held-out
+errors are with the named cause over without, medians over right names; without another condition they are of half of
+the recording.
 
 {table}"""
 
@@ -58,6 +58,7 @@ def _counts(cases: Sequence[Scored]) -> dict[str, Any]:
         "false alarms": f"{sum(each.detected for each in nulls)} of {len(nulls)}",
         "detected": f"{sum(each.detected for each in singles)} of {len(singles)}",
         "named right": len(right),
+        "in their group": sum(each.in_group for each in singles),
         "named wrong": sum(each.named and not each.right for each in cases),
         "insufficient": sum(each.finding.verdict == "insufficient" for each in cases),
         "held-out volume": _median(right, "lv_volume"),
