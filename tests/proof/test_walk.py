@@ -1,4 +1,4 @@
-"""The walk of a refit: exact on a linear model, right despite slopes that are off, within bounds, past a failed beat."""
+"""The walk of a refit: exact on a linear model, right despite slopes that are off, within bounds, past a lost beat."""
 
 import numpy as np
 import pytest

@@ -56,6 +56,15 @@ def test_each_verdict_is_a_sentence(verdict, mechanisms, expected):
     assert expected in sentence(diagnosis(verdict, mechanisms))
 
 
+def test_what_no_search_looked_at_is_not_called_explained():
+    departing = diagnosis(
+        "none", traces=(replace(TRACE, curve="rv_volume"),), unsearched={"rv_volume": "no right side"}
+    )
+    assert "but for the right ventricular volume, which was not searched" in sentence(departing)
+    assert "explains the recording: " in sentence(replace(departing, unsearched={}))
+    assert "RV volume (not searched) too low" in plot_cause(departing).axes[1].get_title()
+
+
 def test_units_are_clinical():
     assert sized(DELAY) == "catheter delay of 20 ms (95 % interval 10 to 30)"
     assert spoken("MitralRegurgitation") == "mitral regurgitation"

@@ -19,13 +19,20 @@ def sentence(diagnosis: Diagnosis) -> str:
     """The diagnosis in one sentence."""
     named = " and ".join(sized(each) for each in diagnosis.mechanisms)
     return {
-        "none": "The simulation explains the recording: nothing is missing that these data could show.",
+        "none": f"The simulation explains {_explained(diagnosis)}: nothing is missing that these data could show.",
         "named": f"The simulation lacks {named}.",
         "two": f"The simulation lacks {named}.",
         "group": f"The simulation lacks one of {_names(diagnosis)}: these data do not tell them apart.",
         "unknown": "The simulation misses something that no mechanism of the library explains.",
         "insufficient": "These data cannot tell what the simulation misses.",
     }[diagnosis.verdict]
+
+
+def _explained(diagnosis: Diagnosis) -> str:
+    """ "the recording", or what of it was searched where another curve departs."""
+    apart = {each.curve for each in departures(diagnosis) if each.clear} & set(diagnosis.unsearched)
+    besides = " and ".join(CURVES[name] for name in sorted(apart))
+    return f"the recording but for the {besides}, which was not searched" if apart else "the recording"
 
 
 def sized(cause: Cause) -> str:

@@ -81,13 +81,14 @@ def _residuals(axes: Axes, trace: Trace, diagnosis: Diagnosis, departure: Depart
     axes.set_ylim(-reach, reach)
     axes.set_ylabel("simulated − measured\n(units of noise)", fontsize=9)
     _phases(axes, diagnosis.phases)
-    _mark(axes, departure, diagnosis.phases)
+    _mark(axes, departure, diagnosis)
     clean(axes)
 
 
-def _mark(axes: Axes, departure: Departure, phases: BeatPhases | None) -> None:
+def _mark(axes: Axes, departure: Departure, diagnosis: Diagnosis) -> None:
     """The sentence of the departure, and its phase."""
-    name = NAMES.get(departure.curve, departure.curve)
+    name, phases = NAMES.get(departure.curve, departure.curve), diagnosis.phases
+    name += " (not searched)" if departure.curve in diagnosis.unsearched else ""
     if not departure.clear:
         axes.set_title(f"{name}: nothing beyond its noise", fontsize=10, pad=24)
         return
