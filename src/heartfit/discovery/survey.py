@@ -3,6 +3,8 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from heartfit.discovery.bench import Bench
 from heartfit.discovery.decide import Effects, Evidences, suspected
 from heartfit.discovery.explanation import Explanation
@@ -14,9 +16,10 @@ from heartfit.errors import InputError
 
 ABOVE = 0.05
 """How much above none an effect's objective may end and count as its equal."""
-PATIENCE = 30.0
-"""How much above what it reached from none an effect from the centre may promise to end: with 50, or with every side of
-every effect, a search takes twice as long and found one more of 48, a late activation."""
+PATIENCE = 50.0
+"""How much above what it reached from none an effect from the centre may promise to end, its slopes being fresh."""
+FEW = 3
+"""Sides on which an effect with one further unknown can start."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,10 +79,22 @@ def _found(
     bench: Bench, base: Explanation, centre: Explanation, hypothesis: Hypothesis, rules: Rules
 ) -> Explanation | None:
     near = from_none(bench, base, hypothesis)
-    promised = most_promising(bench, centre, hypothesis, (rules.switched, rules.switched))
-    if promised is None or near is None:
-        return near if promised is None else promised.kept(bench)
-    return bench.better(near, promised.start, promised.slopes, patience=PATIENCE)
+    begun = _begun(bench, centre, hypothesis, rules)
+    if begun is None or near is None:
+        return near or begun
+    return bench.better(near, begun.fit.x, begun.fit.jacobian, patience=PATIENCE)
+
+
+def _begun(bench: Bench, centre: Explanation, hypothesis: Hypothesis, rules: Rules) -> Explanation | None:
+    """An effect's best fit from the centre as far as the first fresh slopes.
+
+    Of one further unknown the promise tells the side to start on, of two of them, as where and how large, it does not.
+    """
+    found = promises(bench, centre, hypothesis, (rules.switched, rules.switched))
+    found.sort(key=lambda each: -each.log_evidence)
+    sides = found if len(found) > FEW else found[:1]
+    fits = [bench.explain(hypothesis, each.start, each.slopes, target=-np.inf) for each in sides]
+    return min((each for each in fits if each is not None), key=lambda each: each.fit.objective, default=None)
 
 
 def from_none(bench: Bench, base: Explanation, hypothesis: Hypothesis) -> Explanation | None:
