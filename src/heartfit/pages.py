@@ -1,10 +1,13 @@
-"""Pages that the console command prints: parameters, schemas, verification, robustness."""
+"""Pages that the console command prints: parameters, schemas, verification, robustness, limits."""
 
 import argparse
 import sys
 
 from heartfit.catalogue import parameter_page
 from heartfit.io.configuration import schema
+
+HEARTS = 3
+"""In which an effect is hidden for its detection limit."""
 
 
 def parameters(_: argparse.Namespace) -> int:
@@ -44,4 +47,14 @@ def robustness(_: argparse.Namespace) -> int:
     return 0
 
 
-PAGES = (parameters, configuration_schema, cause_schema, verification, robustness)
+def detection_limits(_: argparse.Namespace) -> int:
+    """print how large each effect must be to show in a volume and a pressure, in some minutes"""
+    from heartfit.diagnosis.library import BASE
+    from heartfit.diagnosis.limits import limits
+    from heartfit.tables.limits_table import limits_page
+
+    print(limits_page(limits(HEARTS), len(BASE)), end="")
+    return 0
+
+
+PAGES = (parameters, configuration_schema, cause_schema, verification, robustness, detection_limits)
