@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import lsq_linear
 
 from heartfit.diagnosis.recording import Samples
 from heartfit.geometry.arrays import Floats
@@ -58,6 +59,20 @@ def test_an_amplitude_that_the_data_push_below_its_bound_stays_there() -> None:
     walk = walked(Walk(linear, TARGET, np.array([-np.inf, 0.0, -np.inf]), start, linear(start), SLOPES))
     assert walk.converged
     assert walk.x[1] == 0.0
+
+
+def test_what_goes_with_an_amplitude_is_found_anew_where_that_meets_its_bound() -> None:
+    """A step that is merely cut off at the bound would promise nothing here, and be taken for the end."""
+    alike = SLOPES + np.array([3.0, 0.0, 3.0]) * SLOPES[:, 1:2]
+    target = Target({"lv_volume": Samples(np.arange(12.0), alike @ np.array([0.6, -1.5, 1.0]))}, NOISE)
+    lower = np.array([-np.inf, 0.0, -np.inf])
+    stacked, values = np.vstack([alike / 0.05, np.eye(3)]), np.append(target.values() / 0.05, np.zeros(3))
+    best = lsq_linear(stacked, values, (lower, np.full(3, np.inf))).x
+    start = best + np.array([0.0, 0.5, 0.0])
+    walk = walked(Walk(lambda x: alike @ x, target, lower, start, alike @ start, alike))
+    assert walk.converged
+    assert best[1] == pytest.approx(0.0, abs=1e-6)
+    assert walk.x == pytest.approx(best, abs=0.01)
 
 
 def test_no_step_is_longer_than_slopes_hold() -> None:

@@ -62,12 +62,19 @@ class Walk:
         return slope, np.eye(self.x.size) + self.slopes.T @ weighed
 
     def _step(self, slope: Floats, curvature: Floats, damping: float) -> Floats:
-        free = (self.x > self.lower) | (slope > 0.0)
-        held = curvature[np.ix_(free, free)] + damping * np.eye(int(free.sum()))
+        """The best step within the bounds: what would cross one ends on it, and the others are found anew."""
+        damped = curvature + damping * np.eye(self.x.size)
+        held = (self.x <= self.lower) & (slope <= 0.0)
         step = np.zeros_like(self.x)
-        step[free] = np.linalg.solve(held, slope[free])
-        step *= min(1.0, STRIDE / max(np.abs(step).max(), 1e-12))
-        return np.maximum(self.x + step, self.lower) - self.x
+        for _ in range(self.x.size):
+            left = slope - damped[:, held] @ step[held]
+            step[~held] = np.linalg.solve(damped[np.ix_(~held, ~held)], left[~held])
+            crossing = self.x + step < self.lower
+            if not crossing.any():
+                break
+            step[crossing] = (self.lower - self.x)[crossing]
+            held |= crossing
+        return step * min(1.0, STRIDE / max(np.abs(step).max(), 1e-12))
 
     def _try(self, step: Floats) -> None:
         predicted = self.forward(self.x + step)
