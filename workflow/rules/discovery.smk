@@ -24,6 +24,15 @@ GIVEN = {
     "most_steps": DISCOVERY.most_steps,
     "stated": stated(case_of, setting_of, STUDY.numerics, STUDY.end_diastolic_pressure, DISCOVERY),
 }
+ASKED = {
+    "question": DISCOVERY.element,
+    "setting": STUDY.questioned(),
+    "scheme": STUDY.numerics,
+    "heart": STUDY.cohort.heart,
+    "size": STUDY.virtual_mesh,
+    "pressures": STUDY.end_diastolic_pressure,
+    "steps": DISCOVERY.most_steps,
+}
 CAUSE = ("cause.json", "cause.md", "cause.png")
 
 
@@ -178,3 +187,27 @@ rule tabulate_discovery:
         code=code("tabulate_discovery.py"),
     script:
         "../scripts/tabulate_discovery.py"
+
+
+rule compare_elements:
+    input:
+        generator="<results>/templates/generator.vtu",
+        template="<results>/templates/calibrator.vtu",
+        kernels="<results>/kernels.json",
+    output:
+        table=printed("element"),
+        figure=expand("<results>/figures/element.{suffix}", suffix=("png", "pdf")),
+    log:
+        "<logs>/compare_elements.log",
+    benchmark:
+        "<benchmarks>/compare_elements.tsv"
+    resources:
+        mem_mb=2000,
+        runtime=60,
+    params:
+        **ASKED,
+        mechanisms=every_mechanism(),
+        stated=stated(ASKED),
+        code=code("compare_elements.py"),
+    script:
+        "../scripts/compare_elements.py"

@@ -1,9 +1,20 @@
 """What is done to name the cause of what a simulation gets wrong."""
 
-from pydantic import Field, PositiveInt, field_validator
+from pydantic import Field, PositiveFloat, PositiveInt, field_validator
 
 from heartfit.catalogue import composed
+from heartfit.configuration.setting import Element
 from heartfit.configuration.strict import Strict
+
+
+class ElementQuestion(Strict):
+    """Whether a setting's misfit is its element's: who explains a heart of the other one, on the generator's mesh."""
+
+    setting: str = Field(default="paper", description="the calibrator")
+    element: Element = Field(default="mixed", description="of the hidden heart, and of the rival")
+    mechanism: str = Field(default="MitralRegurgitation", description="the other rival, by name")
+    period: PositiveFloat = Field(default=0.9, description="s")
+    seed: int = Field(default=1, description="of the errors of the measurement")
 
 
 class Discovery(Strict):
@@ -20,6 +31,8 @@ class Discovery(Strict):
         description="mechanisms that these cases are extended by whatever is named, 10 to 20 beats each",
     )
     most_steps: PositiveInt = Field(default=20, description="steps of a refit, if it does not settle before")
+
+    element: ElementQuestion = ElementQuestion()
 
     @field_validator("trials")
     @classmethod

@@ -129,6 +129,11 @@ class Study(Strict):
         seen = setting.seeing_pressure() if case is not None and case.catheter else setting
         return seen.with_prior(self.prior)
 
+    def questioned(self) -> Setting:
+        """The setting whose element is asked about, with the study's prior not one that was found for the element."""
+        setting = self.settings[self.discovery.element.setting].seeing_pressure()
+        return setting.model_copy(update={"prior": {}}).with_prior(self.prior)
+
     def centre(self) -> Setting:
         """The setting of the beat on which a sphere is centred that searches for what is hidden in 3-D."""
         given = self.discovery_benchmark.ventricles

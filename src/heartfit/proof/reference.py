@@ -32,9 +32,14 @@ class Reference:
 
         Raises InputError where that beat fails.
         """
-        prepared = prepare(self.mesh)
-        mesh = assign_activation(prepared, personalised(prepared, HEALTHY, None))
+        mesh = activated(self.mesh)
         beat = run_beat(mesh, self.setting, recording.period, {}, self.pressures, self.scheme)
         if not beat.completed:
             raise InputError(f"reference beat: {beat.reason}; expected one: choose another prior or mesh")
         return centred_search(recording, self.setting.base_heart(recording.period), [beat_curves(beat)])
+
+
+def activated(mesh: VentricularMesh) -> VentricularMesh:
+    """The mesh with fibres, regions and the activation of a healthy conduction."""
+    prepared = prepare(mesh)
+    return assign_activation(prepared, personalised(prepared, HEALTHY, None))

@@ -1,0 +1,36 @@
+"""Rivals of an element, printed and drawn."""
+
+import numpy as np
+
+from heartfit.diagnosis.cause import Gain
+from heartfit.diagnosis.rivals import Rival
+from heartfit.io.tables import write_figure
+from heartfit.observation.curve import Curve
+from heartfit.tables.element_figure import plot_element
+from heartfit.tables.element_table import element_table
+
+TIMES = np.arange(25) * 0.032
+VOLUME = Curve(TIMES, 1e-4 + 3e-5 * np.cos(2.0 * np.pi * TIMES / 0.8), 0.8)
+PRESSURE = Curve(TIMES, 8e3 - 7e3 * np.cos(2.0 * np.pi * TIMES / 0.8), 0.8)
+CURVES = {"lv_volume": VOLUME, "lv_pressure": PRESSURE}
+
+
+def rival(name, evidence, contractility, gains=()):
+    return Rival(name, evidence, 80.0, 57, 23, {"sigma_0": contractility}, CURVES, gains)
+
+
+GAIN = Gain("lv_volume", "frames", 2e-6, 1e-6, 0.5, (0.4, 0.7))
+RIVALS = [rival("p1", -60.0, 330e3), rival("mixed", -40.0, 255e3, (GAIN,))]
+
+
+def test_what_a_rival_gains_is_told_beside_none():
+    table = element_table(RIVALS, {"sigma_0": 250e3})
+    assert table["ln Bayes factor"].tolist() == [0.0, 20.0]
+    assert table["lv_volume, error ratio"].fillna("").tolist() == ["", "0.50 (0.40 to 0.70)"]
+    assert table["sigma_0 (%)"].round().tolist() == [32.0, 2.0]
+
+
+def test_it_is_drawn(tmp_path):
+    errors = {"lv_volume": np.full(25, 1e-6), "lv_pressure": np.full(25, 100.0)}
+    write_figure(tmp_path / "figure.png", plot_element(CURVES, errors, RIVALS))
+    assert (tmp_path / "figure.png").stat().st_size > 5_000
