@@ -9,6 +9,7 @@ from heartfit.diagnosis.cause import Cause
 from heartfit.io.tables import write_figure
 from heartfit.planting.case import Answer
 from heartfit.planting.effects import Effect
+from heartfit.planting.least import Least
 from heartfit.planting.scoring import Scored
 from heartfit.planting.trial import CONDITION, VOLUME, Finding
 from heartfit.tables.planted_by_data import by_data_section, by_data_table
@@ -44,6 +45,7 @@ CASES = [
     scored(6, "outside", ("Whip",), "unknown"),
     scored(7, "two", ("Leak", "Scar"), "two", ("Leak", "Scar")),
 ]
+LEAST = Least({("Leak", 1.0): 1.5, ("Scar", 1.0): float("inf")})
 
 
 def claims(*rows):
@@ -110,13 +112,20 @@ def test_a_claim_of_nothing_is_refused(row):
 
 
 def test_the_page_tells_seeds_refusals_and_gain():
-    page = planted_page(CASES, 7, "abc")
+    page = planted_page(CASES, 7, "abc", LEAST)
     assert "(1 to 7)" in page
     assert "all 7 of 7" in page
-    assert "the first 7 of 300" in planted_page(CASES, 300, "abc")
+    assert "the first 7 of 300" in planted_page(CASES, 300, "abc", LEAST)
     assert "7 of 14" in page
     assert "fell to 0.50" in page
     assert "3000 simulations and 20.0 s" in page
+
+
+def test_effects_that_cannot_show_are_not_counted_as_missed():
+    table = rates_table(CASES, LEAST.rates()).set_index("rate")
+    assert table.loc["singles detected at 2 scales", "count"] == "2 of 3"
+    assert table.loc["singles above their limit, detected", "count"] == "2 of 2"
+    assert table.loc["singles above their limit, named right", "count"] == "1 of 2"
 
 
 @pytest.mark.parametrize("plot", [plot_rates, plot_confusion, plot_power])

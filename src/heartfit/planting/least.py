@@ -7,6 +7,7 @@ import numpy as np
 
 from heartfit.diagnosis.limits import limits
 from heartfit.planting.effects import Effect
+from heartfit.planting.rates import RATES, Rate
 from heartfit.planting.scoring import Scored
 
 
@@ -38,3 +39,11 @@ class Least:
             return False
         (effect,) = each.answer.effects
         return effect.scales >= self.of_effect(effect)
+
+    def rates(self, target: float | None = None) -> tuple[Rate, ...]:
+        """All rates, and those of the effects large enough to be expected to show; target: of those named right."""
+        return (
+            *RATES,
+            Rate("singles above their limit, detected", self.reached, lambda each: each.detected),
+            Rate("singles above their limit, named right", self.reached, lambda each: each.right, target),
+        )

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from heartfit.discovery.rules import RULES
-from heartfit.planting.rates import RATES
+from heartfit.planting.rates import RATES, Rate
 from heartfit.planting.scoring import Scored
 from heartfit.tables.figures import ARTERY, ATRIUM, CALIBRATED, REFERENCE, clean
 from heartfit.tables.planted_table import printed_size
@@ -54,9 +54,9 @@ def plot_confusion(scored: Sequence[Scored]) -> Figure:
     return figure
 
 
-def plot_rates(scored: Sequence[Scored]) -> Figure:
+def plot_rates(scored: Sequence[Scored], rates: Sequence[Rate] = RATES) -> Figure:
     """Every rate with its exact 95 % interval and, as a bar across, its target."""
-    shares = [(rate, share) for rate in RATES if (share := rate.counted(scored)) is not None]
+    shares = [(rate, share) for rate in rates if (share := rate.counted(scored)) is not None]
     figure = Figure(figsize=(8.5, 0.6 + 0.34 * len(shares)), layout="constrained")
     axes = figure.subplots()
     for place, (rate, share) in enumerate(shares):

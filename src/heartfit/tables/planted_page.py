@@ -3,10 +3,12 @@
 from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 
+from heartfit.planting.least import Least
 from heartfit.planting.scoring import Scored
-from heartfit.tables.planted_by_data import by_data_section
-from heartfit.tables.planted_table import mechanisms_table, rates_table
+from heartfit.tables.planted_by_data import by_data_section, by_data_table
+from heartfit.tables.planted_table import cases_table, mechanisms_table, rates_table
 from heartfit.tables.text import to_markdown
 
 PAGE = """# Hidden effects: how often their cause is found
@@ -30,7 +32,8 @@ with an end-diastolic volume outside 80 to 300 mL, an ejection fraction outside 
 
 ## Rates
 
-Intervals are exact (Clopper and Pearson 1934).
+Intervals are exact (Clopper and Pearson 1934). An effect is above its limit where [the data are expected to show
+it](detection_limits.md) in an average adult.
 
 {rates}
 ![Every rate with its interval and its target](figures/discovery_rates.png)
@@ -50,10 +53,21 @@ A search took {simulations:.0f} simulations and {seconds:.1f} s of one core (med
 """
 
 
-def planted_page(scored: Sequence[Scored], planned: int, fingerprint: str) -> str:
+def planted_tables(scored: Sequence[Scored], least: Least) -> dict[str, pd.DataFrame]:
+    """The tables of the benchmark by name; least: detection limits."""
+    return {
+        "rates": rates_table(scored, least.rates()),
+        "mechanisms": mechanisms_table(scored),
+        "data": by_data_table(scored),
+        "cases": cases_table(scored),
+    }
+
+
+def planted_page(scored: Sequence[Scored], planned: int, fingerprint: str, least: Least) -> str:
     """The page in Markdown; its figures are those of heartfit.tables.planted_figures.
 
-    planned: cases of the whole benchmark, of which these are the first; fingerprint: of the code that diagnosed.
+    planned: cases of the whole benchmark, of which these are the first; fingerprint: of the code that diagnosed;
+    least: detection limits.
     """
     seeds = [each.answer.seed for each in scored]
     refused = sum(sum(each.answer.rejected.values()) for each in scored)
@@ -63,7 +77,7 @@ def planted_page(scored: Sequence[Scored], planned: int, fingerprint: str) -> st
         seeds=f"{min(seeds)} to {max(seeds)}",
         refused=refused,
         drawn=refused + len(scored),
-        rates=to_markdown(rates_table(scored)),
+        rates=to_markdown(rates_table(scored, least.rates())),
         gain=_gain([each for each in scored if each.right]),
         mechanisms=to_markdown(mechanisms_table(scored)),
         by_data=by_data_section(scored),

@@ -7,7 +7,6 @@ import pandas as pd
 
 from heartfit.discovery.rules import CENTRED
 from heartfit.planting.least import Least
-from heartfit.planting.rates import RATES, Rate
 from heartfit.planting.scoring import Scored
 from heartfit.tables.planted_table import cases_table, mechanisms_table, rates_table
 from heartfit.tables.text import to_markdown
@@ -63,8 +62,7 @@ SHOWN = ["seed", "planted", "amplitude (SI)", "verdict", "named", "ln Bayes fact
 
 def ventricles_rates(scored: Sequence[Scored], least: Least) -> pd.DataFrame:
     """The rates of the benchmark on spheres, and that of the effects that are large enough to be expected to show."""
-    above = Rate("singles above their limit, named right", least.reached, lambda each: each.right, 0.80)
-    return rates_table(scored, (*RATES, above))
+    return rates_table(scored, least.rates(0.80))
 
 
 def ventricles_page(scored: Sequence[Scored], planned: int, least: Least) -> str:
