@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart import Heart
@@ -11,6 +12,11 @@ from heartfit.mechanics.body import FiniteElementBody, Tissue
 from heartfit.mechanics.sphere import Sphere, SphericalBody
 from heartfit.mechanics.unloading import unload
 from heartfit.verification.specimen import COARSE, specimen
+
+settings.register_profile(
+    "shared machine", deadline=None
+)  # how long an example takes is no property of the code
+settings.load_profile("shared machine")
 
 MEASURED_HEART = ("../shared/data/bivme_patient1", "resources/bivme_patient1")
 PHYSIOBLOCKS = ("../shared/data/physioblocks_bcs0d", "resources/physioblocks_bcs0d")

@@ -73,7 +73,7 @@ def plot_rates(scored: Sequence[Scored], rates: Sequence[Rate] = RATES) -> Figur
     )
     axes.set_xlim(-2, 102)
     axes.invert_yaxis()
-    axes.set_xlabel("share of cases (%), exact 95 % interval; vermilion: target, pointing to better")
+    axes.set_xlabel("share of cases (%), exact 95 % interval; vermilion: target")
     axes.grid(axis="x", color="0.9")
     clean(axes)
     return figure
