@@ -27,10 +27,10 @@ from heartfit.observation.beat import beat_curves
 from heartfit.planting.measuring import Study, measured
 from heartfit.proof.extension import Extension
 from heartfit.proof.model import Model
-from heartfit.proof.noise import covariance
 from heartfit.proof.proof import curve_gains
 from heartfit.proof.reference import activated
-from heartfit.proof.refit import Target, refit
+from heartfit.proof.refit import refit
+from heartfit.proof.split import Target
 from heartfit.proof.target import MeasuredCase
 
 MEASURING = Study(frames=25, noise=0.01)
@@ -71,8 +71,7 @@ def contest(
 
     Raises CalibrationError where a refit fails.
     """
-    target = Target(case.split.fitted, covariance(case.split.fitted, case.raw, case.models))
-    none, *others = (_refitted(name, each, model, target, most) for name, each in extensions.items())
+    none, *others = (_refitted(name, each, model, case.target, most) for name, each in extensions.items())
     gained = [replace(each, gains=tuple(curve_gains(case, none.curves, each.curves))) for each in others]
     return (none, *gained)
 

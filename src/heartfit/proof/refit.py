@@ -27,8 +27,7 @@ from heartfit.calibration.unscented import CalibrationError, sigma_points, trans
 from heartfit.geometry.arrays import Floats
 from heartfit.observation.beat import beat_curves
 from heartfit.proof.extension import Extension
-from heartfit.proof.split import Target as Target
-from heartfit.proof.split import sampled, stacked
+from heartfit.proof.split import Target, sampled, stacked
 from heartfit.proof.walk import Walk
 
 Run = Callable[[Extension, Mapping[str, float]], Beat]
