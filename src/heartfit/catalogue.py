@@ -2,10 +2,11 @@
 
 from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
+from functools import cache
 from typing import Any
 
 from heartfit.heart import FOURTEEN, Heart
-from heartfit.mechanism import registered
+from heartfit.mechanism import Mechanism, registered
 from heartfit.parameter import Parameter, parameters_of
 
 HEADER = """# Parameters
@@ -23,7 +24,13 @@ without an off value is that of a parameter of a mechanism about its own value.
 
 def declared(name: str) -> Parameter:
     """The declaration of a parameter by a name as Heart.with_parameters takes; raises KeyError as it does."""
-    heart = composed(registered())
+    return _declared(name, tuple(registered().values()))
+
+
+@cache
+def _declared(name: str, known: tuple[type[Mechanism], ...]) -> Parameter:
+    """Kept for a state of the registry: the jobs of a study ask for the same few names over and over."""
+    heart = composed(kind.__name__ for kind in known)
     *parts, last = heart.path_of(name).split(".")
     part: Any = heart
     for step in parts:

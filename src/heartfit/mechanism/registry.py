@@ -2,6 +2,7 @@
 
 import importlib
 import pkgutil
+from functools import cache
 from typing import TypeVar
 
 from heartfit.mechanism.base import Mechanism
@@ -32,7 +33,13 @@ def mechanism(cls: M) -> M:
 
 def registered() -> dict[str, type[Mechanism]]:
     """All mechanisms of the folder ``heartfit/mechanisms``, by name."""
+    _import_folder()
+    return dict(sorted(_REGISTRY.items()))
+
+
+@cache
+def _import_folder() -> None:
+    """Once: the graph of a study asks for the registry tens of thousands of times."""
     package = importlib.import_module("heartfit.mechanisms")
     for module in pkgutil.iter_modules(package.__path__):
         importlib.import_module(f"heartfit.mechanisms.{module.name}")
-    return dict(sorted(_REGISTRY.items()))
