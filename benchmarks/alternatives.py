@@ -24,7 +24,8 @@ from heartfit.electrophysiology.onset import assign_activation
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.mesher import fill_wall
 from heartfit.io.atomic import write_text
-from heartfit.io.configuration import read_cases, read_study
+from heartfit.io.cases import read_cases
+from heartfit.io.configuration import read_study
 from heartfit.io.tables import read_published, write_figure
 from heartfit.observation.beat import observe_beats
 from heartfit.observation.operator import CurveFeatures

@@ -10,7 +10,7 @@ from heartfit.calibration.slopes import Slopes
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import Posterior
 from heartfit.configuration.setting import Prior, Setting
-from heartfit.configuration.study import Operator, Transform
+from heartfit.configuration.transform import Operator, Transform
 from heartfit.mechanisms.image_smoothing import ImageSmoothing
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.measurement import Measurement, observe_measured

@@ -12,10 +12,10 @@ from heartfit.catalogue import declared
 from heartfit.console import Progress, beat_summary
 from heartfit.errors import InputError
 from heartfit.io.beats import write_beat
-from heartfit.io.configuration import plan_study, read_configuration, read_study
+from heartfit.io.configuration import read_configuration, read_study
 from heartfit.io.fingerprint import fingerprint
-from heartfit.io.measured_heart import read_measured_heart
 from heartfit.io.meshes import read_mesh
+from heartfit.io.plan import plan_study
 from heartfit.pages import PAGES
 
 STANDARD = Path("config/config.yaml")
@@ -150,10 +150,6 @@ def check(given: argparse.Namespace) -> int:
     files, settings = ", ".join(map(str, given.config)), ", ".join(plan.study.settings)
     print(f"configuration: {files} in order, settings {settings}")
     print(f"cases: {', '.join(plan.cases)}")
-    if plan.measured_heart:
-        heart = read_measured_heart(plan.measured_heart)
-        phases, points = heart.positions.shape[:2]
-        print(f"measured heart: {phases} phases of {points} points, {heart.period:.3f} s")
     if plan.left_out:
         print(plan.left_out)
     return 0

@@ -14,7 +14,7 @@ from heartfit.calibration.update import Posterior, calibrate
 from heartfit.configuration.generator import Pressures
 from heartfit.configuration.numerics import TimeScheme
 from heartfit.configuration.setting import Setting
-from heartfit.configuration.study import Operator, Transform
+from heartfit.configuration.transform import Operator, Transform
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.mechanics.body import StepFailed
 from heartfit.observation.beat import beat_curves, observe_beats

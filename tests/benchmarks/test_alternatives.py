@@ -4,7 +4,8 @@ import numpy as np
 from benchmarks.alternatives import HEARTS, ROOT, SETTING
 from benchmarks.alternatives_page import page
 
-from heartfit.io.configuration import read_cases, read_study
+from heartfit.io.cases import read_cases
+from heartfit.io.configuration import read_study
 from heartfit.tables.race_table import race_table
 from heartfit.tables.sphere_coverage import sphere_coverage_table
 from heartfit.twins.coverage import Coverage

@@ -10,7 +10,9 @@ from heartfit.configuration.case import Case
 from heartfit.configuration.strict import validated
 from heartfit.configuration.study import Study
 from heartfit.errors import InputError
-from heartfit.io.configuration import plan_study, read_cases, read_configuration, schema
+from heartfit.io.cases import read_cases
+from heartfit.io.configuration import read_configuration, schema
+from heartfit.io.plan import plan_study
 from heartfit.io.tables import read_published
 from heartfit.mechanisms.image_shrinkage import ImageShrinkage
 from heartfit.mechanisms.image_smoothing import ImageSmoothing
@@ -227,12 +229,15 @@ def test_without_its_images_the_measured_heart_remains_and_one_line_says_so(
     content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": [str(tmp_path)]}
     plan = plan_study(content)
     assert "patient1" in plan.cases
-    assert plan.images is None
-    assert plan.left_out == f"registration of images left out: no short-axis cine {tmp_path}/cine/sax*"
+    assert plan.sources["patient1"].images is None
+    assert (
+        plan.left_out
+        == "registration of images left out: no images of patient1, nor a short-axis cine cine/sax*"
+    )
     for name in ("sax.json", "sax.nii.gz"):
         (tmp_path / "cine" / name).touch()
-    plan = plan_study(content)
-    assert plan.images == tmp_path / "cine" / "sax.nii.gz"
+    plan = plan_study(content, thorough=False)
+    assert plan.sources["patient1"].images == str(tmp_path / "cine" / "sax.nii.gz")
     assert plan.left_out == ""
 
 
@@ -244,7 +249,7 @@ def test_a_period_that_is_not_the_measured_one_is_refused(content, tmp_path, mea
     table.write_text("case\tkind\tperiod_s\na\tmeasured\t0.829\n")
     assert set(plan_study(content).cases) == {"a"}
     table.write_text("case\tkind\tperiod_s\na\tmeasured\t0.90\n")
-    with pytest.raises(InputError, match=r"a: period_s is 0\.9, the beat lengths in .* say 0\.829 s"):
+    with pytest.raises(InputError, match=r"a: period_s is 0\.9, the surfaces say 0\.829 s"):
         plan_study(content)
 
 

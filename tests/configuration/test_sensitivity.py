@@ -9,7 +9,8 @@ from heartfit.configuration.strict import validated
 from heartfit.configuration.study import Study
 from heartfit.errors import InputError
 from heartfit.heart import FOURTEEN
-from heartfit.io.configuration import plan_study, read_configuration, read_study
+from heartfit.io.configuration import read_configuration, read_study
+from heartfit.io.plan import plan_study
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "config" / "config.yaml"

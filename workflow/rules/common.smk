@@ -6,8 +6,9 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from heartfit.errors import InputError
-from heartfit.io.configuration import plan_study
 from heartfit.io.fingerprint import fingerprint
+from heartfit.io.plan import plan_study
+from heartfit.io.sources import source_files
 from heartfit.mechanism import registered
 from heartfit.tables.groups import Groups, Origin
 
@@ -16,23 +17,26 @@ for library in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
 try:
-    PLAN = plan_study(config)
+    PLAN = plan_study(config, thorough=workflow.is_main_process)
 except InputError as problem:
     raise WorkflowError(str(problem)) from None
 if PLAN.left_out:
     logger.warning(PLAN.left_out)
 
-STUDY, CASES, HEART = PLAN.study, PLAN.cases, PLAN.measured_heart
+STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources
 SETTINGS = list(STUDY.settings)
-MEASURED = [name for name, case in CASES.items() if case.kind == "measured"]
-IMAGED = MEASURED if PLAN.images else []
+FITTED = [name for name, source in SOURCES.items() if not source.segmented]
+IMAGED = [name for name, source in SOURCES.items() if source.images]
+CINE = [name for name in FITTED if name in IMAGED]
+RECORDED = [name for name, source in SOURCES.items() if source.pressure]
 VIRTUAL = [name for name, case in CASES.items() if case.kind == "virtual"]
 HEALTHY = [name for name, case in CASES.items() if case.healthy]
 PATIENTS = [name for name, case in CASES.items() if not case.healthy]
 GROUPS = Groups(
     volunteers=tuple(name for name in VIRTUAL if CASES[name].healthy),
-    measured=tuple(name for name in MEASURED if CASES[name].healthy),
+    measured=tuple(name for name in SOURCES if CASES[name].healthy),
     patients=tuple(name for name in VIRTUAL if not CASES[name].healthy),
+    measured_patients=tuple(name for name in SOURCES if not CASES[name].healthy),
 )
 DYSSYNCHRONY = [*GROUPS.volunteers[:1], *GROUPS.patients]
 HIDDEN = {
@@ -42,8 +46,7 @@ HIDDEN = {
     "curves": "beat.csv",
     "truth": "truth.json",
 }
-CATHETERISED = [name for name, case in CASES.items() if case.catheter]
-
+CATHETERISED = [name for name in VIRTUAL if CASES[name].catheter]
 
 ERROR = STUDY.registration_error
 DISCOVERY = STUDY.discovery
@@ -55,18 +58,16 @@ TRIED = {
     **{acquisition: range(ERROR.varied_sequences) for acquisition in ERROR.acquisitions()},
 }
 TRIALS = [(acquisition, number) for acquisition, numbers in TRIED.items() for number in numbers]
+# what is learnt of methods from hearts whose truth is known; a study of measured hearts alone does without
+OF_METHODS = ["alternatives", "coverage_sphere", "registration", "noise_model", "sobol"] if VIRTUAL else []
 PICTURES = [
-    "alternatives",
-    "coverage_sphere",
+    *OF_METHODS,
     *(["septal_flash"] if GROUPS.patients else []),
-    "registration",
-    "noise_model",
     *(f"{case}_activation" for case in CASES),
-    "sobol",
     *(f"sensitivity{about}_{setting}" for about in ("", "_curves") for setting in SETTINGS),
     *(f"{case}_contours" for case in VIRTUAL + IMAGED),
     *(f"{case}_{SETTINGS[-1]}_overlay" for case in DYSSYNCHRONY),
-    *(f"{case}_cine_{about}" for case in IMAGED for about in ("outlines", "volume")),
+    *(f"{case}_cine_{about}" for case in CINE for about in ("outlines", "volume")),
     *(f"residual_{case}_{setting}" for case in CASES for setting in SETTINGS),
 ]
 CASE_PICTURES = [
@@ -76,7 +77,12 @@ CASE_PICTURES = [
     for about in ("", "_sensitivity", "_shape", "_card")
     for kind in ("png", "pdf")
 ]
-TABLES = ["table1", "cards", "specificity", "selection", *(f"sensitivity_{setting}" for setting in SETTINGS)]
+TABLES = [
+    "table1",
+    "cards",
+    *(["specificity", "selection"] if VIRTUAL else []),
+    *(f"sensitivity_{setting}" for setting in SETTINGS),
+]
 FRESH = range(ERROR.sequences, ERROR.sequences + ERROR.fresh)
 
 BATCHES = dict(enumerate(STUDY.discovery_benchmark.batches()))
@@ -142,6 +148,11 @@ def setting_of(wildcards):
     return STUDY.setting(wildcards.setting, CASES.get(wildcards.get("case")))
 
 
+def questioned(_):
+    """The setting whose element is asked about; not before it is asked: a study may do without it."""
+    return STUDY.questioned()
+
+
 def mechanisms_of(wildcards):
     """The fingerprint of each mechanism that the setting adds: scripts load them by name, which code() cannot see."""
     known = registered()
@@ -189,14 +200,19 @@ def sigma_point_beats(wildcards):
     return beats_of(wildcards.case, wildcards.setting)
 
 
-def measured_files(_):
-    """The control points of the measured heart in every phase and the template they refer to."""
-    return sorted(str(file) for part in ("control_points", "template") for file in HEART.glob(f"{part}/*"))
+def source_of(wildcards):
+    """The data of a measured case."""
+    return SOURCES[wildcards.case]
+
+
+def measured_files(wildcards):
+    """The files of a measured case's wall."""
+    return source_files(source_of(wildcards))
 
 
 def images_of(wildcards):
     """The images of a case."""
-    return "<results>/{case}/images/cine.nrrd" if wildcards.case in VIRTUAL else str(PLAN.images)
+    return "<results>/{case}/images/cine.nrrd" if wildcards.case in VIRTUAL else source_of(wildcards).images
 
 
 def noise_of(wildcards):
@@ -246,16 +262,17 @@ def mechanism_of(wildcards):
 
 def pressure_of(wildcards):
     """The recorded pressure of a case, where there is one."""
-    return ["<results>/{case}/cohort/pressure.csv"] if case_of(wildcards).catheter else []
+    folder = "curves" if wildcards.case in RECORDED else "cohort"
+    return [f"<results>/{{case}}/{folder}/pressure.csv"] if case_of(wildcards).catheter else []
+
+
+def recording_of(wildcards):
+    """The file of a measured case's recorded pressure."""
+    return source_of(wildcards).pressure.file
 
 
 def scanner_of(wildcards):
     return STUDY.scanner(wildcards.acquisition)
-
-
-def measured_images(_):
-    """The short-axis images of the measured heart, where there are any."""
-    return str(PLAN.images) if PLAN.images else []
 
 
 def whole_study():

@@ -1,3 +1,26 @@
+rule average_pressure:
+    input:
+        recording=recording_of,
+        motion="<results>/{case}/registration/motion.npz",
+    output:
+        "<results>/{case}/curves/pressure.csv",
+    log:
+        "<logs>/{case}/average_pressure.log",
+    benchmark:
+        "<benchmarks>/{case}/average_pressure.tsv"
+    wildcard_constraints:
+        case=one_of(RECORDED),
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        source=source_of,
+        stated=stated(source_of),
+        code=code("average_pressure.py"),
+    script:
+        "../scripts/average_pressure.py"
+
+
 rule extract_curves:
     input:
         mesh="<results>/{case}/geometry/mesh.vtu",

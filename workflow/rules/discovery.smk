@@ -26,7 +26,6 @@ GIVEN = {
 }
 ASKED = {
     "question": DISCOVERY.element,
-    "setting": STUDY.questioned(),
     "scheme": STUDY.numerics,
     "heart": STUDY.cohort.heart,
     "size": STUDY.virtual_mesh,
@@ -206,8 +205,9 @@ rule compare_elements:
         runtime=60,
     params:
         **ASKED,
+        setting=questioned,
         mechanisms=every_mechanism(),
-        stated=stated(ASKED),
+        stated=stated(questioned, ASKED),
         code=code("compare_elements.py"),
     script:
         "../scripts/compare_elements.py"

@@ -29,14 +29,15 @@ rule build_measured_mesh:
     benchmark:
         "<benchmarks>/{case}/build_mesh.tsv"
     wildcard_constraints:
-        case=one_of(MEASURED),
+        case=one_of(FITTED),
     resources:
         mem_mb=1500,
         runtime=20,
     params:
-        folder=str(HEART),
+        case=case_of,
+        source=source_of,
         size=STUDY.mesh,
-        stated=stated(STUDY.mesh),
+        stated=stated(case_of, source_of, STUDY.mesh),
         code=code("build_measured_mesh.py"),
     script:
         "../scripts/build_measured_mesh.py"

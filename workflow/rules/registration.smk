@@ -1,3 +1,6 @@
+SOURCE = {"source": source_of, "stated": stated(source_of)}
+
+
 rule register_measured:
     input:
         files=measured_files,
@@ -9,12 +12,12 @@ rule register_measured:
     benchmark:
         "<benchmarks>/{case}/register.tsv"
     wildcard_constraints:
-        case=one_of(MEASURED),
+        case=one_of(FITTED),
     resources:
         mem_mb=1500,
         runtime=10,
     params:
-        folder=str(HEART),
+        **SOURCE,
         code=code("register_measured.py"),
     script:
         "../scripts/register_measured.py"
@@ -49,7 +52,7 @@ rule register_volunteer:
 rule register_cine:
     input:
         files=measured_files,
-        images=measured_images,
+        images=images_of,
     output:
         "<results>/{case}/registration/cine.npz",
     log:
@@ -57,12 +60,12 @@ rule register_cine:
     benchmark:
         "<benchmarks>/{case}/register_cine.tsv"
     wildcard_constraints:
-        case=one_of(IMAGED),
+        case=one_of(CINE),
     resources:
         mem_mb=1500,
         runtime=10,
     params:
-        folder=str(HEART),
+        **SOURCE,
         code=code("register_cine.py"),
     script:
         "../scripts/register_cine.py"
@@ -71,12 +74,12 @@ rule register_cine:
 rule compare_cine:
     input:
         files=measured_files,
-        images=measured_images,
+        images=images_of,
         motion="<results>/{case}/registration/cine.npz",
     output:
-        outlines=expand("<results>/tables/{{case}}_cine_outlines.{suffix}", suffix=("csv", "md", "tex")),
-        wall=expand("<results>/tables/{{case}}_cine_wall.{suffix}", suffix=("csv", "md", "tex")),
-        volume=expand("<results>/tables/{{case}}_cine_volume.{suffix}", suffix=("csv", "md", "tex")),
+        outlines=printed("{case}_cine_outlines"),
+        wall=printed("{case}_cine_wall"),
+        volume=printed("{case}_cine_volume"),
         outlines_figure=expand("<results>/figures/{{case}}_cine_outlines.{suffix}", suffix=("png", "pdf")),
         volume_figure=expand("<results>/figures/{{case}}_cine_volume.{suffix}", suffix=("png", "pdf")),
     log:
@@ -84,12 +87,12 @@ rule compare_cine:
     benchmark:
         "<benchmarks>/{case}/compare_cine.tsv"
     wildcard_constraints:
-        case=one_of(IMAGED),
+        case=one_of(CINE),
     resources:
         mem_mb=1000,
         runtime=5,
     params:
-        folder=str(HEART),
+        **SOURCE,
         code=code("compare_cine.py"),
     script:
         "../scripts/compare_cine.py"

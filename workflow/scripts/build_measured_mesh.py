@@ -2,15 +2,18 @@
 
 from pathlib import Path
 
+from heartfit.electrophysiology.conduction import CONDUCTIONS
 from heartfit.electrophysiology.onset import assign_activation
+from heartfit.electrophysiology.personalise import personalised
 from heartfit.geometry.mesher import fill_wall
 from heartfit.geometry.prepare import prepare
 from heartfit.io.log import record
-from heartfit.io.measured_heart import read_measured_heart
 from heartfit.io.meshes import write_mesh
+from heartfit.io.sources import read_heart
 
 record(snakemake.log[0])
-heart = read_measured_heart(Path(snakemake.params.folder))
-size = snakemake.params.size
-mesh = fill_wall(heart.surface, size.edge_length, size.tolerance)
-write_mesh(Path(snakemake.output[0]), assign_activation(prepare(mesh)))
+heart = read_heart(snakemake.params.source)
+case, size = snakemake.params.case, snakemake.params.size
+mesh = prepare(fill_wall(heart.surface, size.edge_length, size.tolerance))
+conduction = personalised(mesh, CONDUCTIONS[case.conduction], case.qrs)
+write_mesh(Path(snakemake.output[0]), assign_activation(mesh, conduction))

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from heartfit.io.images import read_images
 from heartfit.io.log import record
-from heartfit.io.measured_heart import read_measured_heart
 from heartfit.io.slices import read_slice_motion
+from heartfit.io.sources import read_heart
 from heartfit.io.tables import write_figure, write_table
 from heartfit.observation.cine import compare_cine
 from heartfit.tables.cine_figures import plot_outlines, plot_volumes
@@ -14,7 +14,7 @@ from heartfit.tables.cine_tables import outline_table, short_axis_volume_table, 
 
 record(snakemake.log[0])
 files, output, case = snakemake.input, snakemake.output, snakemake.wildcards.case
-heart = read_measured_heart(Path(snakemake.params.folder))
+heart = read_heart(snakemake.params.source)
 images = read_images(Path(files.images), heart.period, heart.times)
 motion = read_slice_motion(Path(files.motion))
 cine = compare_cine(heart.surface, heart.positions, heart.times, heart.period, motion)

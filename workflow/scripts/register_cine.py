@@ -4,12 +4,12 @@ from pathlib import Path
 
 from heartfit.io.images import read_images
 from heartfit.io.log import record
-from heartfit.io.measured_heart import read_measured_heart
 from heartfit.io.slices import write_slice_motion
+from heartfit.io.sources import read_heart
 from heartfit.registration.slices import register_slices, require_unfolded
 
 record(snakemake.log[0])
-heart = read_measured_heart(Path(snakemake.params.folder))
+heart = read_heart(snakemake.params.source)
 images = read_images(Path(snakemake.input.images), heart.period, heart.times)
 motion = register_slices(images, heart.surface.points)
 require_unfolded(motion)

@@ -3,12 +3,12 @@
 from pathlib import Path
 
 from heartfit.io.log import record
-from heartfit.io.measured_heart import read_measured_heart
 from heartfit.io.meshes import read_mesh, write_motion
+from heartfit.io.sources import read_heart
 from heartfit.registration.carry import carry_mesh
 
 record(snakemake.log[0])
 mesh = read_mesh(Path(snakemake.input.mesh))
-heart = read_measured_heart(Path(snakemake.params.folder))
+heart = read_heart(snakemake.params.source)
 motion = carry_mesh(mesh, heart.surface, heart.positions, heart.times, heart.period)
 write_motion(Path(snakemake.output[0]), motion)

@@ -47,10 +47,6 @@ class Case(Strict):
             raise ValueError(
                 f"{self.case} has a bundle branch block and lacks qrs; give its duration, qrs_ms"
             )
-        if self.kind == "measured" and self.catheter:
-            raise ValueError(
-                f"{self.case} is measured: recorded pressures are not read yet; leave catheter empty"
-            )
         return self
 
     @field_validator("plant")

@@ -6,7 +6,7 @@ from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from heartfit.errors import InputError
+from heartfit.errors import InputErrors
 
 
 class Strict(BaseModel):
@@ -19,13 +19,11 @@ T = TypeVar("T", bound=Strict)
 
 
 def validated(kind: type[T], content: Mapping[str, Any], where: str) -> T:
-    """`content` as `kind`; raises InputError of one line: where, what, what was expected, what to do."""
+    """`content` as `kind`; raises InputErrors, a line each: where, what, what was expected, what to do."""
     try:
         return kind.model_validate(content)
     except ValidationError as error:
-        first, *others = error.errors()
-        more = f" (and {len(others)} more like it)" if others else ""
-        raise InputError(f"{where}: {_line(kind, dict(first))}{more}") from None
+        raise InputErrors(f"{where}: {_line(kind, dict(each))}" for each in error.errors()) from None
 
 
 def _line(kind: type[Strict], error: dict[str, Any]) -> str:

@@ -1,11 +1,11 @@
 """A whole study: meshes, numerics, observation, transform, cohort and settings."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Self
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any, Self
 
-from pydantic import Field, PositiveFloat, model_validator
+from pydantic import Field, field_validator, model_validator
 
-from heartfit.calibration.unscented import Scaling
 from heartfit.cohort.scanner import Scanner
 from heartfit.configuration.case import Case
 from heartfit.configuration.discovery import Discovery
@@ -22,52 +22,13 @@ from heartfit.configuration.numerics import MeshSize, TimeScheme
 from heartfit.configuration.planting import DiscoveryBenchmark
 from heartfit.configuration.sensitivity import SensitivityStudy
 from heartfit.configuration.setting import Prior, Setting, require_known
+from heartfit.configuration.source import Source
 from heartfit.configuration.spheres import SphereStudy
 from heartfit.configuration.strict import Strict
-from heartfit.observation.curve import Curve
-from heartfit.observation.operator import CurveFeatures, PressureFeatures, VolumeFeatures
-from heartfit.observation.vector import operators
+from heartfit.configuration.transform import Operator, Transform
 
 if TYPE_CHECKING:
     from heartfit.twins.draw import Twins
-
-
-class Operator(Strict):
-    """How volume curves are observed; see heartfit.observation.operator."""
-
-    frames: int = Field(ge=8)
-    window: int = Field(ge=3, description="frames of the smoothing filter, odd")
-    order: int = Field(ge=1)
-    period_uncertainty: float = Field(ge=0, lt=0.5, description="relative standard deviation")
-
-    def features(self, measured: Mapping[str, Curve]) -> dict[str, CurveFeatures]:
-        """The operator of each curve that is observed: the LV's volume, and its pressure where measured."""
-        return operators(measured, self.frames, self.window, self.order)
-
-    def trial_features(self, frames: int) -> dict[str, CurveFeatures]:
-        """The operators of a trial of the measurement, whose images have this number of frames."""
-        return {
-            "lv_volume": VolumeFeatures(frames, self.window, self.order),
-            "lv_pressure": PressureFeatures(),
-        }
-
-
-class Transform(Strict):
-    """The numbers of the unscented transform, and whether bias and noise of the observations are used (R > 0)."""
-
-    a: PositiveFloat = 1.0
-    b: float = 2.0
-    kappa: float = 0.0
-    noise: bool = False
-    fixed_sd: Annotated[float, Field(ge=0, lt=1, description="relative, of what is not estimated")] = 0.1
-
-    def weighed(self) -> "Transform":
-        """The same with the noise of the observations, whatever this one says."""
-        return self.model_copy(update={"noise": True})
-
-    def scaling(self) -> Scaling:
-        """As the calibration takes it."""
-        return Scaling(self.a, self.b, self.kappa)
 
 
 class Cohort(Generator):
@@ -81,10 +42,15 @@ class Cohort(Generator):
 class Study(Strict):
     """Everything config/config.yaml says."""
 
-    results: str = Field("results", description="folder of all that is computed")
+    results: str = Field(
+        "results", description="folder of all that is computed, within the working directory"
+    )
     cases: str = Field(description="table of the cases")
     tolerances: str = Field(description="table of the numbers that may not drift, and how far")
-    measured_heart: tuple[str, ...] = Field(description="folders; the first that exists is used")
+    measured_heart: tuple[str, ...] = Field(
+        description="folders; the first that exists is used for measured cases without sources"
+    )
+    sources: dict[str, Source] = Field({}, description="the data of measured cases, by name")
     mesh: MeshSize = Field(description="of a measured heart")
     virtual_mesh: MeshSize = Field(description="of the calibrator's mesh of a virtual heart")
     numerics: TimeScheme
@@ -99,7 +65,24 @@ class Study(Strict):
     discovery_benchmark: DiscoveryBenchmark
     discovery: Discovery = Discovery()
     prior: dict[str, Prior] = Field({}, description="where it differs from the declared one")
-    settings: dict[str, Setting] = Field(min_length=1)
+    settings: dict[str, Setting] = Field(min_length=1, description="null leaves out one that stands below")
+
+    @field_validator("results")
+    @classmethod
+    def _stays_inside(cls, results: str) -> str:
+        path = PurePath(results)
+        if path.is_absolute() or ".." in path.parts or not path.parts:
+            raise ValueError(
+                f"{results!r} is not within the working directory; give a relative path without .."
+            )
+        return results
+
+    @field_validator("settings", mode="before")
+    @classmethod
+    def _are_not_left_out(cls, settings: Any) -> Any:
+        if not isinstance(settings, Mapping):
+            return settings
+        return {name: setting for name, setting in settings.items() if setting is not None}
 
     @model_validator(mode="after")
     def _prior_is_known(self) -> Self:

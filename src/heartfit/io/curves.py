@@ -18,6 +18,7 @@ import numpy as np
 
 from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
+from heartfit.io.cells import read_cells
 from heartfit.observation.curve import Curve
 
 if TYPE_CHECKING:
@@ -120,23 +121,7 @@ def read_curves(path: Path, period: float | None = None) -> dict[str, Curve]:
 
 
 def _read_csv(path: Path) -> "pd.DataFrame":
-    import pandas as pd
-
-    if not Path(path).is_file():
-        raise InputError(f"{path}: no such file; expected curves as CSV: correct the path")
-    try:
-        table = pd.read_csv(
-            path, comment="#", skipinitialspace=True, dtype=str, keep_default_na=False, encoding="utf-8-sig"
-        )
-    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
-        said = " ".join(str(error).split())
-        raise InputError(
-            f"{path}: not a CSV table ({said}); expected a header such as time_s,lv_volume_ml"
-        ) from error
-    if len(table.columns) == 1 and re.search(r"[;\t]", table.columns[0]):
-        raise InputError(
-            f"{path}: no commas between columns; expected these, and points in numbers: export it anew"
-        )
+    table = read_cells(path)
     if "time_s" not in table.columns:
         raise InputError(
             f"{path}: no column time_s among {', '.join(table.columns)}; expected times in seconds: name it "

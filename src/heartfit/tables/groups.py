@@ -9,16 +9,22 @@ DILATED = "lbbb2"
 
 @dataclass(frozen=True)
 class Groups:
-    """Names of the cases: virtual volunteers, measured hearts (healthy too) and virtual patients."""
+    """Names of the cases: virtual volunteers, measured hearts (healthy too), virtual patients, and measured ones."""
 
     volunteers: tuple[str, ...]
     measured: tuple[str, ...] = ()
     patients: tuple[str, ...] = ()
+    measured_patients: tuple[str, ...] = ()
 
     @property
     def healthy(self) -> tuple[str, ...]:
         """Everybody the paper's healthy volunteers are compared with."""
         return self.volunteers + self.measured
+
+    @property
+    def diseased(self) -> tuple[str, ...]:
+        """Everybody the paper's patients are compared with."""
+        return self.patients + self.measured_patients
 
     @property
     def virtual(self) -> tuple[str, ...]:

@@ -61,7 +61,7 @@ def _patients(cases: Sequence[CaseResult], groups: Groups) -> list[CaseResult]:
         case
         for setting in settings
         for case in cases
-        if case.setting == setting and case.case in groups.patients
+        if case.setting == setting and case.case in groups.diseased
     ]
 
 

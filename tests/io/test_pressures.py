@@ -1,0 +1,96 @@
+"""A recorded pressure has its unit or is refused, and mmHg and kPa come to the same."""
+
+import numpy as np
+import pytest
+
+from heartfit.configuration.source import RecordedPressure
+from heartfit.configuration.strict import validated
+from heartfit.errors import InputError
+from heartfit.io.pressures import read_pressure
+
+PERIOD = 0.8
+TIMES = np.arange(0.0, PERIOD, 0.004)
+PASCALS = 1e3 + 14e3 * np.exp(-(((TIMES - 0.2) / 0.09) ** 4))
+MMHG = 133.322368
+
+
+def table(tmp_path, header, *columns):
+    path = tmp_path / "pressure.csv"
+    np.savetxt(path, np.column_stack(columns), "%.6f", ",", header=header, comments="")
+    return path
+
+
+def read(path, **given):
+    return read_pressure(RecordedPressure(file=str(path), **given), PERIOD).curve
+
+
+@pytest.mark.parametrize(
+    ("header", "time", "pressure", "given"),
+    [
+        ("time_s,lv_pressure_kpa", 1.0, 1e3, {}),
+        ("time_ms,lv_pressure_mmhg", 1e-3, MMHG, {}),
+        ("Time [s],LV pressure (mmHg)", 1.0, MMHG, {}),
+        ("time_s,PLV", 1.0, MMHG, {"unit": "mmHg"}),
+        ("time_s,PLV", 1.0, 1e3, {"unit": "kPa", "column": "PLV"}),
+    ],
+)
+def test_every_unit_comes_to_the_same(tmp_path, header, time, pressure, given):
+    curve = read(table(tmp_path, header, TIMES / time, PASCALS / pressure), **given)
+    assert curve.values == pytest.approx(PASCALS, abs=0.5)
+    assert curve.times == pytest.approx(TIMES, abs=1e-9)
+
+
+def test_the_zero_of_the_line_is_taken_off_in_its_own_unit(tmp_path):
+    path = table(tmp_path, "time_s,lv_pressure_mmhg", TIMES, PASCALS / MMHG + 5.0)
+    assert read(path, zero=5.0).values == pytest.approx(PASCALS, abs=0.5)
+
+
+def test_the_left_ventricle_is_told_from_others_by_its_name_or_by_the_user(tmp_path):
+    columns = TIMES, PASCALS / 1e3, 0.2 * PASCALS / 1e3
+    named = table(tmp_path, "time_s,lv_pressure_kpa,rv_pressure_kpa", *columns)
+    assert read(named).values.max() == pytest.approx(PASCALS.max(), rel=1e-3)
+    unnamed = table(tmp_path, "time_s,p1_kpa,p2_kpa", *columns)
+    with pytest.raises(
+        InputError, match=r"pressure\.csv: which of p1_kpa, p2_kpa is the pressure of the left"
+    ):
+        read(unnamed)
+    assert read(unnamed, column="p1_kpa").values.max() == pytest.approx(PASCALS.max(), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("header", "given", "message"),
+    [
+        ("time_s,lv_pressure", {}, "column lv_pressure has no unit; expected lv_pressure_mmhg or"),
+        ("time_s,lv_pressure_kpa", {"unit": "mmHg"}, "says one unit and mmHg is stated"),
+        ("time,lv_pressure_kpa", {}, "0 columns of times with a unit"),
+        ("time_s,lv_pressure_kpa", {"trigger": "ecg"}, "no column ecg, said to be the trigger"),
+        ("time_s,lv_pressure_kpa", {"column": "aorta"}, "no column aorta"),
+        ("time_ms,lv_pressure_kpa", {}, "is the unit of time right|the beats are"),
+    ],
+)
+def test_what_is_not_said_is_refused(tmp_path, header, given, message):
+    path = table(tmp_path, header, TIMES, PASCALS / 1e3)
+    with pytest.raises(InputError, match=message) as refused:
+        read(path, **given)
+    assert str(refused.value).startswith(str(path))
+    assert "\n" not in str(refused.value)
+
+
+def test_a_cell_that_is_no_number_is_named(tmp_path):
+    path = table(tmp_path, "time_s,lv_pressure_kpa", TIMES, PASCALS / 1e3)
+    path.write_text(path.read_text().replace("\n0.004000,", "\n0.004000,x", 1))
+    with pytest.raises(InputError, match="lv_pressure_kpa in data row 2 is x1"):
+        read(path)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ({"unit": "Pa"}, "'mmHg' or 'kPa'"),
+        ({"trigger": "ecg", "upstroke": 0.1}, "trigger and upstroke both say"),
+        ({"upstroke": 0.1, "delay": 0.01}, "leave delay out"),
+    ],
+)
+def test_what_contradicts_itself_is_refused(content, message):
+    with pytest.raises(InputError, match=message):
+        validated(RecordedPressure, {"file": "x.csv", **content}, "config.yaml")

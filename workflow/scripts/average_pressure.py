@@ -1,0 +1,13 @@
+"""The mean beat of the pressure that was recorded in a measured heart, over the period of its images."""
+
+from pathlib import Path
+
+from heartfit.io.curves import write_curves
+from heartfit.io.log import record
+from heartfit.io.meshes import read_motion
+from heartfit.io.pressures import read_pressure
+
+record(snakemake.log[0])
+period = read_motion(Path(snakemake.input.motion)).period
+averaged = read_pressure(snakemake.params.source.pressure, period)
+write_curves(Path(snakemake.output[0]), {"lv_pressure": averaged.curve})
