@@ -145,7 +145,7 @@ def test_only_io_and_the_command_line_open_files():
             names = {
                 call.attr if isinstance(call, ast.Attribute) else getattr(call, "id", "") for call in calls
             }
-            allowed = {"open"} if file.name == "mesher.py" else set()  # os.open of the null device
+            allowed = {"open"} if file.name == "tetrahedra.py" else set()  # os.open of the null device
             assert not names & opening - allowed, file
 
 

@@ -1,6 +1,6 @@
 """One mesh for all virtual hearts: made once of an average wall, and moved to the wall of each.
 
-The mesher takes seconds and draws random numbers; moving takes a third of a second and repeats to the bit.
+The mesher takes seconds, moving a third of a second.
 """
 
 import warnings

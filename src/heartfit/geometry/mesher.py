@@ -1,24 +1,13 @@
-"""Fills the wall with tetrahedra and recovers the names of its surfaces.
+"""Fills the wall with tetrahedra and recovers the names of its surfaces: the same mesh for the same surface."""
 
-The mesher is fTetWild (Hu et al. 2020, doi 10.1145/3386569.3392385). It draws random numbers that cannot be
-seeded, so two calls give two different meshes of the same quality: what is computed on a mesh repeats only on
-the stored mesh.
-"""
-
-import os
 from collections import Counter
-from collections.abc import Iterator
-from contextlib import chdir, contextmanager
-from tempfile import TemporaryDirectory
-
-import numpy as np
-import wildmeshing
 
 from heartfit.geometry.arrays import Floats, Integers, Names
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.nearest import nearest_on_surface
 from heartfit.geometry.quality import SMALLEST_ANGLE, defect_of
 from heartfit.geometry.surface import SURFACES, LabelledSurface, triangle_normals
+from heartfit.geometry.tetrahedra import tetrahedralise
 from heartfit.geometry.topology import boundary_faces, neighbours
 
 ATTEMPTS = 12
@@ -38,8 +27,8 @@ def fill_wall(
     more than 2 %, an angle is smaller, or a valve ring is pinched.
     """
     defects = []
-    for _ in range(ATTEMPTS):
-        points, tets = _tetrahedralise(surface, edge_length, tolerance)
+    for seed in range(ATTEMPTS):
+        points, tets = tetrahedralise(surface, edge_length, tolerance, seed)
         mesh = VentricularMesh(points, tets, _name_surfaces(surface, points, boundary_faces(tets)))
         defect = defect_of(mesh, surface, smallest_angle)
         if not defect:
@@ -49,41 +38,6 @@ def fill_wall(
         f"edge length {edge_length * 1e3:g} mm, tolerance {tolerance * 1e3:g} mm: {ATTEMPTS} bad meshes: "
         f"{'; '.join(defects)}; use a shorter edge length or a smaller tolerance"
     )
-
-
-def _tetrahedralise(
-    surface: LabelledSurface, edge_length: float, tolerance: float
-) -> tuple[Floats, Integers]:
-    scale = surface.diagonal()
-    with _silent_output(), TemporaryDirectory() as scratch, chdir(scratch):
-        mesher = wildmeshing.Tetrahedralizer(
-            epsilon=tolerance / scale, edge_length_r=edge_length / scale, coarsen=True, max_threads=1
-        )
-        mesher.set_log_level(6)
-        mesher.set_mesh(surface.points / scale, surface.triangles.astype(np.int32))
-        mesher.tetrahedralize()
-        points, tets, _ = mesher.get_tet_mesh(manifold_surface=True)
-    return points * scale, _positively_oriented(points, tets.astype(np.int64))
-
-
-def _positively_oriented(points: Floats, tets: Integers) -> Integers:
-    a, b, c, d = points[tets.T]
-    negative = np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)) < 0.0
-    tets[negative] = tets[negative][:, [0, 2, 1, 3]]
-    return tets
-
-
-@contextmanager
-def _silent_output() -> Iterator[None]:
-    """Discards what compiled code writes to the standard output, which Python's redirection cannot reach."""
-    saved, sink = os.dup(1), os.open(os.devnull, os.O_WRONLY)
-    os.dup2(sink, 1)
-    try:
-        yield
-    finally:
-        os.dup2(saved, 1)
-        os.close(saved)
-        os.close(sink)
 
 
 def _name_surfaces(surface: LabelledSurface, points: Floats, faces: Integers) -> dict[str, Integers]:

@@ -1,0 +1,66 @@
+"""The mesher in its own process: the same mesh for the same surface and seed, in silence."""
+
+import platform
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from scipy.spatial import ConvexHull
+
+from heartfit.geometry import tetrahedra
+from heartfit.geometry.random_device import answer
+from heartfit.geometry.surface import LabelledSurface, triangle_normals
+from heartfit.geometry.tetrahedra import tetrahedralise
+
+SEEDABLE = (platform.system(), platform.machine()) == ("Linux", "x86_64")
+
+
+@pytest.fixture(scope="module")
+def pebble() -> LabelledSurface:
+    """The convex hull of 40 points of a sphere: enough triangles for their order to matter."""
+    points = np.random.default_rng(0).normal(size=(40, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    triangles = ConvexHull(points).simplices.astype(np.int64)
+    inward = (triangle_normals(points, triangles) * points[triangles].mean(axis=1)).sum(axis=1) < 0.0
+    triangles[inward] = triangles[inward][:, [0, 2, 1]]
+    return LabelledSurface(points, triangles, np.full(len(triangles), "epi"))
+
+
+@pytest.mark.skipif(not SEEDABLE, reason="the random device can be set on Linux with x86-64 only")
+def test_the_same_seed_gives_the_same_mesh_and_another_one_another(
+    pebble: LabelledSurface, capfd: pytest.CaptureFixture[str]
+) -> None:
+    one, again, other = (tetrahedralise(pebble, 1.5, 0.3, seed) for seed in (0, 0, 1))
+    for made, repeated in zip(one, again, strict=True):
+        np.testing.assert_array_equal(made, repeated)
+    assert one[0].shape != other[0].shape or not np.array_equal(one[0], other[0])
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_mesher_that_dies_is_told_with_what_it_said(
+    pebble: LabelledSurface, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tetrahedra, "MODULE", "heartfit.no_such_module")
+    with pytest.raises(ChildProcessError, match=r"mesher ended with 1.*no_such_module"):
+        tetrahedralise(pebble, 1.5, 0.3, 0)
+
+
+def test_a_random_device_that_cannot_be_set_is_left_alone_and_told(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(platform, "machine", lambda: "abacus")
+    assert not answer("no library is opened", 0)
+    assert "will differ from this one: this is Linux on abacus" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(not SEEDABLE, reason="the random device can be set on Linux with x86-64 only")
+def test_the_random_device_gives_the_seed() -> None:
+    """In a process of its own, for it gives nothing else from then on."""
+    program = (
+        "import ctypes; from heartfit.geometry.random_device import DRAW, answer\n"
+        "draw = getattr(ctypes.CDLL('libstdc++.so.6'), DRAW); draw.restype = ctypes.c_uint32\n"
+        "assert answer('libstdc++.so.6', 4000000000); print(draw(0), draw(0))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["4000000000"] * 2
