@@ -12,13 +12,11 @@ from heartfit.catalogue import declared
 from heartfit.console import Progress, beat_summary
 from heartfit.errors import InputError
 from heartfit.io.beats import write_beat
-from heartfit.io.configuration import read_configuration, read_study
+from heartfit.io.configuration import read_study
 from heartfit.io.fingerprint import fingerprint
 from heartfit.io.meshes import read_mesh
-from heartfit.io.plan import plan_study
+from heartfit.own_case import STANDARD, check, check_arguments, init, init_arguments
 from heartfit.pages import PAGES
-
-STANDARD = Path("config/config.yaml")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -34,19 +32,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="heartfit", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="command")
-    for carry_out, text in ((simulate, "run beats of one heart"), (check, "validate a study before it runs")):
-        command = commands.add_parser(carry_out.__name__, help=text, description=carry_out.__doc__)
-        command.set_defaults(carry_out=carry_out)
-        command.add_argument(
-            "--config",
-            type=Path,
-            nargs="+",
-            default=[STANDARD],
-            metavar="YAML",
-            help="later ones over earlier ones",
-        )
-        if carry_out is simulate:
-            _simulate_arguments(command)
+    simulated = commands.add_parser("simulate", help="run beats of one heart", description=simulate.__doc__)
+    _simulate_arguments(simulated)
+    for carry_out, arguments, text in (
+        (init, init_arguments, "write the configuration of a heart of your own"),
+        (check, check_arguments, "say all that is wrong with a study before it runs"),
+    ):
+        arguments(commands.add_parser(carry_out.__name__, help=text, description=carry_out.__doc__))
     for page in PAGES:
         command = commands.add_parser(page.__name__.replace("_", "-"), help=page.__doc__)
         command.set_defaults(carry_out=page)
@@ -66,6 +58,15 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _simulate_arguments(command: argparse.ArgumentParser) -> None:
+    command.set_defaults(carry_out=simulate)
+    command.add_argument(
+        "--config",
+        type=Path,
+        nargs="+",
+        default=[STANDARD],
+        metavar="YAML",
+        help="later ones over earlier ones",
+    )
     command.add_argument(
         "mesh", type=Path, help="ventricles (.vtu) at end diastole, as the study builds them"
     )
@@ -141,17 +142,6 @@ def diagnose(given: argparse.Namespace) -> int:
     conditions = read_conditions(given.condition, recording.period)
     found = diagnosis.diagnose(recording, conditions, rules=STRICT if given.strict else RULES)
     print(write_cause_card(given.output, found, given.measured.stem, fingerprint(Path(diagnosis.__file__))))
-    return 0
-
-
-def check(given: argparse.Namespace) -> int:
-    """Read everything that a study would read before it runs and say in a line each that it is in order."""
-    plan = plan_study(read_configuration(given.config), " + ".join(map(str, given.config)))
-    files, settings = ", ".join(map(str, given.config)), ", ".join(plan.study.settings)
-    print(f"configuration: {files} in order, settings {settings}")
-    print(f"cases: {', '.join(plan.cases)}")
-    if plan.left_out:
-        print(plan.left_out)
     return 0
 
 

@@ -18,7 +18,7 @@ class InputErrors(InputError):
     def __init__(self, problems: Iterable[str]) -> None:
         self._problems = tuple(problems)
         others = len(self._problems) - 1
-        more = f" (and {others} more; `heartfit check` lists them)" if others else ""
+        more = f" (and {others} more)" if others else ""
         super().__init__(self._problems[0] + more)
 
     @property

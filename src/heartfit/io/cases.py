@@ -17,6 +17,13 @@ def read_cases(path: Path) -> list[Case]:
 
     Raises InputErrors, a line for each mistake in it.
     """
+    cases, problems = read_rows(path)
+    require_none(problems)
+    return cases
+
+
+def read_rows(path: Path) -> tuple[list[Case], list[str]]:
+    """The rows that are in order, and a line for each mistake in the others; raises InputError for a missing file."""
     if not path.is_file():
         raise InputError(
             f"{path}: no such file; expected a table of cases: correct `cases` in the configuration"
@@ -27,28 +34,27 @@ def read_cases(path: Path) -> list[Case]:
     problems: list[str] = []
     for line, row in enumerate(rows, start=2):
         try:
-            cases.append(validated(Case, _in_si(path, row), f"{path}, line {line}"))
+            cases.append(validated(Case, _in_si(row), f"{path}, line {line}"))
         except InputError as error:
             problems += error.problems
     names = [row.get("case") for row in rows]
     twice = sorted({name for name in names if name and names.count(name) > 1})
     problems += [f"{path}: {name} stands in two rows; rename one" for name in twice]
-    require_none(problems or ([] if rows else [f"{path}: no case; add a row"]))
-    return cases
+    return cases, problems or ([] if rows else [f"{path}: no case; add a row"])
 
 
-def _in_si(path: Path, row: Mapping[str, str | None]) -> dict[str, Any]:
-    """Column names without their unit, numbers in SI, empty cells left out."""
+def _in_si(row: Mapping[str, str | None]) -> dict[str, Any]:
+    """Column names without their unit, numbers in SI, text that is no number as it is, empty cells left out."""
     content: dict[str, Any] = {}
     for column, text in row.items():
         unit = next((unit for unit in UNITS if column.endswith(unit)), "")
         if text:
-            content[column.removesuffix(unit)] = _number(path, column, text) * UNITS[unit] if unit else text
+            content[column.removesuffix(unit)] = _in_metres_and_seconds(text, unit) if unit else text
     return content
 
 
-def _number(path: Path, column: str, text: str) -> float:
+def _in_metres_and_seconds(text: str, unit: str) -> float | str:
     try:
-        return float(text)
+        return float(text) * UNITS[unit]
     except ValueError:
-        raise InputError(f"{path}: {column} = {text!r}; expected a number") from None
+        return text  # which is refused with the rest of the row

@@ -39,6 +39,25 @@ class Subject:
             self.problems += [f"{self.case.case}: {problem}" for problem in error.problems]
             return None
 
+    def said(self, filling_pressure: float) -> list[str]:
+        """What was read, a line each; filling_pressure: under which the study takes the left ventricle to stand, Pa."""
+        lines = []
+        if self.heart is not None:
+            phases, points = self.heart.positions.shape[:2]
+            lines.append(f"wall of {points} points in {phases} phases, beat of {self.heart.period:.3f} s")
+        if self.images is not None:
+            lines.append(
+                f"images of {' x '.join(map(str, self.images.grid.size))} voxels in {len(self.images.times)} frames"
+            )
+        if self.pressure is not None:
+            kept, values = self.pressure.kept, 1e-3 * self.pressure.curve.values
+            lines.append(
+                f"pressure of {values.min():.1f} to {values.max():.1f} kPa, mean of {kept.sum()} of {kept.size} beats; "
+                f"{1e-3 * self.pressure.end_diastolic:.2f} kPa at the trigger, where the study says "
+                f"end_diastolic_pressure.lv = {filling_pressure:g} Pa"
+            )
+        return lines
+
 
 def read_heart(source: Source) -> MeasuredHeart:
     """The wall in every phase, of a fit or of surface meshes."""
@@ -64,6 +83,16 @@ def with_cine(source: Source) -> Source:
         return source
     images = short_axis_images(Path(source.fit))
     return source.model_copy(update={"images": None if images is None else str(images)})
+
+
+def stated_period(source: Source) -> float | None:
+    """The length of the beat, s, if the data say it and can be read."""
+    try:
+        if source.segmented:
+            return None if source.images is None else read_images(Path(source.images)).period
+        return read_heart(source).period
+    except InputError:
+        return None
 
 
 def source_files(source: Source) -> list[str]:

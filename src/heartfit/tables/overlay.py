@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
-from matplotlib.figure import Figure
+from matplotlib.figure import FigureBase
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 
@@ -113,7 +113,7 @@ class Outlines:
 
 
 def draw_phases(
-    figure: Figure, overlay: Overlay, colours: Mapping[str, str] = COLOURS
+    figure: FigureBase, overlay: Overlay, colours: Mapping[str, str] = COLOURS
 ) -> list[tuple[Panel, int]]:
     """Every view at end diastole (phase 0), and below at end systole, with the phase that each panel shows."""
     phases = {"end diastole": 0, "end systole": overlay.end_systole}
@@ -127,7 +127,7 @@ def draw_phases(
     return shown
 
 
-def draw_key(figure: Figure, colours: Mapping[str, str]) -> None:
+def draw_key(figure: FigureBase, colours: Mapping[str, str]) -> None:
     """The colours by what they mean, below all panels."""
     lines = [Line2D([], [], color=colour, label=label) for label, colour in colours.items()]
     figure.legend(handles=lines, loc="outside lower center", ncols=len(lines), frameon=False, fontsize=9)

@@ -1,0 +1,108 @@
+"""`init` writes what `check` takes, refuses what is not filled in, and overwrites nothing; `check` hides no mistake."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from heartfit.cli import main
+from heartfit.io.configuration import read_configuration
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture
+def project(tmp_path, monkeypatch):
+    """A working directory with the configuration alone."""
+    (tmp_path / "config").mkdir()
+    shutil.copy(ROOT / "config" / "config.yaml", tmp_path / "config")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def lines(capsys):
+    """What went to standard error, a mistake in each line."""
+    said = capsys.readouterr().err.splitlines()
+    assert all(line.startswith("heartfit: ") for line in said)
+    return said
+
+
+def record(folder, **columns):
+    file = folder / "pressure.csv"
+    np.savetxt(
+        file, np.column_stack(list(columns.values())), "%.5f", ",", header=",".join(columns), comments=""
+    )
+    return str(file)
+
+
+def test_what_is_to_be_filled_in_is_refused_line_by_line(project, capsys):
+    assert main(["init", "heart1"]) == 0
+    assert main(["check", "heart1"]) == 2
+    said = "\n".join(lines(capsys))
+    for place in ("labels.lv_cavity", "labels.lv_wall", "labels.rv_cavity", "period", "conduction"):
+        assert f"{place} = 'FILL_IN'" in said
+    for place in ("segmentation", "images"):
+        assert f"heart1: {place}: FILL_IN: no such file or folder" in said
+    assert not (project / "results").exists()
+
+
+def test_nothing_is_overwritten(project, capsys):
+    assert main(["init", "heart1", "--fit", "fit", "--rr", "0.8"]) == 0
+    before = (project / "config" / "heart1.yaml").read_text()
+    assert main(["init", "heart1"]) == 2
+    assert "config/heart1.yaml: is there already" in lines(capsys)[0]
+    assert (project / "config" / "heart1.yaml").read_text() == before
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        (["../heart1"], "expected a name of letters"),
+        (["heart1", "--fit", "a", "--surfaces", "b"], "fit and surfaces given for the wall"),
+        (["heart1", "--segmentation", "a", "--labels", "lv_cavity:1"], "expected NAME=NUMBER"),
+        (["heart1", "--segmentation", "a", "--labels", "lv=1"], "labels.lv_cavity is missing"),
+        (["heart1", "--fit", "a", "--trigger", "ecg"], "pressure.file is missing"),
+        (["heart1", "--pressure", "a.csv"], "no source given for the wall"),
+    ],
+)
+def test_options_that_contradict_write_nothing(project, capsys, options, expected):
+    assert main(["init", *options]) == 2
+    assert expected in lines(capsys)[0]
+    assert [file.name for file in (project / "config").iterdir()] == ["config.yaml"]
+
+
+def test_paths_with_quotes_colons_and_other_letters_are_kept(project):
+    odd = 'a: "b" # ünïcödé'
+    assert main(["init", "heart1", "--fit", odd, "--rr", "0.8", "--conduction", "healthy"]) == 0
+    assert read_configuration([Path("config/heart1.yaml")])["sources"]["heart1"]["fit"] == odd
+
+
+def test_every_mistake_is_said_at_once(project, capsys):
+    """One each in the configuration, in the row, and in a file of the data."""
+    times = np.arange(0.0, 0.8, 0.01)
+    file = record(project, time_s=times, lv_pressure=8e3 + 7e3 * np.cos(8.0 * times))
+    assert main(["init", "heart1", "--fit", "nowhere", "--rr", "0.8", "--pressure", file]) == 0
+    study = project / "config" / "heart1.yaml"
+    study.write_text(study.read_text() + "mehs: {}\n")
+    assert main(["check", "heart1"]) == 2
+    said = lines(capsys)
+    assert [
+        part for part in ("unknown key mehs", "conduction = 'FILL_IN'") if not any(part in x for x in said)
+    ] == []
+    assert any("nowhere: no such file or folder" in line for line in said)
+    row = project / "config" / "heart1.tsv"
+    row.write_text(row.read_text().replace("FILL_IN", "healthy"))
+    assert main(["check", "heart1"]) == 2
+    said = lines(capsys)
+    assert any("nowhere/control_points: missing" in line for line in said)
+    assert any("column lv_pressure has no unit" in line for line in said), "the data are read all the same"
+
+
+@pytest.mark.measured
+def test_a_measured_heart_is_described(project, capsys, measured_heart_folder):
+    folder = str(measured_heart_folder.resolve())
+    assert main(["init", "heart1", "--fit", folder, "--conduction", "healthy"]) == 0
+    assert "\t0.8288\thealthy" in (project / "config" / "heart1.tsv").read_text(), "the data say the period"
+    assert main(["check", "heart1", "--no-picture"]) == 0
+    assert "heart1: wall of 5806 points in 25 phases, beat of 0.829 s" in capsys.readouterr().out
