@@ -8,6 +8,7 @@ python3 study.py lint         set up, then style, types and the workflow's own l
 python3 study.py benchmark    set up, then measure what a beat costs and write docs/performance.md; half an hour
 python3 study.py convergence  set up, then see what mesh and time step change and write docs/convergence.md; as long
 python3 study.py mutations    set up, then spoil kernels one by one and write which test noticed into docs/mutations.md
+python3 study.py docs         set up, then make the site of docs/ and of the library in site/; any warning fails
 python3 study.py lock         write requirements.lock anew from pyproject.toml
 """
 
@@ -46,6 +47,10 @@ COMPILE_LOCK = (
         "alternatives",
         "--extra",
         "develop",
+        "--extra",
+        "exchange",
+        "--extra",
+        "site",
         "--quiet",
         "--output-file",
         "requirements.lock",
@@ -169,6 +174,17 @@ def mutations(arguments: list[str]) -> int:
     return subprocess.run(tool("python", "-m", "tests.mutations", *arguments), check=False).returncode
 
 
+def docs(_: list[str]) -> int:
+    """Make the site anew: a link, an anchor, a reference or a formula that is broken is a warning, and that fails."""
+    for folder in ("site", "docs/api", "build/doctrees"):
+        shutil.rmtree(folder, ignore_errors=True)
+    warnings = ("--nitpicky", "--fail-on-warning", "--keep-going", "--quiet")
+    sphinx = tool("python", "-m", "sphinx", *warnings, "-d", "build/doctrees", "docs", "site")
+    code = subprocess.run(sphinx, check=False).returncode
+    print("docs: failed, see above" if code else "docs: site/index.html is there", flush=True)
+    return code
+
+
 def lock(_: list[str]) -> int:
     """Write requirements.lock anew."""
     return subprocess.run(tool(*COMPILE_LOCK), check=False).returncode
@@ -181,6 +197,7 @@ COMMANDS = {
     "benchmark": benchmark,
     "convergence": convergence,
     "mutations": mutations,
+    "docs": docs,
     "lock": lock,
 }
 

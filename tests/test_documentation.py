@@ -23,11 +23,25 @@ def test_the_example_of_a_mechanism_is_one(monkeypatch):
     assert leak.turned_off().flow(0.0, 8e3)[0] == 0.0
 
 
+def anchors(page):
+    """The headings of a page as links name them."""
+    headings = re.findall(r"^#+ (.+)$", page.read_text(), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page):
-    links = re.findall(r"\]\((?!https?:)([^)#]+)\)", page.read_text())
-    missing = [link for link in links if not (page.parent / link).exists()]
-    assert not missing
+    for link, anchor in re.findall(r"\]\((?!https?:)([^)#]*)#?([^)]*)\)", page.read_text()):
+        target = page.parent / link if link else page
+        assert target.exists(), link
+        assert not anchor or anchor in anchors(target), anchor
+
+
+def test_every_page_stands_in_the_index_once():
+    docs = ROOT / "docs"
+    listed = re.findall(r"\]\(([\w/]+\.md)\)", (docs / "index.md").read_text())
+    pages = {page.name for page in docs.glob("*.md")} - {"index.md"}
+    assert sorted(listed) == sorted(pages | {"decisions/README.md"})
 
 
 def test_the_readme_gives_the_commands_that_ci_runs():

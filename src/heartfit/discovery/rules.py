@@ -12,22 +12,24 @@ from dataclasses import dataclass
 class Rules:
     """Thresholds in ln evidence.
 
-    detected: best explanation over none, below which there is none; 5 where the model differs from the data's source by
-        integrator, valves and roughness, more where its structure does (see CENTRED and STRICT).
-    suspected: the same after the first round of fits, below which there is no second.
-    switched: the amplitude with which every effect starts from the centre of the priors; from 1 a leak of 3 is missed.
-    settled, spread: how many effects the second round takes, and how many of these start on every side once more, with
-        slopes of their own.
-    rival: the best single effect over the Gaussian process alone.
-    on_top: the largest gain of a Gaussian process on top of the explanation that is named.
-    strong, strong_share: an effect over the Gaussian process by ``strong`` is named although one on top of it gains,
-        if that is at most ``strong_share`` of what the effect gains: a strong effect shows a small error of its model.
-    second: a pair over the best single effect, which then is not the whole answer; at 3, one in twenty single effects
-        is given a false companion.
-    group: effects whose evidence is so near to the best are not told apart (Kass and Raftery's "positive").
-    polished, polish: the best so many effects start again from these amplitudes before "unknown" is said.
-    partners, pairs, promising: beside how many of the best single effects a second one is tried, how many pairs are
-        fitted at most, and what the linear model must promise from both over the better.
+    - detected: best explanation over none, below which there is none; 5 where the model differs from the data's
+      source by integrator, valves and roughness, more where its structure does (see CENTRED and STRICT).
+    - suspected: the same after the first round of fits, below which there is no second.
+    - switched: the amplitude with which every effect starts from the centre of the priors; from 1 a leak of 3
+      is missed.
+    - settled, spread: how many effects the second round takes, and how many of these start on every side once
+      more, with slopes of their own.
+    - rival: the best single effect over the Gaussian process alone.
+    - on_top: the largest gain of a Gaussian process on top of the explanation that is named.
+    - strong, strong_share: an effect over the Gaussian process by ``strong`` is named although one on top of it
+      gains, if that is at most ``strong_share`` of what the effect gains: a strong effect shows a small error
+      of its model.
+    - second: a pair over the best single effect, which then is not the whole answer; at 3, one in twenty single
+      effects is given a false companion.
+    - group: effects whose evidence is so near to the best are not told apart (Kass and Raftery's "positive").
+    - polished, polish: the best so many effects start again from these amplitudes before "unknown" is said.
+    - partners, pairs, promising: beside how many of the best single effects a second one is tried, how many
+      pairs are fitted at most, and what the linear model must promise from both over the better.
     """
 
     detected: float = 5.0

@@ -1,0 +1,26 @@
+"""Docstrings are prose with formulas: a bar, a star or a last underscore outside of a role stands for itself."""
+
+import re
+
+QUOTED = re.compile(r"(``.*?``|(?::\w+:)?`[^`]*`)")
+MARK = re.compile(r"(?<!\\)([|*])|(?<=\w)(_)(?!\w)")
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", keep_marks)
+    return {"parallel_read_safe": True}
+
+
+def keep_marks(*given):
+    lines, inside = given[-1], False
+    for number, line in enumerate(lines):
+        inside = line.startswith("..") or (inside and (not line or line.startswith(" ")))
+        if not inside:
+            lines[number] = plain(line)
+
+
+def plain(line):
+    """The line with its marks escaped, but for what is quoted: every other part of the split."""
+    parts = QUOTED.split(line)
+    parts[::2] = [MARK.sub(r"\\\g<0>", part) for part in parts[::2]]
+    return "".join(parts)
