@@ -1,7 +1,14 @@
 """Formulas as MathML, which browsers show by themselves: nothing is fetched and no script runs."""
 
+import re
+
 from docutils.nodes import SkipNode
 from latex2mathml.converter import convert
+from sphinx.util import logging
+
+ENVIRONMENT = re.compile(r"\\begin{(\w+)}.*?\\end{\1}", re.DOTALL)
+UNKNOWN = re.compile(r"<mi>(\\\w+|&)</mi>")
+"""What stands in the result where the converter does not know a command."""
 
 
 def setup(app):
@@ -10,15 +17,23 @@ def setup(app):
 
 
 def inline(writer, node):
-    writer.body.append(convert(node.astext()))
+    writer.body.append(shown(node, node.astext(), "inline"))
     raise SkipNode
 
 
 def block(writer, node):
-    writer.body.append(f'<div class="formula">{convert(aligned(node.astext()), display="block")}</div>')
+    writer.body.append(f'<div class="formula">{shown(node, aligned(node.astext()), "block")}</div>')
     raise SkipNode
 
 
 def aligned(text):
-    """Lines that begin and break as in LaTeX's align stand in such a block."""
-    return rf"\begin{{aligned}}{text}\end{{aligned}}" if "&" in text or r"\\" in text else text
+    """Lines that are aligned or broken stand in a block for that."""
+    outside = ENVIRONMENT.sub("", text)
+    return rf"\begin{{split}}{text}\end{{split}}" if "&" in outside or r"\\" in outside else text
+
+
+def shown(node, text, display):
+    formula = convert(text, display=display)
+    if UNKNOWN.search(formula):
+        logging.getLogger(__name__).warning("formula with an unknown command: %s", text, location=node)
+    return formula
