@@ -27,9 +27,7 @@ def test_it_rests_on_the_standard_library_alone():
 def test_an_unknown_command_names_the_known_ones():
     run = subprocess.run([sys.executable, "study.py", "tset"], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 2
-    assert (
-        "no command 'tset'; known are run, test, lint, " in run.stderr
-    )
+    assert "no command 'tset'; known are run, test, lint, " in run.stderr
 
 
 def test_the_time_that_remains_is_added_to_the_count_of_steps(study):
