@@ -8,8 +8,9 @@ import pytest
 
 from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Trace
 from heartfit.errors import InputError
-from heartfit.io.causes import cause_schema, read_cause, write_cause
+from heartfit.io.causes import cause_schema, read_cause, read_diagnosis, write_cause, write_cause_card
 from heartfit.observation.beat_phases import BeatPhases
+from heartfit.tables.cause_card import card
 
 SCHEMA = Path(__file__).parents[2] / "config" / "cause.schema.json"
 TIMES = np.arange(20) * 0.04
@@ -77,3 +78,13 @@ def test_the_schema_is_in_step():
     assert SCHEMA.read_text() == cause_schema(), (
         "write it anew: heartfit cause-schema > config/cause.schema.json"
     )
+
+
+def test_a_diagnosis_is_read_back_whole(tmp_path):
+    write_cause_card(tmp_path, FOUND, "heart1", "0123")
+    found = read_diagnosis(tmp_path)
+    assert (found.verdict, found.mechanisms, found.gain) == (FOUND.verdict, FOUND.mechanisms, FOUND.gain)
+    assert (found.period, found.threshold, found.self_test) == (0.8, 5.0, None)
+    assert found.phases.starts == pytest.approx(FOUND.phases.starts)
+    assert found.traces[0].lacking == pytest.approx(LACKING)
+    assert card(found, "") == card(FOUND, "")

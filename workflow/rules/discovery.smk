@@ -32,7 +32,7 @@ ASKED = {
     "pressures": STUDY.end_diastolic_pressure,
     "steps": DISCOVERY.most_steps,
 }
-CAUSE = ("cause.json", "cause.md", "cause.png")
+CAUSE = ("cause.json", "cause.md", "cause.png", "traces.json")
 
 
 rule plot_residual:

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Refitted, Verdict
 from heartfit.diagnosis.departure import Departure, departures
 from heartfit.errors import InputError
 from heartfit.io.atomic import replacing, write_text
+from heartfit.io.traces import read_traces, write_traces
 from heartfit.tables.cause_card import card, missed, sentence
 from heartfit.tables.cause_figure import plot_cause
 
@@ -77,8 +78,9 @@ def write_cause(path: Path, diagnosis: Diagnosis, fingerprint: str) -> None:
 
 
 def write_cause_card(folder: Path, diagnosis: Diagnosis, title: str, fingerprint: str) -> str:
-    """Write cause.json, cause.md and cause.png; the diagnosis in a sentence."""
+    """Write cause.json, cause.md, cause.png and traces.json; the diagnosis in a sentence."""
     write_cause(Path(folder, "cause.json"), diagnosis, fingerprint)
+    write_traces(Path(folder, "traces.json"), diagnosis, fingerprint)
     write_text(Path(folder, "cause.md"), card(diagnosis, title))
     with replacing(Path(folder, "cause.png")) as draft:
         plot_cause(diagnosis).savefig(draft, dpi=150)
@@ -98,3 +100,11 @@ def read_cause(path: Path) -> dict[str, Any]:
     else:
         return content
     raise InputError(f"{path}: {said}; expected a cause.json: diagnose the recording again")
+
+
+def read_diagnosis(folder: Path) -> Diagnosis:
+    """The diagnosis that write_cause_card wrote; raises InputError for a missing or broken file."""
+    found = FILE.validate_python(read_cause(Path(folder, "cause.json")))
+    shared = {each.name for each in fields(Diagnosis)} & {each.name for each in fields(CauseFile)}
+    said = {name: getattr(found, name) for name in shared if getattr(found, name) is not None}
+    return Diagnosis(**{"threshold": float("nan"), **said, **read_traces(Path(folder, "traces.json"))})
