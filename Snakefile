@@ -18,6 +18,7 @@ rule all:
     input:
         whole_study(),
         "<results>/tables/costs.md",
+        "<results>/report.html",
 
 
 include: "workflow/rules/resources.smk"
@@ -36,3 +37,4 @@ include: "workflow/rules/alternatives.smk"
 include: "workflow/rules/discovery_ventricles.smk"
 include: "workflow/rules/discovery_benchmark.smk"
 include: "workflow/rules/costs.smk"
+include: "workflow/rules/report.smk"

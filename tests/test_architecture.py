@@ -32,6 +32,7 @@ HEIGHTS = (
     ("diagnosis", "sensitivity", "twins"),
     ("planting",),
     ("tables",),
+    ("report",),
     ("catalogue",),
     ("configuration",),
     ("protocol",),

@@ -39,8 +39,8 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert counts["record_pressure"] == PATIENTS
     assert counts["make_tables"] == 1
     assert counts["compile_kernels"] == 1
-    assert readers(run.stdout, "truth") == {"make_tables", "make_cards", "compare_groups"}
-    assert readers(run.stdout, "posterior_noise") == {"make_cards", "compare_groups"}
+    assert readers(run.stdout, "truth") == {"make_tables", "make_cards", "compare_groups", "report_study"}
+    assert readers(run.stdout, "posterior_noise") == {"make_cards", "compare_groups", "report_study"}
     assert readers(run.stdout, "cohort/motion") == {"image_volunteer", "plot_septal_flash"}
     assert readers(run.stdout, "cohort/beat") == {"record_pressure"}
     assert readers(run.stdout, "cohort/heart") == {
@@ -49,11 +49,11 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
         "plot_septal_flash",
     }
     assert readers(run.stdout, "images/cine") == {"register_volunteer", "plot_contours", "plot_overlay"}
-    assert readers(run.stdout, "verification/motion") == {"plot_overlay", "plot_residual"}
+    assert readers(run.stdout, "verification/motion") == {"plot_overlay", "plot_residual", "report_study"}
     assert counts["plot_overlay"] == PATIENTS + 1
     assert counts["try_acquisition"] == 21 + 3 + 6 * 2
     assert counts["build_template"] == 3
-    assert counts["tabulate_costs"] == 1
+    assert counts["tabulate_costs"] == counts["report_study"] == 1
     assert "diagnose_planted" not in counts, "hours of search that nobody asked for"
     assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
     beating = {"generate_volunteer", "draw_volunteer", "simulate_point", "simulate_calibrated"}

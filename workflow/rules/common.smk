@@ -6,7 +6,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from heartfit.errors import InputError
-from heartfit.io.fingerprint import fingerprint
+from heartfit.io.fingerprint import PACKAGE, fingerprint
 from heartfit.io.plan import plan_study
 from heartfit.io.sources import source_files
 from heartfit.mechanism import registered
@@ -273,6 +273,11 @@ def recording_of(wildcards):
 
 def scanner_of(wildcards):
     return STUDY.scanner(wildcards.acquisition)
+
+
+def report_parts(_):
+    """What a page of the report is filled into: no module, so that code() does not see it."""
+    return sorted(map(str, PACKAGE.glob("report/*/*.*")))
 
 
 def whole_study():

@@ -59,9 +59,9 @@ def card(diagnosis: Diagnosis, title: str) -> str:
         f"# {title}\n\n**{sentence(diagnosis)}**",
         "## What the simulation misses\n\n" + "\n".join(lacking),
         "## How strongly the data speak\n\n" + _ranking(diagnosis),
-        "## What else could explain it\n\n" + _alternatives(diagnosis),
+        "## What else could explain it\n\n" + alternatives(diagnosis),
         "## What to measure next\n\n" + (diagnosis.next_measurement or "Nothing: the data decide."),
-        f"## What {gaining(diagnosis)} gains where nothing was fitted\n\n" + _gains(diagnosis.gain),
+        f"## What {gaining(diagnosis)} gains where nothing was fitted\n\n" + gains(diagnosis.gain),
         *([f"## In three dimensions\n\n{in_three_dimensions(diagnosis.refitted)}"] if diagnosis.refitted else []),
         *([tested(diagnosis)] if diagnosis.self_test is not None else []),
         f"{diagnosis.simulations} simulated beats in all.",
@@ -105,7 +105,7 @@ def _ranking(diagnosis: Diagnosis) -> str:
     return "| cause | ln Bayes factor over none |\n|---|---|\n" + "\n".join(lines)
 
 
-def _alternatives(diagnosis: Diagnosis) -> str:
+def alternatives(diagnosis: Diagnosis) -> str:
     if diagnosis.withdrawn:
         return f"{', '.join(map(spoken, diagnosis.withdrawn))} fits, but did not help on what was held out: withdrawn."
     if diagnosis.verdict == "unknown":
@@ -139,10 +139,10 @@ def gaining(diagnosis: Diagnosis) -> str:
     return f"{tried}, which is not named but tried,"
 
 
-def _gains(gains: Iterable[Gain]) -> str:
+def gains(found: Iterable[Gain]) -> str:
     lines = [
         f"- {CURVES.get(each.curve, each.curve)} ({each.on}): error times {each.ratio:.2f} "
         f"(95 % interval {each.interval[0]:.2f} to {each.interval[1]:.2f})"
-        for each in gains
+        for each in found
     ]
     return "\n".join(lines) or "Nothing is named."

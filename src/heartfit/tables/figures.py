@@ -39,7 +39,7 @@ def plot_case(
     figure = Figure(figsize=(13, 6), layout="constrained")
     axes = figure.subplots(2, 4)
     start = shift if np.isfinite(shift) else 0.0
-    moved = {name: _moved(group, 0.0 if name == "measured" else start) for name, group in curves.items()}
+    moved = {name: moved(group, 0.0 if name == "measured" else start) for name, group in curves.items()}
     for row, (side, (label, atrium, artery)) in zip(axes, SIDES.items(), strict=True):
         _volumes(row[0], moved, side, label)
         _flows(row[1], moved, side, operator)
@@ -119,7 +119,7 @@ def _loops(axes: Axes, curves: Mapping[str, Curves], side: str) -> None:
     _label(axes, "volume (mL)", "pressure (kPa)", "loop")
 
 
-def _moved(group: Curves, shift: float) -> dict[str, Curve]:
+def moved(group: Curves, shift: float) -> dict[str, Curve]:
     """Curves with their samples in [0, period) after the shift, so that lines run from left to right."""
     return {name: _wrapped(curve.shifted(shift)) for name, curve in group.items()}
 

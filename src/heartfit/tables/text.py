@@ -10,17 +10,18 @@ RATES = {"dPdt_max": r"$dP/dt_{\max}$", "dPdt_min": r"$dP/dt_{\min}$"}
 
 def to_markdown(table: pd.DataFrame) -> str:
     """A pipe table; empty where there is no number."""
-    return _strings(table).to_markdown(index=False, disable_numparse=True) + "\n"
+    return strings(table).to_markdown(index=False, disable_numparse=True) + "\n"
 
 
 def to_latex(table: pd.DataFrame) -> str:
     """A booktabs tabular with the quantities as symbols."""
-    strings = _strings(table).map(_escape)
-    strings.columns = [_heading(str(column)) for column in table.columns]
-    return strings.to_latex(index=False, column_format="ll" + "r" * (len(strings.columns) - 2))
+    texts = strings(table).map(_escape)
+    texts.columns = [_heading(str(column)) for column in table.columns]
+    return texts.to_latex(index=False, column_format="ll" + "r" * (len(texts.columns) - 2))
 
 
-def _strings(table: pd.DataFrame) -> pd.DataFrame:
+def strings(table: pd.DataFrame) -> pd.DataFrame:
+    """Every cell as it is printed, empty where there is no number."""
     return table.map(_number).astype(str)
 
 

@@ -1,0 +1,35 @@
+"""Numbers and names as a reader expects them, and nothing of a table that a browser would run."""
+
+import math
+
+import pandas as pd
+import pytest
+
+from heartfit.report.markup import number, quantity, rows
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(0.12345, "0.123"), (-3.0, "−3"), (123456.0, "123456"), (math.nan, "–"), (None, "–")]
+)
+def test_numbers(value: float | None, text: str) -> None:
+    assert number(value) == text
+
+
+def test_quantities() -> None:
+    assert quantity("sigma_0 sd (%)") == "<i>σ</i><sub>0</sub> sd (%)"
+    assert quantity("R_p (MPa.s/m^3)") == "<i>R</i><sub>p</sub> (MPa.s/m<sup>3</sup>)"
+    assert quantity("dPdt_max (%)") == "d<i>P</i>/d<i>t</i><sub>max</sub> (%)"
+    assert quantity("mean (%)") == "mean (%)"
+    assert quantity("<b>_<i> <u>") == "<i>&lt;b&gt;</i><sub>&lt;i&gt;</sub> &lt;u&gt;"
+
+
+def test_rows_are_told_apart() -> None:
+    table = pd.DataFrame(
+        {
+            "setting": ["paper", "paper", "Marchesseau et al. 2012"],
+            "case": ["heart1", "mean of 1", "volunteer 1"],
+            "V_min (%)": [5.0, math.nan, 0.35],
+        }
+    )
+    assert [row["kind"] for row in rows(table)] == ["ours", "mean", "paper"]
+    assert [row["cells"][-1] for row in rows(table)] == ["5.00", "", "0.35"]
