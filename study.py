@@ -9,6 +9,7 @@ python3 study.py benchmark    set up, then measure what a beat costs and write d
 python3 study.py convergence  set up, then see what mesh and time step change and write docs/convergence.md; as long
 python3 study.py mutations    set up, then spoil kernels one by one and write which test noticed into docs/mutations.md
 python3 study.py docs         set up, then make the site of docs/ and of the library in site/; any warning fails
+python3 study.py malformed    set up, then see every malformed input refused in one line; under a minute
 python3 study.py lock         write requirements.lock anew from pyproject.toml
 """
 
@@ -185,6 +186,12 @@ def docs(_: list[str]) -> int:
     return code
 
 
+def malformed(arguments: list[str]) -> int:
+    """Refuse every malformed input, of which the tests try a part."""
+    every = ("--numprocesses", "2", "-m", "long or not long", "tests/malformed")
+    return subprocess.run(tool("pytest", *every, *arguments), check=False).returncode
+
+
 def lock(_: list[str]) -> int:
     """Write requirements.lock anew."""
     return subprocess.run(tool(*COMPILE_LOCK), check=False).returncode
@@ -198,6 +205,7 @@ COMMANDS = {
     "convergence": convergence,
     "mutations": mutations,
     "docs": docs,
+    "malformed": malformed,
     "lock": lock,
 }
 

@@ -9,11 +9,13 @@ import numpy as np
 
 from heartfit import protocol
 from heartfit.catalogue import declared
-from heartfit.console import Progress, beat_summary
+from heartfit.console import Parser, Progress, beat_summary, refusal
 from heartfit.errors import InputError
 from heartfit.io.beats import write_beat
 from heartfit.io.configuration import read_study
 from heartfit.io.fingerprint import fingerprint
+from heartfit.io.image_times import BEATS
+from heartfit.io.inside import require_writable
 from heartfit.io.meshes import read_mesh
 from heartfit.own_case import STANDARD, check, check_arguments, init, init_arguments
 from heartfit.pages import PAGES
@@ -21,16 +23,16 @@ from heartfit.pages import PAGES
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command; 0 if it did, 1 if the simulation failed, 2 for bad input, said in one line."""
-    given = _parser().parse_args(arguments)
     try:
+        given = _parser().parse_args(arguments)
         return int(given.carry_out(given))
-    except InputError as problem:
-        print(f"heartfit: {problem}", file=sys.stderr)
+    except (InputError, OSError, MemoryError) as problem:
+        print(f"heartfit: {refusal(problem)}", file=sys.stderr)
         return 2
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="heartfit", description=__doc__)
+    parser = Parser(prog="heartfit", description=__doc__)
     commands = parser.add_subparsers(required=True, metavar="command")
     simulated = commands.add_parser("simulate", help="run beats of one heart", description=simulate.__doc__)
     _simulate_arguments(simulated)
@@ -106,6 +108,15 @@ def _diagnose_arguments(command: argparse.ArgumentParser) -> None:
 
 def simulate(given: argparse.Namespace) -> int:
     """Run beats of one heart until they are periodic and write the last one."""
+    if given.output.suffix == ".csv" or given.output.is_dir():
+        raise InputError(
+            f"--output {given.output}: expected a file such as beat.json; the curves go into its .csv"
+        )
+    require_writable(given.output.parent)
+    if not BEATS[0] <= given.period <= BEATS[1]:
+        raise InputError(
+            f"--period {given.period:g}: expected {BEATS[0]:g} to {BEATS[1]:g} s, the length of a beat"
+        )
     study = read_study(given.config)
     if given.setting not in study.settings:
         raise InputError(f"no setting {given.setting!r}; known are {', '.join(study.settings)}")
@@ -140,6 +151,7 @@ def diagnose(given: argparse.Namespace) -> int:
 
     recording = read_recording(given.measured, given.rr)
     conditions = read_conditions(given.condition, recording.period)
+    require_writable(given.output)
     found = diagnosis.diagnose(recording, conditions, rules=STRICT if given.strict else RULES)
     print(write_cause_card(given.output, found, given.measured.stem, fingerprint(Path(diagnosis.__file__))))
     return 0

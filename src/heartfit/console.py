@@ -1,14 +1,42 @@
-"""What the command line says of a beat: while it runs, and when it is done."""
+"""What the command line says: of a beat while it runs and when it is done, and of input that it refuses."""
 
+import argparse
 import sys
 import time
+from typing import NoReturn
 
 from heartfit.beat import Beat
+from heartfit.errors import InputError
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.vector import cavity_indices
 
 KILOPASCAL, MILLILITRE = 1e3, 1e-6
 EVERY = 1.0  # s
+
+
+class Parser(argparse.ArgumentParser):
+    """Refuses arguments as all other input is refused, instead of with the whole usage."""
+
+    def error(self, message: str) -> NoReturn:
+        """Raises InputError."""
+        raise InputError(f"{message}; `{self.prog} --help` tells what is expected")
+
+
+def refusal(problem: BaseException) -> str:
+    """What is wrong, on one line whatever characters it quotes."""
+    said = str(problem)
+    if isinstance(problem, OSError):
+        place = "" if problem.filename is None else f"{problem.filename}: "
+        fault = (problem.strerror or said).lower()
+        said = f"{place}{fault}; expected what can be read or written: correct path or rights"
+    if isinstance(problem, MemoryError):
+        said = "the input asks for more memory than there is; expected the data of one heart: correct it"
+    return one_line(said)
+
+
+def one_line(text: str) -> str:
+    """Text with whatever is no printable character written out."""
+    return "".join(each if each.isprintable() else repr(each)[1:-1] for each in text)
 
 
 class Progress:

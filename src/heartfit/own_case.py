@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from heartfit.configuration.own_case import row_text, study_text
 from heartfit.configuration.source import Source
 from heartfit.configuration.strict import validated
+from heartfit.console import one_line
 from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
 from heartfit.io.configuration import read_configuration
@@ -136,7 +137,7 @@ def check(given: argparse.Namespace) -> int:
     problems = [*found.problems]
     drawn = [] if given.no_picture or found.plan is None else _draw(found, problems)
     for problem in problems:
-        print(f"heartfit: {problem}", file=sys.stderr)
+        print(f"heartfit: {one_line(problem)}", file=sys.stderr)
     if not problems:
         _say(found, where)
     for file in drawn:

@@ -68,7 +68,7 @@ def test_curves_of_different_periods_do_not_share_a_file(tmp_path: Path) -> None
         ("0,170,1,100", "0,many,1,100", "lv_volume_ml in data row 1 is many"),
         ("0,170,1,100", ",170,1,100", "time_s in data row 1 is empty"),
         ("0,170,1,100", "0.04,170,1,100", "expected increasing times"),
-        ("lv_pressure_kpa", "lv_volume_ml", "c.csv: unknown column lv_volume_ml.1"),
+        ("lv_pressure_kpa", "lv_volume_ml", "c.csv: column lv_volume_ml stands there twice"),
         ("0,170,1,100", "0,170,120,100", "c.csv: pressure: values from .* to 120000 Pa.* mmHg taken for kPa"),
         ("0,170,1,100", "0,0.17,1,100", "c.csv: volume: values from 1.7e-07"),
     ],
@@ -93,7 +93,7 @@ def test_a_pressure_in_millimetres_of_mercury_is_told(tmp_path: Path) -> None:
 def test_a_file_without_curves_is_refused(tmp_path: Path, content: str) -> None:
     path = tmp_path / "c.csv"
     path.write_text(content)
-    with pytest.raises(InputError, match="expected a"):
+    with pytest.raises(InputError, match="expected"):
         read_curves(path)
     with pytest.raises(InputError, match="no such file"):
         read_curves(tmp_path / "absent.csv")

@@ -39,7 +39,7 @@ def test_empty_cells_are_other_times_and_beats_may_follow(tmp_path):
         ("time_s,lv_volume", [(k * 0.05, 10) for k in range(20)], 0.9, "did you mean lv_volume_ml"),
         ("lv_volume_ml", [(100,)], 0.9, "no column time_s"),
         ("time_s;lv_volume_ml", [("0,05;100",)], 0.9, "no commas between columns"),
-        ("time_s,lv_volume_ml", [(0.0, 100), (0.05, 100, 7)], 0.9, "not a CSV table"),
+        ("time_s,lv_volume_ml", [(0.0, 100), (0.05, 100, 7)], 0.9, "3 cells, expected 2"),
         ("time_s,lv_volume_ml", [(50 * k, 100 + k) for k in range(20)], 0.9, "milliseconds"),
         ("time_s,lv_volume_ml", [(k * 0.05, 120) for k in range(20)], 0.9, "expected a curve that beats"),
         ("time_s,lv_volume_ml", [(k * 0.05, 20 - k) for k in range(40)], 0.9, "volume: values from -1.9e-05"),
@@ -61,5 +61,5 @@ def test_a_mark_of_the_byte_order_and_letters_in_comments_are_no_obstacle(tmp_pa
     path.write_bytes(b"\xef\xbb\xbf" + text.encode())
     assert read_recording(path).period == 0.9
     path.write_bytes(text.encode("latin-1"))
-    with pytest.raises(InputError, match="not a CSV table"):
+    with pytest.raises(InputError, match="not UTF-8"):
         read_recording(path)

@@ -1,37 +1,39 @@
 """A row of the table of cases."""
 
 from collections.abc import Mapping
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
-from pydantic import Field, PositiveFloat, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
+from heartfit.configuration.fields import Name, Seed
 from heartfit.configuration.strict import Strict
 from heartfit.geometry.parametric import ParametricVentricles
 from heartfit.mechanism import Mechanism, Sensor, registered
 
 SHAPE = ("edv", "wall_thickness", "sphericity", "rv_edv", "rv_wall_thickness")
+Factor = Annotated[float, Field(gt=0, lt=20)]
 HIDDEN = ("sigma_0", "mu", "c_1", "R_p")
 
 
 class Case(Strict):
     """A subject; a virtual one also says its shape, its hidden parameters and the seed of all else that is hidden."""
 
-    case: str = Field(pattern=r"^[A-Za-z][A-Za-z0-9-]*$")
+    case: Name = Field(pattern="^[^_]*$")
     kind: Literal["measured", "virtual"]
     period: float = Field(gt=0.3, lt=2.0, description="s")
     conduction: Literal["healthy", "lbbb"] = Field("healthy", description="where depolarisation starts")
     qrs: float | None = Field(None, gt=0.05, lt=0.3, description="s, duration of the QRS complex")
     catheter: bool = Field(False, description="whether the pressure of the left ventricle is recorded")
-    seed: int | None = None
+    seed: Seed | None = None
     edv: float | None = Field(None, gt=5e-5, lt=4e-4, description="m^3")
     wall_thickness: float | None = Field(None, gt=4e-3, lt=25e-3, description="m")
     sphericity: float | None = Field(None, gt=1, lt=3, description="long axis over diameter")
     rv_edv: float | None = Field(None, gt=5e-5, lt=4e-4, description="m^3")
     rv_wall_thickness: float | None = Field(None, gt=1e-3, lt=1e-2, description="m")
-    sigma_0: PositiveFloat | None = Field(None, description="over the cohort's mean, as the next three")
-    mu: PositiveFloat | None = None
-    c_1: PositiveFloat | None = None
-    R_p: PositiveFloat | None = None
+    sigma_0: Factor | None = Field(None, description="over the cohort's mean, as the next three")
+    mu: Factor | None = None
+    c_1: Factor | None = None
+    R_p: Factor | None = None
     plant: str | None = Field(
         None, description="a mechanism that a virtual heart has and the calibrator lacks"
     )

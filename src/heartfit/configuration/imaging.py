@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 from typing import Any, Self
 
-from pydantic import Field, PositiveInt, model_validator
+from pydantic import Field, model_validator
 
 from heartfit.cohort.catheter import Catheter
 from heartfit.cohort.scanner import Contrast, Scanner
+from heartfit.configuration.fields import MOST, Count, Seed
 from heartfit.configuration.generator import Generator
 from heartfit.configuration.strict import Strict
 from heartfit.observation.noise_model import FEWEST_SEQUENCES
@@ -47,7 +48,7 @@ class Acquisition(Strict):
     subvoxel: float = Field(
         default=Scanner.subvoxel, gt=1e-4, lt=0.01, description="m, what a voxel averages"
     )
-    subframes: PositiveInt = Scanner.subframes
+    subframes: int = Field(default=Scanner.subframes, ge=1, le=100)
     contrast: ImageContrast = ImageContrast()
 
     def scanner(self) -> Scanner:
@@ -74,7 +75,7 @@ class Registration(Strict):
     stiffness: float = Field(default=FreeForm.stiffness, gt=0, description="m^2")
     incompressibility: float = Field(default=FreeForm.incompressibility, ge=0)
     reach: float = Field(default=FreeForm.reach, gt=0, lt=0.05, description="m, beyond the wall")
-    levels: tuple[tuple[PositiveInt, PositiveInt], ...] = Field(
+    levels: tuple[tuple[Count, Count], ...] = Field(
         default=FreeForm.levels, min_length=1, description="voxels of a block, most steps"
     )
 
@@ -93,10 +94,10 @@ class RegistrationError(Generator):
     seen, to try it on.
     """
 
-    sequences: int = Field(ge=FEWEST_SEQUENCES, description="hearts imaged by the cohort's protocol")
-    varied_sequences: PositiveInt = Field(description="hearts imaged by each other protocol")
-    fresh: PositiveInt = Field(description="further hearts imaged by the cohort's protocol")
-    seed: int = Field(description="from which on the hearts are drawn")
+    sequences: int = Field(ge=FEWEST_SEQUENCES, le=MOST, description="hearts imaged by the cohort's protocol")
+    varied_sequences: Count = Field(description="hearts imaged by each other protocol")
+    fresh: Count = Field(description="further hearts imaged by the cohort's protocol")
+    seed: Seed = Field(description="from which on the hearts are drawn")
     varied: dict[str, tuple[float, ...]] = Field({}, description="other values by setting of the scanner")
 
     @model_validator(mode="after")

@@ -1,6 +1,6 @@
 """How finely space and time are divided."""
 
-from pydantic import Field, PositiveInt
+from pydantic import Field
 
 from heartfit.configuration.strict import Strict
 from heartfit.simulation import Numerics
@@ -18,7 +18,7 @@ class TimeScheme(Strict):
 
     time_step: float = Field(gt=1e-5, le=0.02, description="s")
     second_order: bool = Field(True, description="BDF2 and midpoints of the fibres, or backward Euler")
-    max_beats: PositiveInt
+    max_beats: int = Field(ge=1, le=1000)
     drift: float = Field(gt=0, lt=1, description="largest relative change from beat to beat")
 
     def numerics(self) -> Numerics:

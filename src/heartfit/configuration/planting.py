@@ -4,8 +4,9 @@ from collections.abc import Collection, Iterable
 from itertools import chain
 from typing import Self
 
-from pydantic import Field, NonNegativeInt, PositiveFloat, PositiveInt, model_validator
+from pydantic import Field, PositiveFloat, model_validator
 
+from heartfit.configuration.fields import MOST, Count, Inside
 from heartfit.configuration.generator import Generator
 from heartfit.configuration.strict import Strict
 from heartfit.planting.campaign import Campaign, Kind, Plan, Reloaded
@@ -19,10 +20,12 @@ SCORING = 100000
 class VentricularBenchmark(Strict):
     """The same in three dimensions: effects hidden in ventricles, searched on a sphere centred on one beat."""
 
-    first_seed: int = Field(ge=SCORING, description="of the first case; each further one has the next")
-    nulls: PositiveInt
+    first_seed: int = Field(
+        ge=SCORING, lt=1 << 63, description="of the first case; each further one has the next"
+    )
+    nulls: Count
     effects: tuple[str, ...] = Field(min_length=1, description="mechanisms that are hidden, by name")
-    each: PositiveInt = Field(description="cases of each effect")
+    each: Count = Field(description="cases of each effect")
     outsiders: tuple[str, ...] = Field((), description="effects outside the library, one case each")
     pairs: tuple[tuple[str, str], ...] = Field((), description="two mechanisms in one heart, one case each")
     scales: PositiveFloat = Field(description="size, in scales of the mechanism")
@@ -30,7 +33,7 @@ class VentricularBenchmark(Strict):
     diagnoser: Generator = Field(description="of the one beat on which the sphere is centred")
     setting: str = Field(description="of that beat, at the mean of its prior")
     heart: dict[str, float] = Field({}, description="parameters of that beat that the setting has otherwise")
-    page: str = Field(description="folder of the page; its figures go into `figures` there")
+    page: Inside = Field(description="folder of the page; its figures go into `figures` there")
     claims: str = Field(description="table of what the rates are claimed to be")
 
     @model_validator(mode="after")
@@ -54,8 +57,8 @@ class VentricularBenchmark(Strict):
 class ReloadedBenchmark(Strict):
     """Hearts that are searched by volume alone, and with another condition, too."""
 
-    nulls: NonNegativeInt = Field(description="the first so many")
-    singles: NonNegativeInt = Field(description="the first so many of one size")
+    nulls: int = Field(ge=0, le=MOST, description="the first so many")
+    singles: int = Field(ge=0, le=MOST, description="the first so many of one size")
     scales: PositiveFloat = Field(description="that size, in scales of the mechanism")
 
 
@@ -68,17 +71,19 @@ def _require_known(names: Iterable[str], known: Collection[str]) -> None:
 class DiscoveryBenchmark(Strict):
     """Counts of hidden hearts by kind: a single and an outsider of each effect and size, nulls and pairs in all."""
 
-    first_seed: int = Field(ge=SCORING, description="of the first case; each further one has the next")
-    nulls: PositiveInt
-    singles: PositiveInt = Field(description="of each mechanism and size")
+    first_seed: int = Field(
+        ge=SCORING, lt=1 << 63, description="of the first case; each further one has the next"
+    )
+    nulls: Count
+    singles: Count = Field(description="of each mechanism and size")
     scales: tuple[PositiveFloat, ...] = Field(min_length=1, description="sizes, in scales of the mechanism")
-    outsiders: PositiveInt = Field(description="of each effect outside the library and size")
-    pairs: PositiveInt
+    outsiders: Count = Field(description="of each effect outside the library and size")
+    pairs: Count
     pair_scales: PositiveFloat
     reloaded: ReloadedBenchmark
-    cases: PositiveInt | None = Field(None, description="only the first so many, a fair sample of all")
-    batch: PositiveInt = Field(description="cases of a job")
-    page: str = Field(description="folder of the page; its figures go into `figures` there")
+    cases: Count | None = Field(None, description="only the first so many, a fair sample of all")
+    batch: Count = Field(description="cases of a job")
+    page: Inside = Field(description="folder of the page; its figures go into `figures` there")
     claims: str = Field(description="table of what the rates are claimed to be")
     ventricles: VentricularBenchmark
 

@@ -3,6 +3,7 @@
 from pydantic import Field, PositiveFloat, field_validator
 
 from heartfit.calibration.unscented import Scaling
+from heartfit.configuration.fields import Seed
 from heartfit.configuration.strict import Strict
 from heartfit.heart import FOURTEEN
 from heartfit.sensitivity.covariance import surrounding
@@ -11,8 +12,8 @@ from heartfit.sensitivity.covariance import surrounding
 class SphereStudy(Strict):
     """Sobol's indices of the same subject as a sphere."""
 
-    samples: int = Field(default=256, ge=16, description="base samples, a power of two")
-    seed: int = 0
+    samples: int = Field(default=256, ge=16, le=1 << 16, description="base samples, a power of two")
+    seed: Seed = 0
     heart: dict[str, PositiveFloat] = Field(default={}, description="prior means that differ, for a sphere")
 
     @field_validator("samples")

@@ -48,6 +48,8 @@ class Setting(Strict):
             heart.with_parameters(self.heart)
         except KeyError as unknown:
             raise ValueError(str(unknown.args[0])) from None
+        if len(set(self.mechanisms)) < len(self.mechanisms):
+            raise ValueError(f"{', '.join(self.mechanisms)}: a mechanism is added twice; name each once")
         estimated = (*self.estimate, *self.with_pressure)
         both = sorted(set(estimated) & set(self.heart))
         if both:

@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Self
 
-from pydantic import Field, PositiveFloat, PositiveInt, model_validator
+from pydantic import Field, PositiveFloat, model_validator
 
+from heartfit.configuration.fields import MOST, Count, Seed
 from heartfit.configuration.numerics import TimeScheme
 from heartfit.configuration.setting import Prior, Setting
 from heartfit.configuration.strict import Strict
@@ -17,11 +18,11 @@ if TYPE_CHECKING:
 class SphereStudy(Strict):
     """How many hearts, of which shape, how well measured, and what is estimated of them."""
 
-    hearts: PositiveInt = Field(description="on which methods are compared")
-    covered: PositiveInt = Field(description="whose intervals are counted")
-    seed: int
-    simulations: int = Field(ge=30, description="most that a method may take on a heart")
-    steps: PositiveInt = Field(description="most repetitions of the unscented step")
+    hearts: Count = Field(description="on which methods are compared")
+    covered: Count = Field(description="whose intervals are counted")
+    seed: Seed
+    simulations: int = Field(ge=30, le=MOST, description="most that a method may take on a heart")
+    steps: Count = Field(description="most repetitions of the unscented step")
     period: float = Field(gt=0.3, lt=2.0, description="s")
     cavity: float = Field(gt=5e-5, lt=4e-4, description="m^3, at end diastole")
     wall: float = Field(gt=2e-5, lt=4e-4, description="m^3")

@@ -2,17 +2,30 @@
 
 from collections.abc import Mapping
 from difflib import get_close_matches
+from reprlib import Repr
 from typing import Any, TypeVar, get_args
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
 
 from heartfit.errors import InputErrors
 
+SHORT = Repr()
+SHORT.maxstring = SHORT.maxother = 60
+
 
 class Strict(BaseModel):
-    """A frozen table; an unknown key is an error."""
+    """A frozen table of finite numbers; an unknown key is an error, and so is a truth where a number belongs."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _a_truth_is_no_number(cls, value: Any, field: ValidationInfo) -> Any:
+        """YAML takes yes, no, on and off for truths, and pydantic these for 1 and 0."""
+        wanted = cls.model_fields[field.field_name or ""].annotation
+        if _table_in(wanted) is None and not _holds(wanted, bool) and _is_true_or_false(value):
+            raise ValueError(f"{SHORT.repr(value)} says yes or no; expected a number or a text: correct it")
+        return value
 
 
 T = TypeVar("T", bound=Strict)
@@ -27,15 +40,36 @@ def validated(kind: type[T], content: Mapping[str, Any], where: str) -> T:
 
 
 def _line(kind: type[Strict], error: dict[str, Any]) -> str:
-    place = ".".join(map(str, error["loc"]))
+    place = ".".join(_short(str(key)) for key in error["loc"])
     if error["type"] == "extra_forbidden":
         return f"unknown key {place}; {_nearest(kind, error['loc'])}"
     if error["type"] == "missing":
         return f"{place} is missing; add it"
+    if error["type"] == "invalid_key":
+        return f"key {place} is no text; expected a name: correct it"
     problem = error["msg"].removeprefix("Value error, ")
     if not place or error["type"] == "value_error":
         return f"{place}: {problem}".removeprefix(": ")
-    return f"{place} = {error['input']!r}: {problem[0].lower()}{problem[1:]}; correct it"
+    return f"{place} = {SHORT.repr(error['input'])}: {problem[0].lower()}{problem[1:]}; correct it"
+
+
+def _short(key: str) -> str:
+    return key if len(key) <= SHORT.maxstring else f"{key[: SHORT.maxstring]}..."
+
+
+def _is_true_or_false(value: Any) -> bool:
+    inner = (
+        value.values()
+        if isinstance(value, Mapping)
+        else value
+        if isinstance(value, list | tuple)
+        else [value]
+    )
+    return any(isinstance(each, bool) for each in inner)
+
+
+def _holds(annotation: Any, kind: type) -> bool:
+    return annotation is kind or any(_holds(each, kind) for each in get_args(annotation))
 
 
 def _nearest(kind: type[Strict], place: tuple[Any, ...]) -> str:

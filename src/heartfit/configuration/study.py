@@ -1,7 +1,6 @@
 """A whole study: meshes, numerics, observation, transform, cohort and settings."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import Field, field_validator, model_validator
@@ -9,6 +8,7 @@ from pydantic import Field, field_validator, model_validator
 from heartfit.cohort.scanner import Scanner
 from heartfit.configuration.case import Case
 from heartfit.configuration.discovery import Discovery
+from heartfit.configuration.fields import Inside, Name
 from heartfit.configuration.generator import Generator, Pressures
 from heartfit.configuration.imaging import (
     BASELINE,
@@ -42,7 +42,7 @@ class Cohort(Generator):
 class Study(Strict):
     """Everything config/config.yaml says."""
 
-    results: str = Field(
+    results: Inside = Field(
         "results", description="folder of all that is computed, within the working directory"
     )
     cases: str = Field(description="table of the cases")
@@ -65,17 +65,7 @@ class Study(Strict):
     discovery_benchmark: DiscoveryBenchmark
     discovery: Discovery = Discovery()
     prior: dict[str, Prior] = Field({}, description="where it differs from the declared one")
-    settings: dict[str, Setting] = Field(min_length=1, description="null leaves out one that stands below")
-
-    @field_validator("results")
-    @classmethod
-    def _stays_inside(cls, results: str) -> str:
-        path = PurePath(results)
-        if path.is_absolute() or ".." in path.parts or not path.parts:
-            raise ValueError(
-                f"{results!r} is not within the working directory; give a relative path without .."
-            )
-        return results
+    settings: dict[Name, Setting] = Field(min_length=1, description="null leaves out one that stands below")
 
     @field_validator("settings", mode="before")
     @classmethod
@@ -96,6 +86,12 @@ class Study(Strict):
         for name in self.discovery.settings:
             if name not in self.settings:
                 raise ValueError(f"discovery of {name!r}; known settings are {', '.join(self.settings)}")
+        asked = "element" in self.discovery.model_fields_set
+        if asked and self.discovery.element.setting not in self.settings:
+            known = ", ".join(self.settings)
+            raise ValueError(
+                f"discovery.element of {self.discovery.element.setting!r}; known settings are {known}"
+            )
         searched = self.discovery_benchmark.ventricles.setting
         if searched not in self.settings:
             known = ", ".join(self.settings)

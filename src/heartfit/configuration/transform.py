@@ -1,9 +1,9 @@
 """How curves are observed, and the numbers of the unscented transform."""
 
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Self
 
-from pydantic import Field, PositiveFloat
+from pydantic import Field, PositiveFloat, model_validator
 
 from heartfit.calibration.unscented import Scaling
 from heartfit.configuration.strict import Strict
@@ -15,10 +15,15 @@ from heartfit.observation.vector import operators
 class Operator(Strict):
     """How volume curves are observed; see heartfit.observation.operator."""
 
-    frames: int = Field(ge=8)
+    frames: int = Field(ge=8, le=1000)
     window: int = Field(ge=3, description="frames of the smoothing filter, odd")
     order: int = Field(ge=1)
     period_uncertainty: float = Field(ge=0, lt=0.5, description="relative standard deviation")
+
+    @model_validator(mode="after")
+    def _can_be_applied(self) -> Self:
+        self.trial_features(self.frames)
+        return self
 
     def features(self, measured: Mapping[str, Curve]) -> dict[str, CurveFeatures]:
         """The operator of each curve that is observed: the LV's volume, and its pressure where measured."""

@@ -1,35 +1,36 @@
-"""Reads the table of cases."""
+"""Reads the table of cases, whose columns say their unit: period_s, edv_ml, wall_thickness_mm."""
 
-import csv
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from heartfit.configuration.case import Case
 from heartfit.configuration.strict import validated
 from heartfit.errors import InputError, require_none
+from heartfit.io.cells import number, read_cells
 
-UNITS = {"_ms": 1e-3, "_s": 1.0, "_ml": 1e-6, "_mm": 1e-3}
+TIMES, VOLUMES, LENGTHS = {"s": 1.0, "ms": 1e-3}, {"ml": 1e-6}, {"mm": 1e-3}
+UNITS = {
+    **dict.fromkeys(("period", "qrs"), TIMES),
+    **dict.fromkeys(("edv", "rv_edv"), VOLUMES),
+    **dict.fromkeys(("wall_thickness", "rv_wall_thickness"), LENGTHS),
+}
+COLUMNS = {
+    f"{name}_{unit}": (name, factor) for name, units in UNITS.items() for unit, factor in units.items()
+}
 
 
 def read_cases(path: Path) -> list[Case]:
-    """The rows of a table of cases, whose columns say their unit: period_s, edv_ml, wall_thickness_mm.
-
-    Raises InputErrors, a line for each mistake in it.
-    """
+    """The rows of a table of cases; raises InputErrors, a line for each mistake in it."""
     cases, problems = read_rows(path)
     require_none(problems)
     return cases
 
 
 def read_rows(path: Path) -> tuple[list[Case], list[str]]:
-    """The rows that are in order, and a line for each mistake in the others; raises InputError for a missing file."""
-    if not path.is_file():
-        raise InputError(
-            f"{path}: no such file; expected a table of cases: correct `cases` in the configuration"
-        )
-    with path.open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file, delimiter="\t"))
+    """The rows that are in order, and a line for each mistake in the others; raises InputError for what is no table."""
+    cells = read_cells(path, "\t", "a table of cases, separated by tabs")
+    require_none(problem for column in cells if (problem := _unit_problem(path, column)))
+    rows = [dict(zip(cells, row, strict=True)) for row in zip(*cells.values(), strict=True)]
     cases: list[Case] = []
     problems: list[str] = []
     for line, row in enumerate(rows, start=2):
@@ -43,18 +44,26 @@ def read_rows(path: Path) -> tuple[list[Case], list[str]]:
     return cases, problems or ([] if rows else [f"{path}: no case; add a row"])
 
 
-def _in_si(row: Mapping[str, str | None]) -> dict[str, Any]:
-    """Column names without their unit, numbers in SI, text that is no number as it is, empty cells left out."""
+def _unit_problem(path: Path, column: str) -> str:
+    for name, units in UNITS.items():
+        if column not in COLUMNS and (column == name or column.startswith(f"{name}_")):
+            known = " or ".join(f"{name}_{unit}" for unit in units)
+            return f"{path}: column {column} says no unit that is known; expected {known}: rename it"
+    return ""
+
+
+def _in_si(row: dict[str, str]) -> dict[str, Any]:
+    """The cells that are not empty by name, numbers in SI where the column has a unit, text that is none as it is."""
     content: dict[str, Any] = {}
     for column, text in row.items():
-        unit = next((unit for unit in UNITS if column.endswith(unit)), "")
-        if text:
-            content[column.removesuffix(unit)] = _in_metres_and_seconds(text, unit) if unit else text
+        name, factor = COLUMNS.get(column, (column, None))
+        if text.strip():
+            content[name] = text.strip() if factor is None else _scaled(text, factor)
     return content
 
 
-def _in_metres_and_seconds(text: str, unit: str) -> float | str:
+def _scaled(text: str, factor: float) -> float | str:
     try:
-        return float(text) * UNITS[unit]
+        return factor * number(text)
     except ValueError:
         return text  # which is refused with the rest of the row

@@ -1,32 +1,67 @@
-"""The cells of a CSV table as they are written, by column."""
+"""The cells of a table as they are written, by column, and the numbers in them."""
 
+import csv
 import re
+from math import isinf
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from heartfit.errors import InputError
+from heartfit.io.text import MEGABYTE, read_text
 
-if TYPE_CHECKING:
-    import pandas as pd  # 0.2 s to import, and what only writes does without
+LARGEST = 64 * MEGABYTE
+"""Ten minutes of four signals at 1 kHz take a third of it."""
+
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
+SEPARATORS = {",": "commas", "\t": "tabs"}
 
 
-def read_cells(path: Path) -> "pd.DataFrame":
-    """Text by column; lines that begin with # are remarks. Raises InputError for what is no table with commas."""
-    import pandas as pd
+def read_cells(path: Path, separator: str = ",", expected: str = "curves as CSV") -> dict[str, list[str]]:
+    """Text by column; empty lines, and those that begin with #, are remarks.
 
-    if not Path(path).is_file():
-        raise InputError(f"{path}: no such file; expected curves as CSV: correct the path")
+    Raises InputError for what is no text, a table of other separators, a column that has no name or the name of
+    another, and a row with more or fewer cells than there are columns.
+    """
+    lines = [line for line in read_text(path, expected, LARGEST).split("\n") if _counts(line)]
     try:
-        table = pd.read_csv(
-            path, comment="#", skipinitialspace=True, dtype=str, keep_default_na=False, encoding="utf-8-sig"
-        )
-    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
-        said = " ".join(str(error).split())
+        header, *rows = csv.reader(lines, delimiter=separator, skipinitialspace=True, strict=True)
+    except csv.Error as fault:
+        raise InputError(f"{path}: not a table ({fault}); expected {expected}: export it anew") from None
+    except ValueError:  # nothing to unpack
+        raise InputError(f"{path}: empty; expected {expected}: export it anew") from None
+    names = [name.strip() for name in header]
+    _require_columns(path, names, separator)
+    _require_even(path, names, rows)
+    columns = [list(column) for column in zip(*rows, strict=True)] or [[] for _ in names]
+    return dict(zip(names, columns, strict=True))
+
+
+def number(text: str) -> float:
+    """The number that a cell holds; raises ValueError for NaN and infinity, and what only Python takes for one."""
+    if not NUMBER.fullmatch(text.strip()) or isinf(value := float(text)):
+        raise ValueError(f"{text or 'empty'}; expected a finite number")
+    return value
+
+
+def _counts(line: str) -> bool:
+    return bool(line.strip(" \r")) and not line.lstrip().startswith("#")
+
+
+def _require_columns(path: Path, names: list[str], separator: str) -> None:
+    if len(names) == 1 and re.search(r"[;,\t]", names[0]):
         raise InputError(
-            f"{path}: not a CSV table ({said}); expected a header such as time_s,lv_volume_ml"
-        ) from error
-    if len(table.columns) == 1 and re.search(r"[;\t]", table.columns[0]):
-        raise InputError(
-            f"{path}: no commas between columns; expected these, and points in numbers: export it anew"
+            f"{path}: no {SEPARATORS[separator]} between columns; expected these, and points in numbers: export it anew"
         )
-    return table
+    for place, name in enumerate(names, start=1):
+        if not name:
+            raise InputError(f"{path}: column {place} has no name; expected one with its unit: name it")
+        if name in names[: place - 1]:
+            raise InputError(f"{path}: column {name} stands there twice; leave one out")
+
+
+def _require_even(path: Path, names: list[str], rows: list[list[str]]) -> None:
+    for place, row in enumerate(rows, start=1):
+        if len(row) != len(names):
+            raise InputError(
+                f"{path}: data row {place} has {len(row)} cells, expected {len(names)} as there are columns; correct "
+                "the row (is the decimal sign a comma?)"
+            )

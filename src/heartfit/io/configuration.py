@@ -6,11 +6,10 @@ from functools import reduce
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from heartfit.configuration.strict import validated
 from heartfit.configuration.study import Study
 from heartfit.errors import InputError
+from heartfit.io.plain_yaml import read_yaml
 
 
 def read_study(paths: Sequence[Path]) -> Study:
@@ -20,7 +19,7 @@ def read_study(paths: Sequence[Path]) -> Study:
 
 def read_configuration(paths: Sequence[Path]) -> dict[str, Any]:
     """What the files say together, later ones over earlier ones, as Snakemake's --configfile does."""
-    return reduce(_layered, map(_read_yaml, paths), {})
+    return reduce(_layered, map(_read_table, paths), {})
 
 
 def schema() -> str:
@@ -28,13 +27,8 @@ def schema() -> str:
     return json.dumps(Study.model_json_schema(), indent=1) + "\n"
 
 
-def _read_yaml(path: Path) -> dict[str, Any]:
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; expected a configuration in YAML: correct the path")
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
-    except yaml.YAMLError as error:
-        raise InputError(f"{path}: not YAML: {' '.join(str(error).split())}; correct it") from None
+def _read_table(path: Path) -> dict[str, Any]:
+    content = read_yaml(path) or {}
     if not isinstance(content, dict):
         raise InputError(
             f"{path}: holds a {type(content).__name__}; expected keys and values such as `cases: ...`"

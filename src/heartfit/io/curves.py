@@ -12,17 +12,14 @@ import re
 from collections.abc import Mapping
 from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
-from heartfit.io.cells import read_cells
+from heartfit.io.cells import LARGEST, number, read_cells
+from heartfit.io.text import read_text
 from heartfit.observation.curve import Curve
-
-if TYPE_CHECKING:
-    import pandas as pd  # 0.2 s to import, and what only writes does without
 
 UNITS = {"volume": ("ml", 1e-6), "pressure": ("kpa", 1e3), "flow": ("ml_per_s", 1e-6)}
 PLACES = {
@@ -33,6 +30,7 @@ PLACES = {
 KINDS = {f"{place}_{kind}": kind for kind, places in PLACES.items() for place in places}
 COLUMNS = {f"{name}_{UNITS[kind][0]}": name for name, kind in KINDS.items()}
 COLUMNS["aortic_pressure_kpa"] = "aorta_pressure"  # as it is spoken
+PERIOD = re.compile(r"^#\s*period_s\s*=\s*(.*?)\s*$", re.MULTILINE)
 FLOW = re.compile(r"(\w+_flow)_ml_per_s")  # any branch: a mechanism may add one
 
 
@@ -77,8 +75,7 @@ def read_table_of_curves(
 
 def read_sampled(path: Path, period: float | None) -> tuple[np.ndarray, dict[str, np.ndarray], float]:
     """What :func:`read_table_of_curves` returns, NaN where a cell is empty."""
-    table = _read_csv(path)
-    numbers = {column: _numbers(path, table[column]) for column in table.columns}
+    numbers = {column: _numbers(path, column, cells) for column, cells in _table(path).items()}
     values = {
         name: array * UNITS[kind_of(name)][1]
         for column, array in numbers.items()
@@ -120,48 +117,48 @@ def read_curves(path: Path, period: float | None = None) -> dict[str, Curve]:
         raise InputError(f"{path}: {error}") from error
 
 
-def _read_csv(path: Path) -> "pd.DataFrame":
+def _table(path: Path) -> dict[str, list[str]]:
     table = read_cells(path)
-    if "time_s" not in table.columns:
+    if "time_s" not in table:
         raise InputError(
-            f"{path}: no column time_s among {', '.join(table.columns)}; expected times in seconds: name it "
-            "time_s"
+            f"{path}: no column time_s among {', '.join(table)}; expected times in seconds: name it time_s"
         )
-    if len(table.columns) == 1:
+    if len(table) == 1:
         raise InputError(f"{path}: no curve beside time_s; expected a column such as lv_volume_ml")
     return table
 
 
-def _numbers(path: Path, column: "pd.Series") -> np.ndarray:
+def _numbers(path: Path, column: str, cells: list[str]) -> np.ndarray:
     """The numbers of a column, NaN where it is empty, as all may be but the times."""
-    import pandas as pd
-
-    if column.name != "time_s" and _name_of(str(column.name)) is None:
-        near = difflib.get_close_matches(str(column.name).lower(), COLUMNS, n=1, cutoff=0.0)
+    if column != "time_s" and _name_of(column) is None:
+        near = difflib.get_close_matches(column.lower(), COLUMNS, n=1, cutoff=0.0)
         raise InputError(
-            f"{path}: unknown column {column.name}; did you mean {near[0]}? Rename it or leave it out"
+            f"{path}: unknown column {column}; did you mean {near[0]}? Rename it or leave it out"
         )
-    numbers = pd.to_numeric(column, errors="coerce").to_numpy(float)
-    empty = (column.str.strip() == "").to_numpy() & (column.name != "time_s")
-    bad = np.flatnonzero(~np.isfinite(numbers) & ~empty)
-    if bad.size:
-        raise InputError(
-            f"{path}: {column.name} in data row {bad[0] + 1} is {column.iloc[bad[0]] or 'empty'}; expected a finite "
-            "number: fill or drop the row"
-        )
-    return numbers
+    values = np.full(len(cells), np.nan)
+    for row, cell in enumerate(cells):
+        if cell.strip() or column == "time_s":
+            try:
+                values[row] = number(cell)
+            except ValueError as fault:
+                raise InputError(
+                    f"{path}: {column} in data row {row + 1} is {fault}: fill or drop the row"
+                ) from None
+    return values
 
 
 def stated_period(path: Path) -> float | None:
-    """The period, s, that a file of curves states, if it does; raises InputError for a missing file."""
-    if not Path(path).is_file():
-        raise InputError(f"{path}: no such file; expected curves as CSV: correct the path")
-    found = re.search(
-        r"^#\s*period_s\s*=\s*([0-9.eE+-]+)\s*$",
-        Path(path).read_text(encoding="utf-8-sig", errors="replace"),
-        re.MULTILINE,
-    )
-    return float(found[1]) if found else None
+    """The period, s, that a file of curves states, if it does; raises InputError for what is no period, or two."""
+    found = set(PERIOD.findall(read_text(path, "curves as CSV", LARGEST)))
+    try:
+        periods = {number(text) for text in found}
+    except ValueError as fault:
+        raise InputError(f"{path}: period_s is {fault}, such as '# period_s = 0.829': correct it") from None
+    if len(periods) > 1:
+        raise InputError(
+            f"{path}: period_s is stated as {' and '.join(sorted(found))}; expected one: correct it"
+        )
+    return periods.pop() if periods else None
 
 
 def _period(path: Path) -> float:

@@ -11,8 +11,10 @@ from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
 from heartfit.io.atomic import write_text
 from heartfit.io.image_file import stem
+from heartfit.io.text import read_json
 
 KEYS = ("period_s", "times_s")
+EXPECTED = '{"period_s": a number, "times_s": a list of numbers}'
 LONGEST_GAP = 1.5
 """Of two frames, relative to the median; beyond it one is missing."""
 
@@ -39,7 +41,7 @@ def read_sidecar(path: Path) -> Timing:
     if not file.is_file():
         return Timing()
     try:
-        content = json.loads(file.read_text(encoding="utf-8"))
+        content = read_json(file, EXPECTED)
         _require_known(file, content)
         period, times = (content.get(key) for key in KEYS)
         return Timing(
@@ -48,8 +50,7 @@ def read_sidecar(path: Path) -> Timing:
     except (ValueError, TypeError, AttributeError) as fault:
         if isinstance(fault, InputError):
             raise
-        expected = 'expected {"period_s": a number, "times_s": a list of numbers}'
-        raise InputError(f"{file}: {fault}; {expected}") from None
+        raise InputError(f"{file}: {fault}; expected {EXPECTED}") from None
 
 
 def _require_known(file: Path, content: dict[str, object]) -> None:

@@ -11,6 +11,7 @@ from heartfit.configuration.strict import validated
 from heartfit.configuration.study import Study
 from heartfit.errors import InputError, require_none
 from heartfit.io.cases import read_cases
+from heartfit.io.inside import require_inside
 from heartfit.io.sources import Subject, examine, with_cine
 
 
@@ -41,6 +42,7 @@ def plan_study(content: Mapping[str, Any], where: str = "configuration", thoroug
 def outline(content: Mapping[str, Any], where: str = "configuration") -> Plan:
     """The plan as configuration and table of cases alone tell it; raises InputErrors."""
     study = validated(Study, content, where)
+    require_inside(Path(study.results), "results")
     given = {case.case: case for case in read_cases(Path(study.cases))}
     require_none(_contradictions(study, given))
     folder = next((Path(each) for each in study.measured_heart if Path(each).is_dir()), None)
@@ -83,7 +85,12 @@ def _contradictions(study: Study, cases: Mapping[str, Case]) -> list[str]:
         for name in measured
         if cases[name].catheter and (name not in study.sources or study.sources[name].pressure is None)
     ]
-    return strangers + silent
+    nobody = [
+        f"discovery.cases: {name!r} is no case of {study.cases}; known are {', '.join(cases)}: correct it"
+        for name in study.discovery.cases
+        if name not in cases
+    ]
+    return strangers + silent + nobody
 
 
 def _require_reference(study: Study, cases: Mapping[str, Case]) -> None:

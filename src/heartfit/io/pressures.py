@@ -6,19 +6,15 @@ time_s,lv_pressure_mmhg,ecg
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from heartfit.configuration.source import RecordedPressure
 from heartfit.errors import InputError
-from heartfit.io.cells import read_cells
+from heartfit.io.cells import number, read_cells
 from heartfit.observation.recorded_pressure import AveragedPressure, PressureTrace, average_beats
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 PASCAL = {"mmhg": 133.322368, "kpa": 1e3}
 SECOND = {"s": 1.0, "ms": 1e-3}
@@ -92,14 +88,14 @@ def _unit(column: str) -> str:
     return found[1].lower() if found else ""
 
 
-def _numbers(path: Path, cells: "pd.DataFrame", column: str) -> np.ndarray:
+def _numbers(path: Path, cells: Mapping[str, Sequence[str]], column: str) -> np.ndarray:
     texts, numbers = cells[column], np.empty(len(cells[column]))
     for row, text in enumerate(texts):
         try:
-            numbers[row] = float(text)
-        except ValueError:
+            numbers[row] = number(text)
+        except ValueError as fault:
             raise InputError(
-                f"{path}: {column} in data row {row + 1} is {text or 'empty'}; expected a number: fill or drop the row"
+                f"{path}: {column} in data row {row + 1} is {fault}: fill or drop the row"
             ) from None
     return numbers
 

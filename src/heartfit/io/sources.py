@@ -110,7 +110,7 @@ def _read_images(case: Case, source: Source, heart: MeasuredHeart | None) -> Ima
 
 
 def _read_pressure(case: Case, source: Source) -> AveragedPressure | None:
-    from heartfit.io.pressures import read_pressure  # pandas, which most jobs do without
+    from heartfit.io.pressures import read_pressure
 
     return None if source.pressure is None else read_pressure(source.pressure, case.period)
 

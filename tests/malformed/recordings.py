@@ -1,0 +1,143 @@
+"""Recordings that are wrong."""
+
+from pathlib import Path
+
+from tests.malformed.case import Content, Malformed
+from tests.malformed.sound import recording
+
+SOUND = recording()
+DIAGNOSE = "diagnose|bad.csv"
+ROW = "0.0900,142.361,2.337\n"
+
+
+def curves(name: str, text: Content, says: str) -> Malformed:
+    return Malformed(f"recording: {name}", DIAGNOSE, says, {"bad.csv": text})
+
+
+def with_(name: str, old: str, new: str, says: str) -> Malformed:
+    assert old in SOUND, old
+    return curves(name, SOUND.replace(old, new, 1), says)
+
+
+def given(name: str, command: str, says: str, **files: Content) -> Malformed:
+    return Malformed(f"recording: {name}", command, says, files)
+
+
+def scaled(column: int, factor: float) -> str:
+    """A sound table with the numbers of a column multiplied."""
+    head, body = SOUND.splitlines()[:2], SOUND.splitlines()[2:]
+    rows = [line.split(",") for line in body]
+    for row in rows:
+        row[column] = f"{factor * float(row[column]):.6g}"
+    return "\n".join([*head, *map(",".join, rows)]) + "\n"
+
+
+def folder(path: Path) -> None:
+    path.mkdir()
+
+
+MALFORMED = [
+    curves("missing", lambda path: None, "no such file"),
+    curves("a folder", folder, "is a folder"),
+    curves("a device", lambda path: path.symlink_to("/dev/zero"), "not a regular file"),
+    curves("a pipe that nobody fills", lambda path: __import__("os").mkfifo(path), "not a regular file"),
+    curves("empty", "", "empty"),
+    curves("a mark of the byte order and nothing", b"\xef\xbb\xbf", "empty"),
+    curves("a header alone", "# period_s = 0.9\ntime_s,lv_volume_ml\n", "0 samples|no rows"),
+    curves("comments alone", "# period_s = 0.9\n# nothing\n", "empty"),
+    curves("Latin-1", ("# gem\xe4\xdf Ger\xe4t\n" + SOUND).encode("latin-1"), "not UTF-8"),
+    curves("UTF-16", SOUND.encode("utf-16"), "not UTF-8"),
+    curves("NULs", SOUND.replace("110", "1\x0010", 1) + "\0\0", "bad.csv"),
+    curves("an image", b"\x89PNG\r\n\x1a\n" + bytes(100), "not UTF-8"),
+    given(
+        "compressed",
+        "diagnose|bad.csv.gz",
+        "not UTF-8",
+        **{"bad.csv.gz": __import__("gzip").compress(SOUND.encode())},
+    ),
+    curves("semicolons and decimal commas", SOUND.replace(",", ";").replace(".", ","), "no commas|no column"),
+    curves("decimal commas", SOUND.replace(".", ","), "cells"),
+    curves("tabs", SOUND.replace(",", "\t"), "no commas|no column"),
+    with_("a row too long", ROW, "0.0900,142.361,2.337,7\n", "4 cells, expected 3"),
+    with_("a row too short", ROW, "0.0900,142.361\n", "2 cells, expected 3"),
+    curves(
+        "every row too long",
+        SOUND.replace("\n", ",1\n").replace("kpa,1", "kpa").replace("0.9,1", "0.9"),
+        "4 cells, expected 3",
+    ),
+    with_("a quotation mark that is left open", ROW, '"' + ROW, "bad.csv"),
+    with_("a word", "142.361", "much", "lv_volume_ml .* is much"),
+    with_("NaN", "142.361", "nan", "is nan"),
+    with_("infinity", "142.361", "inf", "is inf"),
+    with_("a number beyond all", "142.361", "1e999", "is 1e999"),
+    with_("a hexadecimal number", "142.361", "0x8e", "is 0x8e"),
+    with_("digits with underscores", "142.361", "14_2.361", "is 14_2.361"),
+    with_("digits of another alphabet", "142.361", "\u0661\u0664\u0662", "lv_volume_ml"),
+    with_("a formula", "142.361", "=1+1", "is =1"),
+    with_("a time that is empty", "0.0900,", ",", "time_s .* empty"),
+    with_("a time twice", "0.0900,", "0.0600,", "increasing"),
+    with_("times that go back", "0.0900,", "0.0100,", "increasing"),
+    with_("a column twice", "lv_pressure_kpa", "lv_volume_ml", "column lv_volume_ml .* twice"),
+    with_("a column without a name", "lv_pressure_kpa", "", "no name"),
+    with_("a column without a unit", "lv_volume_ml", "lv_volume", "did you mean lv_volume_ml"),
+    with_("a column misspelt", "lv_volume_ml", "lv_volme_ml", "did you mean lv_volume_ml"),
+    with_("an unknown unit", "lv_volume_ml", "lv_volume_pints", "did you mean lv_volume_ml"),
+    with_("times of another unit", "time_s", "time_ms", "no column time_s"),
+    with_("no volume", "lv_volume_ml", "aortic_pressure_kpa", "no lv_volume|pressure"),
+    with_(
+        "columns swapped",
+        "time_s,lv_volume_ml,lv_pressure_kpa",
+        "time_s,lv_pressure_kpa,lv_volume_ml",
+        "pressure|volume",
+    ),
+    with_("time and volume swapped", "time_s,lv_volume_ml", "lv_volume_ml,time_s", "time|volume"),
+    with_("a flow, which is not searched", "lv_pressure_kpa", "aortic_flow_ml_per_s", "not searched"),
+    with_("a period that is no number", "= 0.9", "= 1e", "period"),
+    with_("a period of dots", "= 0.9", "= 0.9.9", "period"),
+    with_("a period in milliseconds", "= 0.9", "= 900", "period"),
+    with_("a period of nothing", "= 0.9", "= 0", "period"),
+    with_("a negative period", "= 0.9", "= -0.9", "period"),
+    with_("a period of another unit", "period_s = 0.9", "period_ms = 900", "no period"),
+    with_("two periods", "# period_s = 0.9\n", "# period_s = 0.9\n# period_s = 0.8\n", "period"),
+    with_("a beat that is longer than what was recorded", "= 0.9", "= 2.4", "whole beat"),
+    curves("no period", SOUND.replace("# period_s = 0.9\n", ""), "no period"),
+    curves("milliseconds", scaled(0, 1e3), "milliseconds"),
+    curves("litres", scaled(1, 1e-3), "L taken for mL"),
+    curves("negative volumes", scaled(1, -1.0), "volume"),
+    curves("volumes of a whale", scaled(1, 50.0), "volume"),
+    curves(
+        "a volume that does not beat", scaled(1, 0.0).replace(",0,", ",100,"), "expected a curve that beats"
+    ),
+    curves("millimetres of mercury", scaled(2, 7.5), "mmHg taken for kPa"),
+    curves("pascals", scaled(2, 1e3), "pressure"),
+    curves("pressures of nothing", scaled(2, 1e-9), "pressure"),
+    curves("five samples", recording(rows=5), "at least 8"),
+    curves(
+        "a volume with one number",
+        "# period_s = 0.9\ntime_s,lv_volume_ml,lv_pressure_kpa\n"
+        + "".join(f"{0.03 * k},{100 if k == 3 else ''},{k}\n" for k in range(30)),
+        "lv_volume",
+    ),
+    given("a period that is not one", "diagnose|sound.csv|--rr|nan", "period"),
+    given("a period of nothing given", "diagnose|sound.csv|--rr|0", "period"),
+    given("a period of minutes", "diagnose|sound.csv|--rr|70", "period"),
+    given("a period that is a word", "diagnose|sound.csv|--rr|fast", "--rr"),
+    given("a condition without a name", "diagnose|sound.csv|--condition|sound.csv", "NAME=CSV"),
+    given(
+        "a condition that is missing",
+        "diagnose|sound.csv|--condition|legs=none.csv",
+        "none.csv: no such file",
+    ),
+    given("a condition twice", "diagnose|sound.csv|--condition|a=sound.csv|a=sound.csv", "differ"),
+    given("a condition that is a folder", "diagnose|sound.csv|--condition|legs=heart", "is a folder"),
+    given("a result where a file is", "diagnose|sound.csv|-o|sound.yaml", "sound.yaml"),
+    given("a result below a file", "diagnose|sound.csv|-o|sound.yaml/cause", "sound.yaml"),
+    given("a name with a line's end", "diagnose|no\nwhere.csv", "no such file"),
+    given("a name of a thousand letters", f"diagnose|{'x' * 300}.csv", "too long|no such file"),
+    given("a name with a NUL", "diagnose|x\0.csv", "no such file|NUL|null"),
+    given("a name with half a character", "diagnose|x\udcff.csv", "no such file"),
+    given("no file", "diagnose", "required"),
+    given("an option that is none", "diagnose|sound.csv|--fast", "--fast"),
+    given("a command that is none", "diagnoze|sound.csv", "diagnoze"),
+    given("no command", "", "command"),
+]

@@ -1,0 +1,65 @@
+"""Malformed input ends in one clear line and exit code 2: never a traceback, a hang, a result, or no complaint."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+from _pytest.mark import ParameterSet
+from tests.malformed import case_tables, configurations, recordings
+from tests.malformed.case import Malformed, exit_code, files_in
+from tests.malformed.sound import write_sound
+
+MALFORMED = [*configurations.MALFORMED, *case_tables.MALFORMED, *recordings.MALFORMED]
+EVERY = 6
+"""One of so many is tried whenever the tests are, all of them by `python3 study.py malformed`."""
+
+LONGEST = 600
+"""Characters of a line that somebody still reads."""
+
+
+@pytest.fixture(scope="session")
+def sound(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("sound")
+    write_sound(folder)
+    return folder
+
+
+@pytest.fixture
+def here(sound: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with sound input, in which commands run."""
+    shutil.copytree(sound, tmp_path / "here")
+    monkeypatch.chdir(tmp_path / "here")
+    return tmp_path / "here"
+
+
+def each_but_most_when_asked_for() -> list[ParameterSet]:
+    long = pytest.mark.long
+    return [
+        pytest.param(given, id=given.name, marks=[long] if number % EVERY else [])
+        for number, given in enumerate(MALFORMED)
+    ]
+
+
+def test_sound_input_is_read(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code("check|--no-picture|--config|sound.yaml") == 0
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("given", each_but_most_when_asked_for())
+def test_it_is_refused_in_one_clear_line(
+    given: Malformed, here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    given.lay(here)
+    before = files_in(here)
+    assert exit_code(given.command) == 2
+    said = capsys.readouterr()
+    lines = said.err.splitlines()
+    assert all(line.startswith("heartfit: ") and len(line) < LONGEST for line in lines)
+    assert given.refused_by(lines)
+    assert not said.out
+    assert files_in(here) == before
+
+
+def test_there_are_enough_and_none_is_there_twice() -> None:
+    names = [given.name for given in MALFORMED]
+    assert len(names) == len(set(names)) >= 150
