@@ -10,6 +10,7 @@ python3 study.py convergence  set up, then see what mesh and time step change an
 python3 study.py mutations    set up, then spoil kernels one by one and write which test noticed into docs/mutations.md
 python3 study.py docs         set up, then make the site of docs/ and of the library in site/; any warning fails
 python3 study.py malformed    set up, then see every malformed input refused in one line; under a minute
+python3 study.py tutorial     set up, then run every command of docs/own_heart.md, the study coarsely; some minutes
 python3 study.py lock         write requirements.lock anew from pyproject.toml
 """
 
@@ -192,6 +193,12 @@ def malformed(arguments: list[str]) -> int:
     return subprocess.run(tool("pytest", *every, *arguments), check=False).returncode
 
 
+def tutorial(arguments: list[str]) -> int:
+    """Run every command of docs/own_heart.md in a copy of the project, the study coarsely."""
+    pages = tool("pytest", "-m", "long", "--capture=no", "tests/tutorials", *arguments)
+    return subprocess.run(pages, check=False).returncode
+
+
 def lock(_: list[str]) -> int:
     """Write requirements.lock anew."""
     return subprocess.run(tool(*COMPILE_LOCK), check=False).returncode
@@ -206,6 +213,7 @@ COMMANDS = {
     "mutations": mutations,
     "docs": docs,
     "malformed": malformed,
+    "tutorial": tutorial,
     "lock": lock,
 }
 
