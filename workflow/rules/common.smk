@@ -1,6 +1,7 @@
 import inspect
 import os
 import re
+from functools import cache
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -110,9 +111,15 @@ def plan_of(wildcards):
     return HIDDEN_IN_3D[int(wildcards.number)]
 
 
+@cache
+def rests_on(file):
+    """The fingerprint of a file and all library modules it rests on; see heartfit.io.fingerprint."""
+    return fingerprint(Path(file))
+
+
 def code(script):
-    """The fingerprint of a script and all library modules it rests on; see heartfit.io.fingerprint."""
-    return fingerprint(Path(workflow.basedir, "workflow", "scripts", script))
+    """The fingerprint of a script, found when a job asks: one that runs on its own takes that of its own only."""
+    return lambda wildcards: rests_on(Path(workflow.basedir, "workflow", "scripts", script))
 
 
 def printed(*names):
@@ -156,9 +163,7 @@ def questioned(_):
 def mechanisms_of(wildcards):
     """The fingerprint of each mechanism that the setting adds: scripts load them by name, which code() cannot see."""
     known = registered()
-    return {
-        name: fingerprint(Path(inspect.getfile(known[name]))) for name in setting_of(wildcards).mechanisms
-    }
+    return {name: rests_on(inspect.getfile(known[name])) for name in setting_of(wildcards).mechanisms}
 
 
 def beats_of(case, setting):
@@ -247,17 +252,17 @@ def calibrated_beats(kind):
 
 def planted_of(wildcards):
     """The fingerprint of the mechanism that a virtual case hides, if any."""
-    return [fingerprint(Path(inspect.getfile(type(each)))) for each in case_of(wildcards).planted()]
+    return [rests_on(inspect.getfile(type(each))) for each in case_of(wildcards).planted()]
 
 
-def every_mechanism():
+def every_mechanism(_):
     """The fingerprint of each mechanism: a search tries them all by name."""
-    return {name: fingerprint(Path(inspect.getfile(kind))) for name, kind in registered().items()}
+    return {name: rests_on(inspect.getfile(kind)) for name, kind in registered().items()}
 
 
 def mechanism_of(wildcards):
     """The fingerprint of the one mechanism that a job tries."""
-    return every_mechanism()[wildcards.mechanism]
+    return every_mechanism(wildcards)[wildcards.mechanism]
 
 
 def pressure_of(wildcards):

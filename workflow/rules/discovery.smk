@@ -75,7 +75,7 @@ rule search_cause:
         case=case_of,
         setting=setting_of,
         stated=stated(case_of, setting_of),
-        mechanisms=every_mechanism(),
+        mechanisms=every_mechanism,
         code=code("search_cause.py"),
     script:
         "../scripts/search_cause.py"
@@ -119,7 +119,7 @@ rule prove_cause:
         runtime=120,
     params:
         **GIVEN,
-        every=every_mechanism(),
+        every=every_mechanism,
         code=code("prove_cause.py"),
     script:
         "../scripts/prove_cause.py"
@@ -206,7 +206,7 @@ rule compare_elements:
     params:
         **ASKED,
         setting=questioned,
-        mechanisms=every_mechanism(),
+        mechanisms=every_mechanism,
         stated=stated(questioned, ASKED),
         code=code("compare_elements.py"),
     script:

@@ -17,7 +17,7 @@ rule plant_effects:
         runtime=5,
     params:
         plans=batch_of,
-        library=every_mechanism(),
+        library=every_mechanism,
         stated=stated(batch_of),
         code=code("plant_effects.py"),
     script:
@@ -38,7 +38,7 @@ rule diagnose_planted:
         mem_mb=500,
         runtime=30,
     params:
-        library=every_mechanism(),
+        library=every_mechanism,
         code=code("diagnose_planted.py"),
     script:
         "../scripts/diagnose_planted.py"

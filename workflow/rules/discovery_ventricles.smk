@@ -34,7 +34,7 @@ rule plant_ventricles:
     params:
         **HIDING,
         plan=plan_of,
-        library=every_mechanism(),
+        library=every_mechanism,
         stated=stated(plan_of, HIDING),
         code=code("plant_ventricles.py"),
     script:
@@ -59,7 +59,7 @@ rule diagnose_ventricles:
         model=VENTRICLES.diagnoser,
         setting=STUDY.centre(),
         pressures=STUDY.end_diastolic_pressure,
-        library=every_mechanism(),
+        library=every_mechanism,
         stated=stated(VENTRICLES.diagnoser, STUDY.centre(), STUDY.end_diastolic_pressure),
         code=code("diagnose_ventricles.py"),
     script:

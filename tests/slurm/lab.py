@@ -1,0 +1,127 @@
+"""A real SLURM of one node on this machine: munge, controller and node daemon, started by hand.
+
+Needs root and Debian's packages slurm-wlm and munge, which are installed if they are absent. Everything it writes lies
+in one folder, but for the link that stands in for SLURM's configuration while the lab is up.
+"""
+
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+from string import Template
+
+PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue")
+PORTS = {"controller_port": 16817, "node_port": 16818}
+CONFIGURATION = Path(__file__).with_name("slurm.conf")
+PLACE = Path("/etc/slurm/slurm.conf")
+"""Where SLURM looks; the executor strips SLURM_CONF, which could say another place, from what its jobs see."""
+READY = ("idle", "mixed", "allocated")
+
+
+class LabError(RuntimeError):
+    """SLURM cannot be had here."""
+
+
+def install() -> None:
+    """Fetch SLURM from Debian unless it is there; raises LabError if that cannot be."""
+    if all(map(shutil.which, PROGRAMS)):
+        return
+    if os.geteuid() != 0 or not shutil.which("apt-get"):
+        raise LabError(
+            f"no SLURM here ({', '.join(PROGRAMS)}) and none to be had: expected root on Debian or Ubuntu"
+        )
+    quiet = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
+    for command in (["update"], ["install", "--yes", "--no-install-recommends", "slurm-wlm", "munge"]):
+        subprocess.run(["apt-get", "--quiet=2", *command], env=quiet, check=True, stdout=subprocess.DEVNULL)
+
+
+class Lab:
+    """The daemons and what can be done to them; `folder` holds keys, state, spool and logs.
+
+    cpus: how many jobs of one thread run at once; memory: of the node, MB.
+    """
+
+    def __init__(self, folder: Path, cpus: int, memory: int = 4000) -> None:
+        if os.geteuid() != 0:
+            raise LabError("munge and SLURM's daemons are started as root; this is somebody else")
+        self.folder, self.host = folder, socket.gethostname().split(".")[0]
+        self.munged: subprocess.Popen[bytes] | None = None
+        for name in ("munge", "state", "spool"):
+            (folder / name).mkdir(parents=True, mode=0o755)
+        folder.chmod(0o755)  # munge refuses a folder that others may write, and must enter it itself
+        stated = {"host": self.host, "folder": folder, "cpus": cpus, "memory": memory, **PORTS}
+        (folder / "slurm.conf").write_text(Template(CONFIGURATION.read_text()).substitute(stated))
+
+    def up(self) -> None:
+        """Start all daemons and wait until the node takes jobs; raises LabError where a SLURM is configured."""
+        if PLACE.exists():
+            raise LabError(f"{PLACE} exists: this machine has a SLURM of its own, which is left alone")
+        PLACE.parent.mkdir(exist_ok=True)
+        PLACE.unlink(missing_ok=True)  # a link to a lab that is gone
+        PLACE.symlink_to(self.folder / "slurm.conf")
+        self._start_munge()
+        self.run("slurmctld")
+        self._await(lambda: "UP" in self.ask("scontrol", "ping"), "a controller that answers")
+        self.start_node()
+
+    def down(self) -> None:
+        """Stop all daemons and take the link away."""
+        for daemon in ("slurmd", "slurmctld"):
+            self.kill(daemon, signal.SIGTERM)
+        if self.munged is not None:
+            self.munged.terminate()
+            self.munged.wait()
+        PLACE.unlink(missing_ok=True)
+
+    def start_node(self) -> None:
+        """Start the node daemon and wait until the node takes jobs."""
+        self.run("slurmd", "-N", self.host)
+        self._await(lambda: self.node_state() in READY, "a node that takes jobs")
+
+    def kill(self, daemon: str, how: signal.Signals = signal.SIGKILL) -> None:
+        """Send a signal to slurmd or slurmctld, and wait until it is gone."""
+        file = self.folder / f"{daemon}.pid"
+        if not file.exists():
+            return
+        process = int(file.read_text())
+        os.kill(process, how)
+        self._await(lambda: not Path(f"/proc/{process}").exists(), f"{daemon}'s end")
+        file.unlink(missing_ok=True)
+
+    def node_state(self) -> str:
+        """As sinfo says it; a trailing * means that the node does not answer."""
+        return self.ask("sinfo", "--noheader", "--Format", "StateLong").strip()
+
+    def jobs(self, state: str = "RUNNING") -> list[int]:
+        """Numbers of the jobs in a state."""
+        return [int(text) for text in self.ask("squeue", "--noheader", "--states", state, "--format", "%A").split()]
+
+    def run(self, *command: str) -> None:
+        """Carry out a command of SLURM."""
+        subprocess.run(command, check=True)
+
+    def ask(self, *command: str) -> str:
+        """What a command of SLURM prints, whether or not it succeeds."""
+        return subprocess.run(command, capture_output=True, text=True, check=False).stdout
+
+    def _start_munge(self) -> None:
+        munge = self.folder / "munge"
+        (munge / "key").write_bytes(os.urandom(1024))
+        for path in (munge / "key", munge):
+            shutil.chown(path, "munge", "munge")
+        (munge / "key").chmod(0o400)
+        files = {"socket": "socket", "key-file": "key", "pid-file": "pid", "seed-file": "seed", "log-file": "log"}
+        options = [f"--{option}={munge / name}" for option, name in files.items()]
+        self.munged = subprocess.Popen(["munged", "--foreground", *options], user="munge", group="munge")
+        self._await((munge / "socket").exists, "munge's socket")
+
+    def _await(self, holds: Callable[[], bool], what: str, seconds: float = 30.0) -> None:
+        end = time.monotonic() + seconds
+        while not holds():
+            if time.monotonic() > end:
+                raise LabError(f"waited {seconds:g} s for {what}; see the logs in {self.folder}")
+            time.sleep(0.2)
