@@ -11,7 +11,8 @@ python3 study.py mutations    set up, then spoil kernels one by one and write wh
 python3 study.py docs         set up, then make the site of docs/ and of the library in site/; any warning fails
 python3 study.py malformed    set up, then see every malformed input refused in one line; under a minute
 python3 study.py tutorial     set up, then run every command of docs/own_heart.md, the study coarsely; some minutes
-python3 study.py lock         write requirements.lock anew from pyproject.toml
+python3 study.py slurm        set up, then lead the coarse study through a SLURM that loses a job and its node; as root
+python3 study.py lock         write requirements.lock and that of profiles/slurm anew from pyproject.toml
 """
 
 import hashlib
@@ -39,27 +40,19 @@ LINTS = (
     ("snakefmt", "--check", "Snakefile", "workflow/rules"),
 )
 CONDA = "Specify a conda environment or container for each rule."  # the lock file is what fixes the software
-COMPILE_LOCK = (
-    *(
-        "uv",
-        "pip",
-        "compile",
-        "pyproject.toml",
-        "--extra",
-        "alternatives",
-        "--extra",
-        "develop",
-        "--extra",
-        "exchange",
-        "--extra",
-        "site",
-        "--quiet",
-        "--output-file",
-        "requirements.lock",
-    ),
-    *("--universal", "--python-version", "3.11", "--generate-hashes", "--upgrade"),
+HASHED = (
+    *("--universal", "--python-version", "3.11", "--generate-hashes", "--upgrade", "--quiet"),
     *("--no-annotate", "--no-emit-index-url", "--no-emit-find-links"),
     *("--custom-compile-command", "python3 study.py lock"),
+)
+COMPILE_LOCK = (
+    *("uv", "pip", "compile", "pyproject.toml", "--output-file", "requirements.lock", *HASHED),
+    *(part for extra in ("alternatives", "develop", "exchange", "site") for part in ("--extra", extra)),
+)
+SLURM_LOCK = ROOT / "profiles" / "slurm" / "requirements.lock"
+COMPILE_SLURM_LOCK = (
+    *("uv", "pip", "compile", "--group", "pyproject.toml:slurm", "--no-deps"),
+    *("--output-file", str(SLURM_LOCK.relative_to(ROOT)), *HASHED),
 )
 
 
@@ -199,9 +192,19 @@ def tutorial(arguments: list[str]) -> int:
     return subprocess.run(pages, check=False).returncode
 
 
+def slurm(arguments: list[str]) -> int:
+    """Add the executor for SLURM, then pass its test; ARGS as `python -m tests.slurm` takes them."""
+    hashed = ("--no-deps", "--require-hashes", "-r", str(SLURM_LOCK))
+    subprocess.run(
+        [*create_environment(), "install", "--quiet", "--disable-pip-version-check", *hashed], check=True
+    )
+    return subprocess.run(tool("python", "-m", "tests.slurm", *arguments), check=False).returncode
+
+
 def lock(_: list[str]) -> int:
-    """Write requirements.lock anew."""
-    return subprocess.run(tool(*COMPILE_LOCK), check=False).returncode
+    """Write the lock files anew."""
+    commands = (COMPILE_LOCK, COMPILE_SLURM_LOCK)
+    return max(subprocess.run(tool(*command), check=False).returncode for command in commands)
 
 
 COMMANDS = {
@@ -214,6 +217,7 @@ COMMANDS = {
     "docs": docs,
     "malformed": malformed,
     "tutorial": tutorial,
+    "slurm": slurm,
     "lock": lock,
 }
 

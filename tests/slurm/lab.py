@@ -11,6 +11,7 @@ import socket
 import subprocess
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from string import Template
 
@@ -65,7 +66,7 @@ class Lab:
         PLACE.symlink_to(self.folder / "slurm.conf")
         self._start_munge()
         self.run("slurmctld")
-        self._await(lambda: "UP" in self.ask("scontrol", "ping"), "a controller that answers")
+        await_that(lambda: "UP" in self.ask("scontrol", "ping"), "a controller that answers")
         self.start_node()
 
     def down(self) -> None:
@@ -78,9 +79,22 @@ class Lab:
         PLACE.unlink(missing_ok=True)
 
     def start_node(self) -> None:
-        """Start the node daemon and wait until the node takes jobs."""
-        self.run("slurmd", "-N", self.host)
-        self._await(lambda: self.node_state() in READY, "a node that takes jobs")
+        """Start the node daemon, as after a reboot, and wait until the node takes jobs."""
+        self.run("slurmd", "-b", "-N", self.host)
+        await_that(lambda: self.node_state() in READY, "a node that takes jobs")
+
+    def lose_node(self) -> None:
+        """Cut the power: the daemon ends with all that ran below it; returns when the controller has noticed."""
+        ran = [process for job in self.jobs() for process in self.processes(job)]
+        self.kill("slurmd")
+        for process in (*stepping(), *ran):
+            end(process)
+        await_that(lambda: self.node_state().startswith("down"), "a node that is given up", 120.0)
+
+    def kill_job(self, job: int) -> None:
+        """Send SIGKILL to all processes of a job, as a kernel does that is out of memory."""
+        for process in self.processes(job):
+            end(process)
 
     def kill(self, daemon: str, how: signal.Signals = signal.SIGKILL) -> None:
         """Send a signal to slurmd or slurmctld, and wait until it is gone."""
@@ -88,8 +102,8 @@ class Lab:
         if not file.exists():
             return
         process = int(file.read_text())
-        os.kill(process, how)
-        self._await(lambda: not Path(f"/proc/{process}").exists(), f"{daemon}'s end")
+        end(process, how)
+        await_that(lambda: not Path(f"/proc/{process}").exists(), f"{daemon}'s end")
         file.unlink(missing_ok=True)
 
     def node_state(self) -> str:
@@ -98,7 +112,20 @@ class Lab:
 
     def jobs(self, state: str = "RUNNING") -> list[int]:
         """Numbers of the jobs in a state."""
-        return [int(text) for text in self.ask("squeue", "--noheader", "--states", state, "--format", "%A").split()]
+        return [
+            int(text)
+            for text in self.ask("squeue", "--noheader", "--states", state, "--format", "%A").split()
+        ]
+
+    def processes(self, job: int) -> list[int]:
+        """Those that SLURM counts to a job."""
+        lines = self.ask("scontrol", "listpids", str(job)).splitlines()[1:]
+        return [int(line.split()[0]) for line in lines if int(line.split()[0]) > 1]
+
+    def states(self) -> dict[int, str]:
+        """How every job fares or ended."""
+        lines = self.ask("squeue", "--noheader", "--states", "all", "--format", "%A %T").splitlines()
+        return {int(number): state for number, state in map(str.split, lines)}
 
     def run(self, *command: str) -> None:
         """Carry out a command of SLURM."""
@@ -114,14 +141,34 @@ class Lab:
         for path in (munge / "key", munge):
             shutil.chown(path, "munge", "munge")
         (munge / "key").chmod(0o400)
-        files = {"socket": "socket", "key-file": "key", "pid-file": "pid", "seed-file": "seed", "log-file": "log"}
+        files = {
+            "socket": "socket",
+            "key-file": "key",
+            "pid-file": "pid",
+            "seed-file": "seed",
+            "log-file": "log",
+        }
         options = [f"--{option}={munge / name}" for option, name in files.items()]
         self.munged = subprocess.Popen(["munged", "--foreground", *options], user="munge", group="munge")
-        self._await((munge / "socket").exists, "munge's socket")
+        await_that((munge / "socket").exists, "munge's socket")
 
-    def _await(self, holds: Callable[[], bool], what: str, seconds: float = 30.0) -> None:
-        end = time.monotonic() + seconds
-        while not holds():
-            if time.monotonic() > end:
-                raise LabError(f"waited {seconds:g} s for {what}; see the logs in {self.folder}")
-            time.sleep(0.2)
+
+def await_that(holds: Callable[[], bool], what: str, seconds: float = 30.0) -> None:
+    """Wait until something holds; raises LabError if it never does."""
+    limit = time.monotonic() + seconds
+    while not holds():
+        if time.monotonic() > limit:
+            raise LabError(f"waited {seconds:g} s for {what}")
+        time.sleep(0.2)
+
+
+def stepping() -> list[int]:
+    """Those processes that stand between the node daemon and a job."""
+    lines = [(file.parent.name, file.read_bytes()) for file in Path("/proc").glob("[0-9]*/cmdline")]
+    return [int(process) for process, line in lines if line.startswith(b"slurmstepd: [")]
+
+
+def end(process: int, how: signal.Signals = signal.SIGKILL) -> None:
+    """Send a signal to a process that may be gone."""
+    with suppress(ProcessLookupError):
+        os.kill(process, how)
