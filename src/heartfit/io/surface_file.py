@@ -1,0 +1,54 @@
+"""One file of triangles: .vtk (polygons, as text), or what meshio reads: .vtu, .ply, .stl, .obj."""
+
+from pathlib import Path
+
+import meshio
+import numpy as np
+
+from heartfit.errors import InputError
+from heartfit.io.polygons import Triangles, is_polygons, read_polygons
+
+SUFFIXES = (".vtk", ".vtu", ".ply", ".stl", ".obj")
+LABEL = "label"
+
+
+def read_triangles(file: Path) -> Triangles:
+    """The triangles of a file; raises InputError, naming it, if it is damaged, holds none, or NaN."""
+    if not file.is_file():
+        raise InputError(f"{file}: no such file; expected a surface ({', '.join(SUFFIXES)})")
+    found = read_polygons(file) if is_polygons(file) else _by_meshio(file)
+    if not len(found.triangles):
+        raise InputError(f"{file}: holds no triangles; expected a surface")
+    if not (found.triangles.min() >= 0 and found.triangles.max() < len(found.points)):
+        raise InputError(f"{file}: triangles name nodes that are not there; damaged: export it again")
+    if not np.isfinite(found.points).all():
+        raise InputError(
+            f"{file}: holds NaN or infinite coordinates; expected finite numbers: export it again"
+        )
+    return found
+
+
+def _by_meshio(file: Path) -> Triangles:
+    try:
+        mesh = meshio.read(file)
+    except (SystemExit, meshio.ReadError, ValueError, KeyError, IndexError, OSError):
+        raise InputError(
+            f"{file}: cannot be read as {file.suffix}; cut off, damaged or of another kind: export it again"
+        ) from None
+    others = sorted(set(mesh.cells_dict) - {"triangle", "vertex", "line"})
+    if others or "triangle" not in mesh.cells_dict:
+        raise InputError(
+            f"{file}: holds {', '.join(others) or 'no cells'}; expected triangles: triangulate it"
+        )
+    labels = mesh.cell_data_dict.get(LABEL, {}).get("triangle")
+    points = np.zeros((len(mesh.points), 3))
+    points[:, : mesh.points.shape[1]] = mesh.points
+    triangles = mesh.cells_dict["triangle"].astype(np.int64)
+    return Triangles(
+        points, triangles, None if labels is None else np.array([_text(each) for each in labels])
+    )
+
+
+def _text(label: object) -> str:
+    """A name, or a whole number written as such."""
+    return str(label) if isinstance(label, str) else f"{float(np.asarray(label).item()):g}"
