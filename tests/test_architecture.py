@@ -14,6 +14,7 @@ HEIGHTS = (
     ("parameter",),
     ("geometry",),
     ("branch", "imaging", "load", "periodic"),
+    ("segmentation",),
     ("electrophysiology",),
     ("mechanism",),
     ("mechanics",),
@@ -49,6 +50,7 @@ PHYSICS = {"geometry", "electrophysiology", "mechanics", "mechanism", "mechanism
 PHYSICS |= {
     "branch",
     "imaging",
+    "segmentation",
     "periodic",
     "simulation",
     "sphere",

@@ -1,0 +1,1 @@
+"""From the labels of voxels to the closed surface of both ventricles' wall."""
