@@ -8,6 +8,7 @@ python3 study.py lint         set up, then style, types and the workflow's own l
 python3 study.py benchmark    set up, then measure what a beat costs and write docs/performance.md; half an hour
 python3 study.py convergence  set up, then see what mesh and time step change and write docs/convergence.md; as long
 python3 study.py mutations    set up, then spoil kernels one by one and write which test noticed into docs/mutations.md
+python3 study.py browser      set up, then open the report in a headless browser: no error, no network, it beats
 python3 study.py docs         set up, then make the site of docs/ and of the library in site/; any warning fails
 python3 study.py malformed    set up, then see every malformed input refused in one line; under a minute
 python3 study.py tutorial     set up, then run every command of docs/own_heart.md, the study coarsely; some minutes
@@ -169,6 +170,11 @@ def mutations(arguments: list[str]) -> int:
     return subprocess.run(tool("python", "-m", "tests.mutations", *arguments), check=False).returncode
 
 
+def browser(arguments: list[str]) -> int:
+    """Open the reports that are there, or that are named, and one of made-up results."""
+    return subprocess.run(tool("python", "-m", "tests.browser", *arguments), check=False).returncode
+
+
 def docs(_: list[str]) -> int:
     """Make the site anew: a link, an anchor, a reference or a formula that is broken is a warning, and that fails."""
     for folder in ("site", "docs/api", "build/doctrees"):
@@ -214,6 +220,7 @@ COMMANDS = {
     "benchmark": benchmark,
     "convergence": convergence,
     "mutations": mutations,
+    "browser": browser,
     "docs": docs,
     "malformed": malformed,
     "tutorial": tutorial,

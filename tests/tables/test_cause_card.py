@@ -102,7 +102,7 @@ def test_what_is_unknown_is_beside_the_best_of_the_library():
 def test_the_figure_has_a_row_for_each_curve_and_the_threshold():
     figure = plot_cause(diagnosis("named", (LEAK,)))
     curves, residuals, ranking = figure.axes
-    assert ranking.get_xlabel() == "ln Bayes factor over none"
+    assert ranking.get_xlabel() == "ln Bayes factor\nover none"
     assert {line.get_label() for line in curves.lines} >= {"measured", "simulated", "with the cause"}
     assert residuals.get_title() == "LV volume too low in early filling: 4.7 sd"
     assert "IVC" in {text.get_text() for text in residuals.texts}

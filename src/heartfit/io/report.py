@@ -63,9 +63,14 @@ def read_study_results(
 
 def write_report(path: Path, study: StudyRecord) -> None:
     """Write the page with everything it shows inside."""
+    write_text(path, render(study, assets()))
+
+
+def assets() -> Assets:
+    """The viewer library from its package, our own script and style."""
     own = resources.files("heartfit.report").joinpath("assets")
     texts = [own.joinpath(name).read_text(encoding="utf-8") for name in ("heart.js", "report.css")]
-    write_text(path, render(study, Assets(get_plotlyjs(), *texts)))
+    return Assets(get_plotlyjs(), *texts)
 
 
 def _case(results: Path, study: Study, case: Case) -> CaseRecord:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from heartfit.diagnosis.cause import Diagnosis
 from heartfit.diagnosis.departure import departures
+from heartfit.report.grid import WIDTH
 from heartfit.report.picture import Picture, picture
 from heartfit.tables.cause_card import (
     CURVES,
@@ -19,8 +20,6 @@ from heartfit.tables.cause_figure import plot_cause
 
 SHOWN = 6
 """Causes of the ranking."""
-WIDTH = 11.0
-"""Inches that are as wide as the page."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +27,7 @@ class CauseCard:
     """What a reader wants to know, in the order of the question: what is missed, what lacks, how sure, what next."""
 
     title: str
+    verdict: str
     sentence: str
     misses: list[str]
     ranking: list[tuple[str, float]]
@@ -47,6 +47,7 @@ def cause_card(diagnosis: Diagnosis, title: str) -> CauseCard:
     refitted = diagnosis.refitted
     return CauseCard(
         title=title,
+        verdict=diagnosis.verdict,
         sentence=sentence(diagnosis),
         misses=[*map(missed, departures(diagnosis)), *unsearched],
         ranking=[(spoken(name), value) for name, value in list(diagnosis.ranking.items())[:SHOWN]],
@@ -78,6 +79,7 @@ def _figure(diagnosis: Diagnosis) -> Picture | None:
         return None
     figure = plot_cause(diagnosis)
     figure.set_size_inches(WIDTH, figure.get_figheight())
+    figure.suptitle("")  # the page says it
     return picture(figure, f"Measured and simulated curves and what departs. {sentence(diagnosis)}")
 
 

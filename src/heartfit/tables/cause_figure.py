@@ -123,6 +123,6 @@ def _ranking(axes: Axes, diagnosis: Diagnosis) -> None:
     axes.barh(range(len(shown)), [max(value, 0.0) for _, value in shown], color=colours)
     axes.set_yticks(range(len(shown)), [spoken(name) for name, _ in shown], fontsize=8)
     axes.axvline(diagnosis.threshold, color="black", linewidth=0.8, linestyle="--")
-    axes.set_xlabel("ln Bayes factor over none", fontsize=9)
+    axes.set_xlabel("ln Bayes factor\nover none", fontsize=9)
     axes.set_xlim(0.0, max(1.3 * diagnosis.threshold, 1.05 * max((value for _, value in shown), default=0.0)))
     clean(axes)

@@ -10,7 +10,6 @@ const VIEWS = {
   apex: { eye: { x: 0, y: 0, z: -1.8 }, up: { x: 0, y: -1, z: 0 } },
   base: { eye: { x: 0, y: -0.5, z: 1.75 }, up: { x: 0, y: -1, z: 0 } },
 };
-const HIDDEN = { visible: false, showspikes: false };
 const LIGHT = { ambient: 0.6, diffuse: 0.55, specular: 0.08, roughness: 0.8, fresnel: 0.05 };
 const LAMP = 1e5; // mm; from the beholder, a little above
 const SHADES = JSON.parse(document.getElementById("shades").textContent);
@@ -34,6 +33,13 @@ function placesOf(steps, phases, quantum) {
     }
     return ["x", "y", "z"].map((_axis, k) => places.subarray((k * size) / 3, ((k + 1) * size) / 3));
   });
+}
+
+/* Least and largest of each coordinate over all phases of all motions, so that a heart that shrinks looks smaller. */
+function extents(parts) {
+  const all = Object.values(parts).flatMap((part) => Object.values(part.places).flat());
+  const least = (values) => values.reduce((a, b) => Math.min(a, b), Infinity);
+  return [0, 1, 2].map((axis) => [least(all.map((place) => least(place[axis]))), -least(all.map((place) => least(place[axis].map((v) => -v))))]);
 }
 
 /* Area of each triangle. */
@@ -81,10 +87,12 @@ class Heart {
     this.ready ??= this.unpackAll();
     await this.ready;
     if (!this.isOpen) return;
-    await this.draw();
+    this.legend();
+    const options = { displayModeBar: false, responsive: true };
+    await Promise.all(this.scenes.map((scene, pane) => Plotly.newPlot(scene, this.traces(pane), this.layout(), options)));
     this.scenes.forEach((scene) => {
       scene.on("plotly_relayouting", (moved) => this.turned(scene, moved));
-      scene.on("plotly_relayout", (moved) => this.turned(scene, moved));
+      scene.on("plotly_relayout", async (moved) => (await this.turned(scene, moved)) && this.draw());
     });
     this.figure.classList.add("drawn");
   }
@@ -111,6 +119,7 @@ class Heart {
       const [activation, segment] = [await unpack(surface[part].activation), await unpack(surface[part].segment)];
       this.parts[part] = { triangles, places, activation, segment };
     }
+    this.extents = extents(this.parts);
   }
 
   /* What colours a part: a value for each node or triangle. */
@@ -146,32 +155,38 @@ class Heart {
   }
 
   layout() {
-    const scene = { aspectmode: "data", xaxis: HIDDEN, yaxis: HIDDEN, zaxis: HIDDEN, camera: this.camera, dragmode: "turntable" };
-    return { scene, margin: { l: 0, r: 0, t: 0, b: 0 }, paper_bgcolor: "#ffffff", uirevision: "kept" };
+    const [xaxis, yaxis, zaxis] = this.extents.map((range) => ({ range, visible: false, showspikes: false }));
+    const sizes = this.extents.map(([low, high]) => high - low);
+    const [x, y, z] = sizes.map((size) => size / Math.cbrt(sizes[0] * sizes[1] * sizes[2]));
+    const scene = { aspectmode: "manual", aspectratio: { x, y, z }, xaxis, yaxis, zaxis, camera: this.camera, dragmode: "turntable" };
+    return { scene, margin: { l: 0, r: 0, t: 0, b: 0 }, paper_bgcolor: "#ffffff" };
   }
 
+  /* Only what the surfaces are, not from where they are seen: a hand may be turning them. */
   draw() {
     this.legend();
-    const options = { displayModeBar: false, responsive: true, scrollZoom: false };
-    return Promise.all(this.scenes.map((scene, pane) => Plotly.react(scene, this.traces(pane), this.layout(), options)));
+    const changes = (traces) => Object.fromEntries(Object.keys(traces[0]).map((key) => [key, traces.map((each) => each[key])]));
+    return Promise.all(this.scenes.map((scene, pane) => Plotly.restyle(scene, changes(this.traces(pane)))));
   }
 
+  /* Look from elsewhere; the lamp comes with the beholder. */
   async turn(camera) {
-    this.camera = camera;
-    await Promise.all(this.scenes.map((scene) => Plotly.relayout(scene, { "scene.camera": camera })));
+    await this.look(this.scenes, camera);
     return this.draw();
   }
 
-  /* One scene was turned by hand: the other one follows. */
-  turned(scene, moved) {
-    const camera = moved["scene.camera"];
-    if (!camera || this.following) return;
+  /* One scene was turned by hand: the other one follows. Whether it was this one. */
+  async turned(scene, { "scene.camera": camera }) {
+    if (!camera || this.following) return false;
+    await this.look(this.scenes.filter((each) => each !== scene), camera);
+    return true;
+  }
+
+  async look(scenes, camera) {
     this.camera = camera;
     this.following = true;
-    const others = this.scenes.filter((each) => each !== scene);
-    Promise.all(others.map((each) => Plotly.relayout(each, { "scene.camera": camera }))).finally(() => {
-      this.following = false;
-    });
+    await Promise.all(scenes.map((scene) => Plotly.relayout(scene, { "scene.camera": camera })));
+    this.following = false;
   }
 
   async show(phase) {

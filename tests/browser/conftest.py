@@ -1,0 +1,67 @@
+"""A browser with software graphics and nothing else: no network, no profile, the size of a laptop's screen."""
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, Request, sync_playwright
+from tests.browser.__main__ import found
+from tests.report.conftest import HOSTILE
+from tests.report.small_report import study
+
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.io.report import assets
+from heartfit.report.page import render
+
+FLAGS = (
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+)  # fmt: skip
+SCREEN = {"width": 1366, "height": 768}
+REPORTS = [each for each in os.environ.get("REPORTS", "").split(os.pathsep) if each]
+
+
+@dataclass
+class Opened:
+    """A report in the browser, what the page said on the console, and what it asked for."""
+
+    page: Page
+    said: list[str] = field(default_factory=list)
+    asked: list[str] = field(default_factory=list)
+
+    def listen(self) -> None:
+        self.page.on("console", lambda line: self.said.append(line.text) if line.type == "error" else None)
+        self.page.on("pageerror", lambda error: self.said.append(str(error)))
+        self.page.on("request", self._ask)
+
+    def _ask(self, request: Request) -> None:
+        if not request.url.startswith(("data:", "blob:")):
+            self.asked.append(request.url)
+
+
+@pytest.fixture(scope="session", params=["made up", *REPORTS])
+def report(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A page to open: of made-up results, then those that were named."""
+    if request.param != "made up":
+        return Path(request.param).resolve()
+    mesh: VentricularMesh = request.getfixturevalue("ventricle")
+    path = tmp_path_factory.mktemp("report") / "report.html"
+    path.write_text(render(study(mesh, note=HOSTILE), assets()), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="session")
+def opened(report: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
+    """The page, loaded from its file."""
+    profile = tmp_path_factory.mktemp("profile")
+    with sync_playwright() as playwright:
+        context = playwright.chromium.launch_persistent_context(
+            profile, executable_path=found(), headless=True, args=FLAGS, viewport=SCREEN
+        )
+        here = Opened(context.pages[0])
+        here.listen()
+        here.page.goto(report.as_uri())
+        yield here
+        context.close()
