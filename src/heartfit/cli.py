@@ -101,6 +101,14 @@ def _diagnose_arguments(command: argparse.ArgumentParser) -> None:
         "--rr", type=float, metavar="S", help="period of the beat; that which the file states if not given"
     )
     command.add_argument(
+        "--mechanism",
+        type=Path,
+        nargs="+",
+        default=[],
+        metavar="PY",
+        help="files of Python, which are run: they declare mechanisms to search as well",
+    )
+    command.add_argument(
         "--strict", action="store_true", help="name nothing below a ln Bayes factor of 10 instead of 5"
     )
     command.add_argument("-o", "--output", type=Path, default=Path("cause"), help="folder of the cause card")
@@ -147,8 +155,10 @@ def diagnose(given: argparse.Namespace) -> int:
     from heartfit.diagnosis import diagnose as diagnosis  # with what no other command needs
     from heartfit.discovery.rules import RULES, STRICT
     from heartfit.io.causes import write_cause_card
+    from heartfit.io.mechanism_files import run_mechanism_files
     from heartfit.io.recordings import read_conditions, read_recording
 
+    run_mechanism_files(given.mechanism)
     recording = read_recording(given.measured, given.rr)
     conditions = read_conditions(given.condition, recording.period)
     require_writable(given.output)

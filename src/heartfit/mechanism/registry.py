@@ -1,8 +1,9 @@
-"""The registry of mechanisms: the folder ``heartfit/mechanisms``."""
+"""The registry of mechanisms: the folder ``heartfit/mechanisms``, and what installed packages offer."""
 
 import importlib
 import pkgutil
 from functools import cache
+from importlib.metadata import entry_points
 from typing import TypeVar
 
 from heartfit.mechanism.base import Mechanism
@@ -18,6 +19,9 @@ ROLES: tuple[type[Mechanism], ...] = (
 
 M = TypeVar("M", bound=type[Mechanism])
 
+GROUP = "heartfit.mechanisms"
+"""Entry points under which another package names its modules of mechanisms."""
+
 _REGISTRY: dict[str, type[Mechanism]] = {}
 
 
@@ -32,14 +36,16 @@ def mechanism(cls: M) -> M:
 
 
 def registered() -> dict[str, type[Mechanism]]:
-    """All mechanisms of the folder ``heartfit/mechanisms``, by name."""
-    _import_folder()
+    """All mechanisms of the folder ``heartfit/mechanisms`` and of installed packages, by name."""
+    _import_all()
     return dict(sorted(_REGISTRY.items()))
 
 
 @cache
-def _import_folder() -> None:
+def _import_all() -> None:
     """Once: the graph of a study asks for the registry tens of thousands of times."""
     package = importlib.import_module("heartfit.mechanisms")
     for module in pkgutil.iter_modules(package.__path__):
         importlib.import_module(f"heartfit.mechanisms.{module.name}")
+    for offered in entry_points(group=GROUP):
+        offered.load()

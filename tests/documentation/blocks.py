@@ -1,0 +1,78 @@
+"""The blocks of code of a page: found, and carried out one after the other in a folder of their own.
+
+A block of Python whose first line names a file is written there; any other runs. In a block of console a line that
+begins with $ is a command, and what stands below is what it prints, but for the numbers. What is neither run here nor
+elsewhere says so in a comment of the page just above it:
+
+    <!-- run by tests/one_test.py -->   or   <!-- not run: it takes hours -->
+"""
+
+import os
+import re
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+FENCE = re.compile(r"^(<!-- .* -->\n)?(?:\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+COMMAND = re.compile(r"heartfit |snakemake |python3? |\.venv/bin/|git |pip |apt-get ")
+FILE = re.compile(r"# (\w+\.py)\n")
+NUMBER = re.compile(r"[-+]?\d[\d.]*(e[-+]?\d+)?")
+
+
+@dataclass(frozen=True)
+class Block:
+    """The code of a fence, its language, and what the comment above says of it."""
+
+    language: str
+    code: str
+    remark: str
+
+    @property
+    def run_here(self) -> bool:
+        """Python and console, unless a comment says something else."""
+        return self.language in ("python", "console") and not self.remark
+
+    @property
+    def silent(self) -> bool:
+        """Whether it looks like a command and nothing says where it is run."""
+        return not self.run_here and not self.remark and COMMAND.match(self.code) is not None
+
+
+def blocks_of(page: Path) -> list[Block]:
+    """The blocks of a page in their order."""
+    found = FENCE.findall(page.read_text(encoding="utf-8"))
+    return [Block(language, code, remark.strip()) for remark, language, code in found]
+
+
+def carry_out(page: Path, folder: Path) -> None:
+    """Run the blocks of a page that are run here; raises AssertionError that names the first one that fails."""
+    for block in blocks_of(page):
+        if block.run_here:
+            (_python if block.language == "python" else _console)(block.code, folder)
+
+
+def _python(code: str, folder: Path) -> None:
+    named = FILE.match(code)
+    script = folder / (named[1] if named else "block.py")
+    script.write_text(code, encoding="utf-8")
+    if not named:
+        _run([sys.executable, script.name], folder)
+
+
+def _console(code: str, folder: Path) -> None:
+    for part in re.split(r"^\$ ", code, flags=re.MULTILINE)[1:]:
+        command, _, expected = part.partition("\n")
+        said = _run(["bash", "-c", command], folder)
+        assert NUMBER.sub("#", said) == NUMBER.sub("#", expected), f"{command}: prints\n{said}"
+
+
+def _run(command: list[str], folder: Path) -> str:
+    places = {
+        "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
+        "PYTHONPATH": str(ROOT / "src"),
+    }
+    run = subprocess.run(command, cwd=folder, env=os.environ | places, capture_output=True, text=True)
+    assert run.returncode == 0, f"{command[-1]}:\n{run.stdout}{run.stderr}"
+    return run.stdout
