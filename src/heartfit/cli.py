@@ -16,6 +16,7 @@ from heartfit.io.configuration import read_study
 from heartfit.io.fingerprint import fingerprint
 from heartfit.io.image_times import BEATS
 from heartfit.io.inside import require_writable
+from heartfit.io.made_by import made_by
 from heartfit.io.meshes import read_mesh
 from heartfit.own_case import STANDARD, check, check_arguments, init, init_arguments
 from heartfit.pages import PAGES
@@ -33,6 +34,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = Parser(prog="heartfit", description=__doc__)
+    parser.add_argument(
+        "--version", action="version", version=made_by(), help="of everything a result depends on"
+    )
     commands = parser.add_subparsers(required=True, metavar="command")
     simulated = commands.add_parser("simulate", help="run beats of one heart", description=simulate.__doc__)
     _simulate_arguments(simulated)

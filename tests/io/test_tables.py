@@ -1,5 +1,6 @@
 """The suffix says the format of a table; published tables are read without their origin lines."""
 
+import re
 from pathlib import Path
 
 import pandas as pd
@@ -10,6 +11,7 @@ from heartfit.errors import InputError
 from heartfit.io.tables import (
     read_numbers,
     read_published,
+    read_shape,
     read_tolerances,
     write_figure,
     write_figures,
@@ -27,6 +29,19 @@ TABLE = pd.DataFrame({"setting": ["paper"], "case": ["a_b"], "sigma_0 (kPa)": [2
 def test_the_suffix_decides(tmp_path: Path, suffix: str, content: str) -> None:
     write_table(tmp_path / f"table.{suffix}", TABLE)
     assert content in (tmp_path / f"table.{suffix}").read_text()
+
+
+@pytest.mark.parametrize(("suffix", "line"), [("csv", 0), ("md", -1), ("tex", 0)])
+def test_every_table_says_what_it_was_made_by(tmp_path: Path, suffix: str, line: int) -> None:
+    write_table(tmp_path / f"table.{suffix}", TABLE)
+    said = (tmp_path / f"table.{suffix}").read_text().splitlines()[line]
+    assert re.match(r"(# |<!-- |% )made by heartfit \S+, Python \d.*, code [0-9a-f]{16}", said)
+
+
+def test_what_is_written_as_csv_is_read_without_that_line(tmp_path: Path) -> None:
+    write_table(tmp_path / "numbers.csv", TABLE)
+    for read in (read_numbers, read_published, read_shape):
+        assert read(tmp_path / "numbers.csv").columns.tolist() == TABLE.columns.tolist()
 
 
 def test_another_suffix_is_refused(tmp_path: Path) -> None:
@@ -61,8 +76,8 @@ def test_tables_and_figures_are_written_by_name_with_their_note(tmp_path: Path) 
     assert {file.name for file in tmp_path.iterdir()} == {
         f"{name}.{end}" for name, ends in suffixes for end in ends
     }
-    assert (tmp_path / "table1.md").read_text().endswith(f"|\n\n{NOTES['table1']}\n")
-    assert (tmp_path / "other.md").read_text().endswith("|\n")
+    assert f"|\n\n{NOTES['table1']}\n\n<!-- made by" in (tmp_path / "table1.md").read_text()
+    assert "|\n\n<!-- made by" in (tmp_path / "other.md").read_text()
     assert "Why" not in (tmp_path / "table1.csv").read_text()
 
 

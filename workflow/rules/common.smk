@@ -9,7 +9,9 @@ from snakemake.exceptions import WorkflowError
 from heartfit.errors import InputError
 from heartfit.io.fingerprint import PACKAGE, fingerprint
 from heartfit.io.plan import plan_study
+from heartfit.io.run import Run
 from heartfit.io.sources import source_files
+from heartfit.io.sums import keep_sums
 from heartfit.mechanism import registered
 from heartfit.tables.groups import Groups, Origin
 
@@ -19,10 +21,12 @@ for library in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
 
 try:
     PLAN = plan_study(config, thorough=workflow.is_main_process)
+    RUN = Run(PLAN.study.results) if workflow.is_main_process else None  # and not a job on another machine
 except InputError as problem:
     raise WorkflowError(str(problem)) from None
-if PLAN.left_out:
-    logger.warning(PLAN.left_out)
+for line in [PLAN.left_out, *(RUN.put_in_order() if RUN else [])]:
+    if line:
+        logger.warning(line)
 
 STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources
 SETTINGS = list(STUDY.settings)
@@ -99,6 +103,10 @@ wildcard_constraints:
     acquisition="|".join(map(re.escape, TRIED)),
     batch=r"\d+",
     mechanism=r"\w+",
+
+
+onstart:
+    keep_sums(STUDY.results)
 
 
 def batch_of(wildcards):

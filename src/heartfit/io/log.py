@@ -1,5 +1,6 @@
 """The log of a job: all that Python and compiled code print goes into one file."""
 
+import errno
 import os
 import sys
 from pathlib import Path
@@ -19,8 +20,14 @@ def record(path: str) -> None:
     sys.excepthook = _one_line
 
 
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EROFS)
+"""Refusals of the disk, no fault of the program."""
+
+
 def _one_line(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
     if isinstance(error, InputError):
         sys.stderr.write(f"{error}\n")
+    elif isinstance(error, OSError) and error.errno in FULL:
+        sys.stderr.write(f"{error.filename or 'results'}: {error.strerror}; make room and run again\n")
     else:
         sys.__excepthook__(kind, error, trace)

@@ -131,7 +131,7 @@ def _diagnosis(folder: Path) -> Diagnosis | None:
 
 def _tables(folder: Path) -> dict[str, Printed]:
     return {
-        name: Printed(title, pd.read_csv(folder / f"{name}.csv"), NOTES.get(name, ""))
+        name: Printed(title, pd.read_csv(folder / f"{name}.csv", comment="#"), NOTES.get(name, ""))
         for name, title in TITLES.items()
         if (folder / f"{name}.csv").exists()
     }

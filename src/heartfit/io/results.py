@@ -13,6 +13,7 @@ from heartfit.calibration.unscented import SigmaPoint
 from heartfit.calibration.update import Posterior
 from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
+from heartfit.io.made_by import versions
 from heartfit.observation.measurement import Measurement
 from heartfit.observation.noise import Observation
 from heartfit.sensitivity.covariance import Sensitivity
@@ -22,8 +23,9 @@ from heartfit.tables.case import CaseResult
 def write_result(
     path: Path, content: Mapping[str, Any], fingerprint: str, units: Mapping[str, str] | None = None
 ) -> None:
-    """Write {"fingerprint", "units", "content"}; NaN and infinity become null."""
-    result = {"fingerprint": fingerprint, "units": dict(units or {}), "content": _plain(content)}
+    """Write {"fingerprint", "made_by", "units", "content"}; NaN and infinity become null."""
+    made = {"fingerprint": fingerprint, "made_by": versions()}
+    result = made | {"units": dict(units or {}), "content": _plain(content)}
     write_text(path, json.dumps(result, indent=1, allow_nan=False) + "\n")
 
 

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from heartfit.errors import InputError
 from heartfit.io.atomic import replacing, write_text
+from heartfit.io.made_by import made_by
 from heartfit.tables.notes import NOTES
 from heartfit.tables.text import to_latex, to_markdown
 
@@ -16,6 +17,12 @@ WRITERS = {
     ".md": to_markdown,
     ".tex": to_latex,
 }
+COMMENTS = {
+    ".csv": "# {comment}\n{text}",
+    ".md": "{text}\n<!-- {comment} -->\n",
+    ".tex": "% {comment}\n{text}",
+}
+"""Where a table says what it was made by: nobody reads it who does not look for it."""
 
 
 def write_table(path: Path, table: pd.DataFrame, note: str = "") -> None:
@@ -26,7 +33,9 @@ def write_table(path: Path, table: pd.DataFrame, note: str = "") -> None:
             f"{path}: tables are written as {', '.join(WRITERS)}, not {suffix or 'without suffix'}"
         )
     text = WRITERS[suffix](table)
-    write_text(path, f"{text}\n{note}\n" if note and suffix == ".md" else text)
+    if note and suffix == ".md":
+        text += f"\n{note}\n"
+    write_text(path, COMMENTS[suffix].format(text=text, comment=f"made by {made_by()}"))
 
 
 def write_tables(folder: Path, tables: Mapping[str, pd.DataFrame]) -> None:
@@ -49,7 +58,7 @@ def read_numbers(path: Path) -> pd.DataFrame:
         raise InputError(
             f"{path}: no such file; expected the numbers of a study: `snakemake --cores 2` makes them"
         )
-    return pd.read_csv(path, dtype=str, keep_default_na=False)
+    return pd.read_csv(path, dtype=str, keep_default_na=False, comment="#")
 
 
 def read_tolerances(path: Path) -> pd.DataFrame:
@@ -72,7 +81,7 @@ def read_shape(path: Path) -> pd.DataFrame:
         raise InputError(
             f"{path}: no such file; expected the shape of a calibrated motion: simulate it first"
         )
-    return pd.read_csv(path)
+    return pd.read_csv(path, comment="#")
 
 
 def write_figure(path: Path, figure: Figure) -> None:
