@@ -30,7 +30,7 @@ def test_pages_are_printed(capsys):
     ("arguments", "expected"),
     [
         (["check", "--config", "nowhere.yaml"], "nowhere.yaml: no such file"),
-        (["simulate", "nowhere.vtu"], "nowhere.vtu: missing"),
+        (["simulate", "nowhere.vtu"], "nowhere.vtu: no such file"),
         (["simulate", "x.vtu", "--setting", "fysical"], "known are paper, physical"),
         (["simulate", "x.vtu", "--set", "sigma0=1"], "nearest are"),
         (["simulate", "x.vtu", "--set", "sigma_0"], "expected NAME=VALUE"),

@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from heartfit import protocol
-from heartfit.catalogue import declared
+from heartfit.catalogue import composed, declared
+from heartfit.configuration.setting import Setting
 from heartfit.console import Parser, Progress, beat_summary, refusal
 from heartfit.errors import InputError
+from heartfit.geometry.mesh import VentricularMesh
 from heartfit.io.beats import write_beat
 from heartfit.io.configuration import read_study
 from heartfit.io.fingerprint import fingerprint
@@ -133,14 +135,43 @@ def simulate(given: argparse.Namespace) -> int:
     if given.setting not in study.settings:
         raise InputError(f"no setting {given.setting!r}; known are {', '.join(study.settings)}")
     setting = study.setting(given.setting)
-    changed = dict(_assignment(text) for text in given.set)
+    changed = _changed(given.set, setting)
     if given.unloaded:
         setting = setting.model_copy(update={"reference": "end_diastolic"})
-    mesh, pressures = read_mesh(given.mesh), study.end_diastolic_pressure
+    mesh, pressures = _prepared(given.mesh), study.end_diastolic_pressure
     beat = protocol.run_beat(mesh, setting, given.period, changed, pressures, study.numerics, Progress())
     write_beat(given.output, beat, fingerprint(Path(protocol.__file__)))
     print("\n".join([f"{len(mesh.tets)} tetrahedra, {setting.element}", *beat_summary(beat)]))
     return 0 if beat.completed else 1
+
+
+def _prepared(file: Path) -> VentricularMesh:
+    """The mesh with the fields that a beat needs; raises InputError where one is missing."""
+    mesh = read_mesh(file)
+    for name in ("fibres", "activation", "segments"):
+        if getattr(mesh, name) is None:
+            raise InputError(
+                f"{file}: no cell field {name}; expected a mesh as the study builds it: build it again"
+            )
+    return mesh
+
+
+def _changed(given: Sequence[str], setting: Setting) -> dict[str, float]:
+    """Parameters from texts NAME=VALUE; raises InputError for one that stands twice or that the setting lacks."""
+    changed: dict[str, float] = {}
+    for text in given:
+        name, value = _assignment(text)
+        if name in changed:
+            raise InputError(f"--set {text}: {name} is set twice; leave one out")
+        try:
+            composed(setting.mechanisms).with_parameters({name: value})
+        except KeyError as unknown:
+            known = ", ".join(setting.mechanisms) or "none"
+            raise InputError(
+                f"--set {text}: {unknown.args[0]}; mechanisms of the setting are {known}: add it there"
+            ) from None
+        changed[name] = value
+    return changed
 
 
 def _assignment(text: str) -> tuple[str, float]:
@@ -188,5 +219,5 @@ def reference(given: argparse.Namespace) -> int:
 
     study = read_study([STANDARD])
     loads = np.array([study.end_diastolic_pressure.lv, study.end_diastolic_pressure.rv])
-    print(reference_table(find(read_mesh(given.mesh), loads, study.numerics.numerics())), end="")
+    print(reference_table(find(_prepared(given.mesh), loads, study.numerics.numerics())), end="")
     return 0

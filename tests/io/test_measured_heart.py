@@ -70,7 +70,7 @@ def test_the_copy_is_read_as_the_original(copy: Path, measured_heart_folder: Pat
         (write_nan, "NaN"),
         (drop_phases, "7 phases; expected at least 8"),
         (open_surface, "not closed"),
-        (drop_timing, r"timing\.json: missing"),
+        (drop_timing, r"timing\.json: no such file"),
         (no_short_axis, "short-axis"),
     ],
 )

@@ -60,7 +60,7 @@ def test_a_motion_comes_back_bit_for_bit(tmp_path: Path) -> None:
 
 def test_a_file_that_is_no_mesh_is_refused(tmp_path: Path) -> None:
     (tmp_path / "mesh.vtu").write_text("nothing of the kind")
-    with pytest.raises(InputError, match="not a mesh"):
+    with pytest.raises(InputError, match="expected a mesh"):
         read_mesh(tmp_path / "mesh.vtu")
 
 

@@ -1,5 +1,6 @@
 """An input that is wrong in one way, and what a command makes of it."""
 
+import os
 import re
 import signal
 from collections.abc import Callable, Mapping
@@ -39,6 +40,23 @@ class Malformed:
         """Whether there is one line, or where everything is checked at once several, and one says what is wrong."""
         several = self.command.startswith("check")
         return (several or len(lines) == 1) and any(re.search(self.says, line) for line in lines)
+
+
+def folder(path: Path) -> None:
+    """A folder in the place of a file."""
+    path.unlink(missing_ok=True)
+    path.mkdir()
+
+
+def pipe(path: Path) -> None:
+    """A pipe that nobody fills."""
+    os.mkfifo(path)
+
+
+def hole(path: Path) -> None:
+    """A file of a terabyte that takes no room."""
+    path.touch()
+    os.truncate(path, 1 << 40)
 
 
 def exit_code(command: str) -> int:

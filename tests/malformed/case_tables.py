@@ -1,8 +1,6 @@
 """Tables of cases that are wrong."""
 
-from pathlib import Path
-
-from tests.malformed.case import Content, Malformed
+from tests.malformed.case import Content, Malformed, folder
 from tests.malformed.sound import CASES
 
 CHECK = "check|--no-picture|--config|sound.yaml"
@@ -16,11 +14,6 @@ def with_(name: str, old: str, new: str, says: str) -> Malformed:
     """The sound table with a part replaced."""
     assert old in CASES, old
     return table(name, CASES.replace(old, new, 1), says)
-
-
-def folder(path: Path) -> None:
-    path.unlink()
-    path.mkdir()
 
 
 MALFORMED = [

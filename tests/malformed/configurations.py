@@ -1,8 +1,6 @@
 """Configurations that are wrong."""
 
-from pathlib import Path
-
-from tests.malformed.case import Content, Malformed
+from tests.malformed.case import Content, Malformed, folder, hole, pipe
 from tests.malformed.sound import CONFIGURATION
 
 CHECK = "check|--no-picture|--config|sound.yaml|bad.yaml"
@@ -27,16 +25,12 @@ def setting(name: str, text: str, says: str) -> Malformed:
     return over(name, f"settings: {{paper: {{{text}}}}}", says)
 
 
-def folder(path: Path) -> None:
-    path.mkdir()
-
-
 MALFORMED = [
     # no configuration at all
     Malformed("configuration: missing", "check|--no-picture|--config|none.yaml", "none.yaml: no such file"),
     over("a folder", folder, "bad.yaml: is a folder"),
     over("a device", lambda path: path.symlink_to("/dev/zero"), "not a regular file"),
-    over("a pipe that nobody fills", lambda path: __import__("os").mkfifo(path), "not a regular file"),
+    over("a pipe that nobody fills", pipe, "not a regular file"),
     over("a link to itself", lambda path: path.symlink_to(path), "bad.yaml"),
     over("bytes", bytes(range(256)), "not UTF-8"),
     over("of NULs", b"\0" * 100, "not YAML"),
@@ -45,7 +39,7 @@ MALFORMED = [
     over("a novel", "#" * 3_000_000, "expected at most"),
     over(
         "a hole of a terabyte",
-        lambda path: path.touch() or __import__("os").truncate(path, 1 << 40),
+        hole,
         "expected at most",
     ),
     over("an archive", b"PK\x03\x04" + bytes(100), "not UTF-8|not YAML"),

@@ -1,8 +1,8 @@
 """Recordings that are wrong."""
 
-from pathlib import Path
+import gzip
 
-from tests.malformed.case import Content, Malformed
+from tests.malformed.case import Content, Malformed, folder, pipe
 from tests.malformed.sound import recording
 
 SOUND = recording()
@@ -32,15 +32,11 @@ def scaled(column: int, factor: float) -> str:
     return "\n".join([*head, *map(",".join, rows)]) + "\n"
 
 
-def folder(path: Path) -> None:
-    path.mkdir()
-
-
 MALFORMED = [
     curves("missing", lambda path: None, "no such file"),
     curves("a folder", folder, "is a folder"),
     curves("a device", lambda path: path.symlink_to("/dev/zero"), "not a regular file"),
-    curves("a pipe that nobody fills", lambda path: __import__("os").mkfifo(path), "not a regular file"),
+    curves("a pipe that nobody fills", pipe, "not a regular file"),
     curves("empty", "", "empty"),
     curves("a mark of the byte order and nothing", b"\xef\xbb\xbf", "empty"),
     curves("a header alone", "# period_s = 0.9\ntime_s,lv_volume_ml\n", "0 samples|no rows"),
@@ -53,7 +49,7 @@ MALFORMED = [
         "compressed",
         "diagnose|bad.csv.gz",
         "not UTF-8",
-        **{"bad.csv.gz": __import__("gzip").compress(SOUND.encode())},
+        **{"bad.csv.gz": gzip.compress(SOUND.encode())},
     ),
     curves("semicolons and decimal commas", SOUND.replace(",", ";").replace(".", ","), "no commas|no column"),
     curves("decimal commas", SOUND.replace(".", ","), "cells"),

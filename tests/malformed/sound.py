@@ -8,8 +8,8 @@ import numpy as np
 from scipy.io import savemat
 from scipy.sparse import eye
 
-from heartfit.io.measured_heart import SURFACE_OF_LABEL
 from heartfit.io.meshes import write_mesh
+from heartfit.io.subdivision import SURFACE_OF_LABEL
 from heartfit.verification.specimen import COARSE, SHAPE, specimen
 
 ROOT = Path(__file__).parents[2]

@@ -5,11 +5,12 @@ from pathlib import Path
 
 import pytest
 from _pytest.mark import ParameterSet
-from tests.malformed import case_tables, configurations, recordings
+from tests.malformed import case_tables, configurations, hearts, meshes, recordings
 from tests.malformed.case import Malformed, exit_code, files_in
 from tests.malformed.sound import write_sound
 
-MALFORMED = [*configurations.MALFORMED, *case_tables.MALFORMED, *recordings.MALFORMED]
+LISTS = (configurations, case_tables, hearts, recordings, meshes)
+MALFORMED = [each for module in LISTS for each in module.MALFORMED]
 EVERY = 6
 """One of so many is tried whenever the tests are, all of them by `python3 study.py malformed`."""
 

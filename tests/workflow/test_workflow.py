@@ -131,7 +131,7 @@ def test_no_input_is_ancient(workflow):
     ("file", "text", "expected"),
     [
         ("config/config.yaml", "mehs: 1\n", "unknown key mehs; did you mean mesh?"),
-        ("config/cases.tsv", "x\tvirtual\t0.9\n", "x is virtual and lacks seed"),
+        ("config/cases.tsv", "x\tvirtual\t0.9" + 13 * "\t" + "\n", "x is virtual and lacks seed"),
     ],
 )
 def test_bad_input_is_refused_in_one_line_before_anything_runs(workflow, file, text, expected):

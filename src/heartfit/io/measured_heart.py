@@ -6,33 +6,25 @@ per phase, `template/subdivision_matrix_sparse.mat`, `template/ETIndicesSorted.t
 acquisitions).
 """
 
-import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats, Integers, Names
+from heartfit.geometry.arrays import Floats, Integers
 from heartfit.geometry.motion import require_phases
+from heartfit.geometry.soundness import require_heart
 from heartfit.geometry.surface import LabelledSurface, enclosed_volume
-from heartfit.geometry.topology import orient
+from heartfit.io.image_times import BEATS
+from heartfit.io.subdivision import read_template
+from heartfit.io.text import read_json, read_text
 
 MILLIMETRE = 1e-3
 MILLISECOND = 1e-3
 SHORT_AXIS = "cine_trufi_retro"
-
-SURFACE_OF_LABEL = {
-    "LV_ENDOCARDIAL": "lv_endo",
-    "RV_FREEWALL": "rv_endo",
-    "RV_SEPTUM": "rv_endo",
-    "LV_EPICARDIAL": "epi",
-    "RV_EPICARDIAL": "epi",
-    "AORTA_VALVE_CUT": "base",
-    "MITRAL_VALVE_CUT": "base",
-    "PULMONARY_VALVE__CUT": "base",
-    "TRICUSPID_VALVE_CUT": "base",
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,12 +32,16 @@ class MeasuredHeart:
     """The closed wall surface of a measured heart in every phase.
 
     surface: end diastole (phase 0); positions (p,n,3) m of its points in every phase; times (p,) s; period s.
+    Raises InputError where wall or cavities are not those of a human heart.
     """
 
     surface: LabelledSurface
     positions: Floats
     times: Floats
     period: float
+
+    def __post_init__(self) -> None:
+        require_heart(self.surface, self.positions)
 
     def at(self, phase: int) -> LabelledSurface:
         """The wall surface in one phase."""
@@ -58,23 +54,24 @@ def read_measured_heart(folder: Path) -> MeasuredHeart:
     Raises InputError for a missing file, a surface that is not closed, unequal vertex counts, NaN, fewer than
     8 phases.
     """
-    from scipy.io import loadmat
-
-    control_points = _read_control_points(folder / "control_points")
-    triangles, labels = _read_template(folder / "template")
-    matrix = loadmat(_existing(folder / "template" / "subdivision_matrix_sparse.mat"))["S"]
-    if matrix.shape[1] != control_points.shape[1]:
+    control_points = _read_control_points(_folder(folder / "control_points"))
+    template = read_template(_folder(folder / "template"))
+    if template.matrix.shape[1] != control_points.shape[1]:
         raise InputError(
-            f"{folder}: {control_points.shape[1]} control points in each phase, expected {matrix.shape[1]}, "
+            f"{folder}: {control_points.shape[1]} control points in each phase, expected {template.matrix.shape[1]}, "
             "the columns of the subdivision matrix; take the template the control points were fitted with"
         )
-    positions = np.stack([matrix @ phase for phase in control_points]) * MILLIMETRE
-    positions, triangles = _only_used(positions, triangles)
+    period = _read_period(folder / "cine" / "timing.json")
+    positions = np.stack([template.points(phase) for phase in control_points]) * MILLIMETRE
+    positions, triangles = _only_used(positions, template.triangles)
     if enclosed_volume(positions[0], triangles) < 0.0:
         triangles = triangles[:, ::-1]
-    period = _read_period(folder / "cine" / "timing.json")
     times = np.arange(len(positions)) * period / len(positions)
-    return MeasuredHeart(LabelledSurface(positions[0], triangles, labels), positions, times, period)
+    try:
+        surface = LabelledSurface(positions[0], triangles, template.labels)
+        return MeasuredHeart(surface, positions, times, period)
+    except InputError as fault:
+        raise InputError(f"{folder}: {fault}") from None
 
 
 def short_axis_images(folder: Path) -> Path | None:
@@ -88,7 +85,7 @@ def short_axis_images(folder: Path) -> Path | None:
 
 
 def _read_control_points(folder: Path) -> Floats:
-    files = sorted(_existing(folder).glob("*.txt"))
+    files = sorted(folder.glob("*.txt"))
     require_phases(len(files), str(folder))
     phases = [_read_phase(file) for file in files]
     for file, phase in zip(files, phases, strict=True):
@@ -104,26 +101,18 @@ def _read_control_points(folder: Path) -> Floats:
 
 def _read_phase(file: Path) -> Floats:
     """Control points (n,3) in mm: the first three columns below a line of headings."""
-    lines = file.read_text(encoding="utf-8").splitlines()[1:]
+    lines = read_text(file, "control points in mm").splitlines()[1:]
     try:
-        return np.array([[float(cell) for cell in line.split(",")[:3]] for line in lines]).reshape(-1, 3)
+        return np.array([_place(line) for line in lines]).reshape(-1, 3)
     except ValueError:
         raise InputError(
             f"{file}: expected lines x,y,z,... of numbers in mm below one line of headings"
         ) from None
 
 
-def _read_template(folder: Path) -> tuple[Integers, Names]:
-    """The triangles of the wall, consistently oriented, and their surface names; valve discs are left out."""
-    triangles = np.loadtxt(_existing(folder / "ETIndicesSorted.txt"), dtype=np.int64) - 1
-    materials = np.loadtxt(_existing(folder / "ETIndicesMaterials.txt"), dtype=str)[:, 1]
-    if len(materials) != len(triangles):
-        raise InputError(
-            f"{folder}: {len(materials)} labels for {len(triangles)} triangles; expected one for each"
-        )
-    wall = np.isin(materials, list(SURFACE_OF_LABEL))
-    labels = np.array([SURFACE_OF_LABEL[label] for label in materials[wall]])
-    return orient(triangles[wall]), labels
+def _place(line: str) -> list[float]:
+    x, y, z = line.split(",")[:3]
+    return [float(x), float(y), float(z)]
 
 
 def _only_used(positions: Floats, triangles: Integers) -> tuple[Floats, Integers]:
@@ -134,17 +123,33 @@ def _only_used(positions: Floats, triangles: Integers) -> tuple[Floats, Integers
 
 def _read_period(file: Path) -> float:
     """Mean beat length in s of the short-axis acquisitions, which the surfaces were fitted to."""
-    acquisitions = json.loads(_existing(file).read_text())
-    beats = [a["nominal_interval_ms"] for a in acquisitions.values() if a["description"] == SHORT_AXIS]
+    content = read_json(file, "the beat lengths of a biv-me subject")
+    given = content.values() if isinstance(content, Mapping) else ()
+    beats = [
+        _beat(file, each)
+        for each in given
+        if isinstance(each, Mapping) and each.get("description") == SHORT_AXIS
+    ]
     if not beats:
         raise InputError(
             f"{file}: no acquisition is described as {SHORT_AXIS!r}; expected the short-axis cines"
         )
-    return float(np.mean(beats)) * MILLISECOND
+    return float(np.mean(beats))
 
 
-def _existing(path: Path) -> Path:
-    if not path.exists():
+def _beat(file: Path, acquisition: Mapping[str, Any]) -> float:
+    """Length of a beat in s."""
+    interval = acquisition.get("nominal_interval_ms")
+    if not isinstance(interval, int | float) or not BEATS[0] <= interval * MILLISECOND <= BEATS[1]:
+        low, high = (beat / MILLISECOND for beat in BEATS)
+        raise InputError(
+            f"{file}: nominal_interval_ms is {interval!r}; expected {low:g} to {high:g} ms: correct it"
+        )
+    return interval * MILLISECOND
+
+
+def _folder(path: Path) -> Path:
+    if not path.is_dir():
         raise InputError(
             f"{path}: missing; expected the folder layout of a biv-me subject; fetch the data again"
         )

@@ -6,14 +6,17 @@ import meshio
 import numpy as np
 
 from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
+from heartfit.geometry.soundness import require_indices, require_sound
 from heartfit.geometry.surface import SURFACES
 from heartfit.io.atomic import replacing
+from heartfit.io.foreign import parsing
+from heartfit.io.text import require_file
 
 CELL_FIELDS = {"fibres": (3,), "orientation": (6,), "segments": (), "activation": ()}
 NO_SURFACE = -1
+EXPECTED = "a mesh in .vtu format, as the study builds it"
 
 
 def write_mesh(path: Path, mesh: VentricularMesh) -> None:
@@ -32,38 +35,30 @@ def write_mesh(path: Path, mesh: VentricularMesh) -> None:
 
 
 def read_mesh(path: Path) -> VentricularMesh:
-    """Reads what write_mesh wrote; raises InputError for a missing file or part or inverted tetrahedra."""
-    if not path.exists():
-        raise InputError(f"{path}: missing; expected a mesh in .vtu format; build it first")
-    stored = _stored(path)
-    if "surface" not in stored.cell_data or not {"tetra", "triangle"} <= set(stored.cells_dict):
-        raise InputError(
-            f"{path}: expected tetrahedra and triangles with the cell field 'surface'; build it again"
-        )
+    """Reads what write_mesh wrote; raises InputError for what is no such file, and for ventricles that cannot be."""
+    require_file(path, EXPECTED)
+    with parsing(path, EXPECTED, meshio.ReadError):
+        stored = meshio.vtu.read(path)
+        if "surface" not in stored.cell_data or not {"tetra", "triangle"} <= set(stored.cells_dict):
+            raise InputError(
+                f"{path}: expected tetrahedra and triangles with the cell field 'surface'; build it again"
+            )
+        return _mesh(path, stored)
+
+
+def _mesh(path: Path, stored: meshio.Mesh) -> VentricularMesh:
+    points, tets = stored.points.astype(float), stored.cells_dict["tetra"].astype(np.int64)
     triangles, surface_id = stored.cells_dict["triangle"], stored.cell_data_dict["surface"]["triangle"]
     surfaces = {name: triangles[surface_id == i].astype(np.int64) for i, name in enumerate(SURFACES)}
     fields = {name: stored.cell_data_dict[name]["tetra"] for name in CELL_FIELDS if name in stored.cell_data}
     fields["longitudinal"] = stored.point_data.get("longitudinal")
-    tets = stored.cells_dict["tetra"].astype(np.int64)
-    mesh = VentricularMesh(stored.points.astype(float), tets, surfaces, **fields)
-    _require_positive(path, mesh.element_volumes())
-    return mesh
-
-
-def _stored(path: Path) -> meshio.Mesh:
     try:
-        return meshio.read(path)
-    except (SystemExit, meshio.ReadError):  # meshio leaves the program over a file that it cannot read
-        raise InputError(f"{path}: not a mesh in .vtu format; build it again") from None
-
-
-def _require_positive(path: Path, volumes: Floats) -> None:
-    inverted = np.flatnonzero(~(volumes > 0.0))
-    if len(inverted):
-        raise InputError(
-            f"{path}: {len(inverted)} tetrahedra are inverted or flat, first tet {inverted[0]} with "
-            f"{volumes[inverted[0]]:.3g} m^3; expected > 0; build the mesh again"
-        )
+        require_indices(points, tets, triangles)
+        mesh = VentricularMesh(points, tets, surfaces, **fields)
+        require_sound(mesh)
+    except InputError as fault:
+        raise InputError(f"{path}: {fault}") from None
+    return mesh
 
 
 def write_motion(path: Path, motion: Motion) -> None:
