@@ -33,6 +33,7 @@ HEIGHTS = (
     ("diagnosis", "sensitivity", "twins"),
     ("planting",),
     ("tables",),
+    ("exchange",),
     ("report",),
     ("catalogue",),
     ("configuration",),

@@ -297,6 +297,8 @@ def whole_study():
     """All that the study makes, but for what it took."""
     return [
         *expand("<results>/tables/{name}.md", name=TABLES),
+        *expand("<results>/tables/{name}.csv", name=("posteriors", "curves")),
+        *expand("<results>/{case}/{setting}/inference.nc", case=CASES, setting=SETTINGS),
         *expand("<results>/figures/{picture}", picture=CASE_PICTURES),
         *expand("<results>/figures/{about}.png", about=PICTURES),
         # asked for by name, or Snakemake would not miss a beat that was deleted

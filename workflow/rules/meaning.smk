@@ -7,6 +7,17 @@ POSTERIORS = {
     "truths": expand("<results>/{case}/cohort/truth.json", case=GROUPS.virtual),
 }
 
+EXCHANGED = {
+    "measured": expand(
+        "<results>/{case}/curves/{file}", case=CASES, file=("measured.csv", "observations.json")
+    ),
+    "calibrated": [
+        f"<results>/{case}/{setting}/verification/{file}"
+        for case, setting in CALIBRATED
+        for file in ("beat.json", "beat.csv", "errors.json")
+    ],
+}
+
 
 rule make_cards:
     input:
@@ -52,6 +63,29 @@ rule compare_groups:
         code=code("compare_groups.py"),
     script:
         "../scripts/compare_groups.py"
+
+
+rule exchange_results:
+    input:
+        **EXCHANGED,
+        met=POSTERIORS["met"],
+        weighed=POSTERIORS["weighed"],
+    output:
+        [f"<results>/{case}/{setting}/inference.nc" for case, setting in CALIBRATED],
+        tables=expand("<results>/tables/{name}.csv", name=("posteriors", "curves")),
+    log:
+        "<logs>/exchange_results.log",
+    benchmark:
+        "<benchmarks>/exchange_results.tsv"
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        results=results_folder,
+        calibrated=CALIBRATED,
+        code=code("exchange_results.py"),
+    script:
+        "../scripts/exchange_results.py"
 
 
 rule check_numbers:

@@ -1,0 +1,1 @@
+"""Results in the forms of other programs: InferenceData of ArviZ, tidy tables, the model space of PEtab Select."""
