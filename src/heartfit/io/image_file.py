@@ -14,6 +14,7 @@ import SimpleITK as sitk
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
 from heartfit.imaging.grid import Grid
+from heartfit.io.sums import require_as_written
 
 SUFFIXES = (".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd")
 MILLIMETRE = 1e-3
@@ -35,6 +36,7 @@ def load(path: Path) -> sitk.Image:
     """The image; raises InputError if it is missing, damaged, cut off, or a NIfTI that says not where it lies."""
     if not path.is_file():
         raise InputError(f"{path}: no such file; expected an image ({', '.join(SUFFIXES)})")
+    require_as_written(path)
     try:
         with quiet():
             image = sitk.ReadImage(str(path))

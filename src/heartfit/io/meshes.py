@@ -10,6 +10,7 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
 from heartfit.geometry.soundness import require_indices, require_sound
 from heartfit.geometry.surface import SURFACES
+from heartfit.io.arrays import read_arrays
 from heartfit.io.atomic import replacing
 from heartfit.io.foreign import parsing
 from heartfit.io.text import require_file
@@ -69,7 +70,5 @@ def write_motion(path: Path, motion: Motion) -> None:
 
 def read_motion(path: Path) -> Motion:
     """Reads what write_motion wrote; raises InputError for a missing file or times that cannot be."""
-    if not path.exists():
-        raise InputError(f"{path}: missing; expected a motion in .npz format; register it first")
-    with np.load(path) as stored:
-        return Motion(stored["times"], float(stored["period"]), stored["positions"])
+    stored = read_arrays(path, "times", "period", "positions")
+    return Motion(stored["times"], float(stored["period"]), stored["positions"])

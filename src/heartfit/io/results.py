@@ -14,6 +14,7 @@ from heartfit.calibration.update import Posterior
 from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
 from heartfit.io.made_by import versions
+from heartfit.io.sums import require_as_written
 from heartfit.observation.measurement import Measurement
 from heartfit.observation.noise import Observation
 from heartfit.sensitivity.covariance import Sensitivity
@@ -117,6 +118,7 @@ def read_case(path: Path) -> CaseResult:
 def _read(path: Path) -> dict[str, Any]:
     if not Path(path).is_file():
         raise InputError(f"{path}: no such result; expected a file the study writes: run the stage before")
+    require_as_written(path)
     try:
         result = json.loads(Path(path).read_text(encoding="utf-8"))
     except json.JSONDecodeError as error:

@@ -7,6 +7,7 @@ import numpy as np
 from heartfit.beat import Beat, motion_of
 from heartfit.geometry.arrays import Floats
 from heartfit.geometry.motion import Motion
+from heartfit.io.arrays import read_arrays
 from heartfit.io.atomic import replacing
 from heartfit.io.meshes import read_motion, write_motion
 
@@ -22,8 +23,4 @@ def write_simulated_motion(path: Path, beat: Beat, times: Floats) -> None:
 
 def read_simulated_motion(path: Path) -> Motion | None:
     """Reads what write_simulated_motion wrote, None of a failed beat; raises InputError for a missing file."""
-    if path.exists():
-        with np.load(path) as stored:
-            if not len(stored["times"]):
-                return None
-    return read_motion(path)
+    return read_motion(path) if len(read_arrays(path, "times")["times"]) else None

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from heartfit.errors import InputError
 from heartfit.imaging.grid import Grid
+from heartfit.io.arrays import read_arrays
 from heartfit.io.atomic import replacing
 from heartfit.registration.slices import SliceMotion
 
@@ -27,12 +27,8 @@ def write_slice_motion(path: Path, motion: SliceMotion) -> None:
 
 def read_slice_motion(path: Path) -> SliceMotion:
     """Reads what write_slice_motion wrote; raises InputError for a missing file."""
-    if not path.is_file():
-        raise InputError(
-            f"{path}: missing; expected the motion of slices in .npz format; register them first"
-        )
-    with np.load(path) as stored:
-        i, j, k = stored["size"].tolist()
-        column, row = stored["corner"].tolist()
-        grid = Grid((i, j, k), stored["spacing"], stored["origin"], stored["direction"])
-        return SliceMotion(grid, (column, row), stored["displacement"].astype(float))
+    stored = read_arrays(path, "size", "spacing", "origin", "direction", "corner", "displacement")
+    i, j, k = stored["size"].tolist()
+    column, row = stored["corner"].tolist()
+    grid = Grid((i, j, k), stored["spacing"], stored["origin"], stored["direction"])
+    return SliceMotion(grid, (column, row), stored["displacement"].astype(float))

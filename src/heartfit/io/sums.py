@@ -7,6 +7,8 @@ file below no such folder has none, and nothing is known of it.
 import hashlib
 from pathlib import Path
 
+from heartfit.errors import InputError
+
 FOLDER = ".sums"
 DRAFT = ".draft-"
 """How the folder begins in which a file is written until it is whole."""
@@ -41,6 +43,12 @@ def is_as_written(path: Path) -> bool:
     if noted is None or not noted.is_file():
         return True
     return noted.read_text(encoding="utf-8", errors="replace").split()[:1] == [_sum(path)]
+
+
+def require_as_written(path: Path) -> None:
+    """Raises InputError for a file that is not what was written."""
+    if not is_as_written(path):
+        raise InputError(f"{path}: not what was written there; delete it and run the stage again")
 
 
 def forget(path: Path) -> None:

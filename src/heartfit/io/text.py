@@ -7,12 +7,13 @@ from stat import S_ISDIR, S_ISREG
 from typing import Any
 
 from heartfit.errors import InputError
+from heartfit.io.sums import require_as_written
 
 MEGABYTE = 1 << 20
 
 
 def require_file(path: Path, expected: str) -> None:
-    """Raises InputError for what is missing, a folder, or what never ends, as a device or a pipe."""
+    """Raises InputError for what is missing, a folder, without end as a device or a pipe, or not as a job wrote it."""
     try:
         mode = Path(path).stat().st_mode
     except OSError as fault:
@@ -23,6 +24,7 @@ def require_file(path: Path, expected: str) -> None:
     if not S_ISREG(mode):
         found = "is a folder" if S_ISDIR(mode) else "is not a regular file"
         raise InputError(f"{path}: {found}; expected {expected}: correct the path")
+    require_as_written(path)
 
 
 def read_text(path: Path, expected: str, most: int = MEGABYTE) -> str:

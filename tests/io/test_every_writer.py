@@ -1,0 +1,57 @@
+"""Every file is written as a draft that takes its place when it is whole, read from the syntax tree."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+IO = Path(__file__).parents[2] / "src" / "heartfit" / "io"
+FOUNDATION = {"atomic.py", "sums.py"}
+"""What the others rest on."""
+WRITING = {
+    "write_text",
+    "write_bytes",
+    "savez",
+    "savez_compressed",
+    "savefig",
+    "WriteImage",
+    "save",
+    "to_netcdf",
+}
+
+
+def writes(node):
+    """Whether a call writes to a file: a method of that name, or opening one to write."""
+    if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
+        return False
+    modes = [argument.value for argument in node.args if isinstance(argument, ast.Constant)]
+    to_write = node.func.attr == "open" and any(str(mode)[:1] in "wax" for mode in modes)
+    return node.func.attr in WRITING or to_write
+
+
+def drafted(tree):
+    """The nodes within a block that begins with `with replacing(...)`."""
+    for block in ast.walk(tree):
+        if isinstance(block, ast.With):
+            calls = [item.context_expr for item in block.items if isinstance(item.context_expr, ast.Call)]
+            if any(getattr(call.func, "id", "") == "replacing" for call in calls):
+                yield from ast.walk(block)
+
+
+def test_something_is_found():
+    source = (
+        "with replacing(path) as draft:\n    a.savefig(draft)\nb.savefig(path)\nc.open('wb')\nd.open('rb')"
+    )
+    tree = ast.parse(source)
+    assert [node.lineno for node in ast.walk(tree) if writes(node)] == [3, 4, 2]
+    assert [node.lineno for node in drafted(tree) if writes(node)] == [2]
+
+
+@pytest.mark.parametrize("file", sorted(IO.glob("*.py")), ids=lambda file: file.name)
+def test_nothing_is_written_but_as_a_draft(file):
+    if file.name in FOUNDATION:
+        return
+    tree = ast.parse(file.read_text())
+    known = set(map(id, drafted(tree)))
+    astray = [node.lineno for node in ast.walk(tree) if writes(node) and id(node) not in known]
+    assert not astray, f"{file.name}, lines {astray}: write within `with replacing(path) as draft`"
