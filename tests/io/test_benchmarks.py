@@ -6,7 +6,7 @@ import pytest
 
 from heartfit.errors import InputError
 from heartfit.io.benchmarks import read_benchmarks
-from heartfit.tables.costs import Cost
+from heartfit.planning.need import Cost
 
 HEADER = "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"
 

@@ -9,8 +9,7 @@ rule compare_alternatives:
     benchmark:
         "<benchmarks>/compare_alternatives.tsv"
     resources:
-        mem_mb=500,
-        runtime=10,
+        **needs("compare_alternatives"),
     params:
         study=STUDY.sphere_study,
         twins=STUDY.twins(),
@@ -31,8 +30,7 @@ rule cover_spheres:
     benchmark:
         "<benchmarks>/cover_spheres.tsv"
     resources:
-        mem_mb=500,
-        runtime=10,
+        **needs("cover_spheres"),
     params:
         study=STUDY.sphere_study,
         twins=STUDY.twins(),

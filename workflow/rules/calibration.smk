@@ -6,8 +6,7 @@ rule draw_sigma_points:
     benchmark:
         "<benchmarks>/{case}/{setting}/draw_sigma_points.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("draw_sigma_points"),
     params:
         setting=setting_of,
         transform=STUDY.unscented,
@@ -30,8 +29,7 @@ rule simulate_point:
     benchmark:
         "<benchmarks>/{case}/{setting}/simulate_point_{point}.tsv"
     resources:
-        mem_mb=1500,
-        runtime=30,
+        **needs("simulate_point"),
     params:
         case=case_of,
         setting=setting_of,
@@ -58,8 +56,7 @@ rule update_parameters:
     benchmark:
         "<benchmarks>/{case}/{setting}/update_parameters.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("update_parameters"),
     params:
         setting=setting_of,
         mechanisms=mechanisms_of,

@@ -11,8 +11,7 @@ rule generate_volunteer:
     wildcard_constraints:
         case=one_of(VIRTUAL),
     resources:
-        mem_mb=2500,
-        runtime=60,
+        **needs("generate_volunteer"),
     params:
         case=case_of,
         cohort=STUDY.cohort,
@@ -38,8 +37,7 @@ rule image_volunteer:
     wildcard_constraints:
         case=one_of(VIRTUAL),
     resources:
-        mem_mb=1500,
-        runtime=10,
+        **needs("image_volunteer"),
     params:
         case=case_of,
         scanner=STUDY.scanner(),
@@ -62,8 +60,7 @@ rule record_pressure:
     wildcard_constraints:
         case=one_of(CATHETERISED),
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("record_pressure"),
     params:
         case=case_of,
         catheter=STUDY.cohort.catheter.catheter(),

@@ -8,11 +8,13 @@ from snakemake.exceptions import WorkflowError
 
 from heartfit.errors import InputError
 from heartfit.io.fingerprint import PACKAGE, fingerprint
+from heartfit.io.measured_costs import NEEDS, read_table
 from heartfit.io.plan import plan_study
 from heartfit.io.run import Run
 from heartfit.io.sources import source_files
 from heartfit.io.sums import keep_sums
 from heartfit.mechanism import registered
+from heartfit.planning.need import Need, largest
 from heartfit.tables.groups import Groups, Origin
 
 # one thread a job: the jobs are what runs in parallel
@@ -90,6 +92,7 @@ TABLES = [
 ]
 FRESH = range(ERROR.sequences, ERROR.sequences + ERROR.fresh)
 
+TAKEN = read_table(Need, Path(workflow.basedir, "resources", NEEDS))
 BATCHES = dict(enumerate(STUDY.discovery_benchmark.batches()))
 VENTRICLES = STUDY.discovery_benchmark.ventricles
 HIDDEN_IN_3D = dict(enumerate(VENTRICLES.plans()))
@@ -128,6 +131,15 @@ def rests_on(file):
 def code(script):
     """The fingerprint of a script, found when a job asks: one that runs on its own takes that of its own only."""
     return lambda wildcards: rests_on(Path(workflow.basedir, "workflow", "scripts", script))
+
+
+def needs(job):
+    """Memory and time to ask a cluster for, from what such jobs took; on each further attempt as much again."""
+    need = largest(TAKEN, job)
+    return {
+        "mem_mb": lambda wildcards, attempt: attempt * need.megabytes(),
+        "runtime": lambda wildcards, attempt: attempt * need.minutes(),
+    }
 
 
 def printed(*names):

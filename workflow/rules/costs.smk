@@ -11,8 +11,7 @@ rule tabulate_costs:
     benchmark:
         "<benchmarks>/tabulate_costs.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("tabulate_costs"),
     params:
         results=results_folder,
         code=code("tabulate_costs.py"),

@@ -35,8 +35,7 @@ rule extract_curves:
     benchmark:
         "<benchmarks>/{case}/extract_curves.tsv"
     resources:
-        mem_mb=1000,
-        runtime=10,
+        **needs("extract_curves"),
     params:
         operator=STUDY.observation,
         protocol=STUDY.protocol(),

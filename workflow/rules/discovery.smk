@@ -46,8 +46,7 @@ rule plot_residual:
     benchmark:
         "<benchmarks>/{case}/{setting}/plot_residual.tsv"
     resources:
-        mem_mb=1000,
-        runtime=5,
+        **needs("plot_residual"),
     params:
         setting=setting_of,
         mechanisms=mechanisms_of,
@@ -69,8 +68,7 @@ rule search_cause:
     benchmark:
         "<benchmarks>/{case}/{setting}/search_cause.tsv"
     resources:
-        mem_mb=1000,
-        runtime=10,
+        **needs("search_cause"),
     params:
         case=case_of,
         setting=setting_of,
@@ -94,8 +92,7 @@ rule refit_case:
     benchmark:
         "<benchmarks>/{case}/{setting}/refit_case.tsv"
     resources:
-        mem_mb=2000,
-        runtime=120,
+        **needs("refit_case"),
     params:
         **GIVEN,
         code=code("refit_case.py"),
@@ -115,8 +112,7 @@ rule prove_cause:
     benchmark:
         "<benchmarks>/{case}/{setting}/prove_cause.tsv"
     resources:
-        mem_mb=2000,
-        runtime=120,
+        **needs("prove_cause"),
     params:
         **GIVEN,
         every=every_mechanism,
@@ -136,8 +132,7 @@ rule try_mechanism:
     benchmark:
         "<benchmarks>/{case}/{setting}/try_mechanism_{mechanism}.tsv"
     resources:
-        mem_mb=2000,
-        runtime=120,
+        **needs("try_mechanism"),
     params:
         **GIVEN,
         tried=mechanism_of,
@@ -157,8 +152,7 @@ rule compare_attempts:
     benchmark:
         "<benchmarks>/{case}/{setting}/compare_attempts.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("compare_attempts"),
     params:
         code=code("compare_attempts.py"),
     script:
@@ -178,8 +172,7 @@ rule tabulate_discovery:
     benchmark:
         "<benchmarks>/tabulate_discovery.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("tabulate_discovery"),
     params:
         proved=EVALUATED,
         planted=[CASES[case].planted_sizes() for case, _ in EVALUATED],
@@ -201,8 +194,7 @@ rule compare_elements:
     benchmark:
         "<benchmarks>/compare_elements.tsv"
     resources:
-        mem_mb=2000,
-        runtime=60,
+        **needs("compare_elements"),
     params:
         **ASKED,
         setting=questioned,

@@ -13,8 +13,7 @@ rule plant_effects:
     benchmark:
         "<benchmarks>/discovery_benchmark/plant_effects_{batch}.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("plant_effects"),
     params:
         plans=batch_of,
         library=every_mechanism,
@@ -35,8 +34,7 @@ rule diagnose_planted:
     benchmark:
         "<benchmarks>/discovery_benchmark/diagnose_planted_{batch}.tsv"
     resources:
-        mem_mb=500,
-        runtime=30,
+        **needs("diagnose_planted"),
     params:
         library=every_mechanism,
         code=code("diagnose_planted.py"),
@@ -61,8 +59,7 @@ rule discovery_benchmark:
     benchmark:
         "<benchmarks>/discovery_benchmark/discovery_benchmark.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("discovery_benchmark"),
     params:
         planned=STUDY.discovery_benchmark.planned(),
         code=code("discovery_benchmark.py"),
@@ -83,8 +80,7 @@ rule check_discovery:
     benchmark:
         "<benchmarks>/discovery_benchmark/check_discovery.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("check_discovery"),
     params:
         code=code("check_discovery.py"),
     script:

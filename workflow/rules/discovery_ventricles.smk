@@ -29,8 +29,7 @@ rule plant_ventricles:
     benchmark:
         "<benchmarks>/discovery_benchmark/plant_ventricles_{number}.tsv"
     resources:
-        mem_mb=1000,
-        runtime=10,
+        **needs("plant_ventricles"),
     params:
         **HIDING,
         plan=plan_of,
@@ -53,8 +52,7 @@ rule diagnose_ventricles:
     benchmark:
         "<benchmarks>/discovery_benchmark/diagnose_ventricles_{number}.tsv"
     resources:
-        mem_mb=1000,
-        runtime=20,
+        **needs("diagnose_ventricles"),
     params:
         model=VENTRICLES.diagnoser,
         setting=STUDY.centre(),
@@ -80,8 +78,7 @@ rule discovery_ventricles:
     benchmark:
         "<benchmarks>/discovery_benchmark/discovery_ventricles.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("discovery_ventricles"),
     params:
         planned=len(HIDDEN_IN_3D),
         code=code("discovery_ventricles.py"),
@@ -100,8 +97,7 @@ rule check_ventricles:
     benchmark:
         "<benchmarks>/discovery_benchmark/check_ventricles.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("check_ventricles"),
     params:
         code=code("check_ventricles.py"),
     script:

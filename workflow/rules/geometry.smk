@@ -9,8 +9,7 @@ rule build_template:
     wildcard_constraints:
         template=one_of(STUDY.templates()),
     resources:
-        mem_mb=1500,
-        runtime=20,
+        **needs("build_template"),
     params:
         size=template_size,
         stated=stated(template_size),
@@ -31,8 +30,7 @@ rule build_measured_mesh:
     wildcard_constraints:
         case=one_of(FITTED),
     resources:
-        mem_mb=1500,
-        runtime=20,
+        **needs("build_mesh"),
     params:
         case=case_of,
         source=source_of,
@@ -57,8 +55,7 @@ rule build_volunteer_mesh:
     wildcard_constraints:
         case=one_of(VIRTUAL),
     resources:
-        mem_mb=1500,
-        runtime=20,
+        **needs("build_mesh"),
     params:
         case=case_of,
         size=STUDY.virtual_mesh,

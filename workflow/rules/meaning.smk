@@ -30,8 +30,7 @@ rule make_cards:
     benchmark:
         "<benchmarks>/make_cards.tsv"
     resources:
-        mem_mb=1000,
-        runtime=5,
+        **needs("make_cards"),
     params:
         results=results_folder,
         calibrated=CALIBRATED,
@@ -53,8 +52,7 @@ rule compare_groups:
     benchmark:
         "<benchmarks>/compare_groups.tsv"
     resources:
-        mem_mb=1000,
-        runtime=5,
+        **needs("compare_groups"),
     params:
         results=results_folder,
         calibrated=CALIBRATED,
@@ -99,8 +97,7 @@ rule check_numbers:
     benchmark:
         "<benchmarks>/check_numbers.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("check_numbers"),
     params:
         code=code("check_numbers.py"),
     script:

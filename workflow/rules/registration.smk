@@ -14,8 +14,7 @@ rule register_measured:
     wildcard_constraints:
         case=one_of(FITTED),
     resources:
-        mem_mb=1500,
-        runtime=10,
+        **needs("register"),
     params:
         **SOURCE,
         code=code("register_measured.py"),
@@ -38,8 +37,7 @@ rule register_volunteer:
     wildcard_constraints:
         case=one_of(VIRTUAL),
     resources:
-        mem_mb=1500,
-        runtime=10,
+        **needs("register"),
     params:
         end_diastole=STUDY.registration.end_diastole,
         registration=STUDY.registration.free_form(),
@@ -62,8 +60,7 @@ rule register_cine:
     wildcard_constraints:
         case=one_of(CINE),
     resources:
-        mem_mb=1500,
-        runtime=10,
+        **needs("register_cine"),
     params:
         **SOURCE,
         code=code("register_cine.py"),
@@ -89,8 +86,7 @@ rule compare_cine:
     wildcard_constraints:
         case=one_of(CINE),
     resources:
-        mem_mb=1000,
-        runtime=5,
+        **needs("compare_cine"),
     params:
         **SOURCE,
         code=code("compare_cine.py"),

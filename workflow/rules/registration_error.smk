@@ -12,8 +12,7 @@ rule draw_volunteer:
     benchmark:
         "<benchmarks>/registration_error/draw_volunteer_{number}.tsv"
     resources:
-        mem_mb=1500,
-        runtime=20,
+        **needs("draw_volunteer"),
     params:
         error=ERROR,
         heart=STUDY.cohort.heart,
@@ -37,8 +36,7 @@ rule try_acquisition:
     benchmark:
         "<benchmarks>/registration_error/{acquisition}/try_{number}.tsv"
     resources:
-        mem_mb=1500,
-        runtime=20,
+        **needs("try"),
     params:
         scanner=scanner_of,
         registration=STUDY.registration.free_form(),
@@ -61,8 +59,7 @@ rule learn_noise:
     benchmark:
         "<benchmarks>/registration_error/learn_noise.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("learn_noise"),
     params:
         protocol=STUDY.protocol(),
         code=code("learn_noise.py"),
@@ -82,8 +79,7 @@ rule tabulate_registration:
     benchmark:
         "<benchmarks>/registration_error/tabulate_registration.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("tabulate_registration"),
     params:
         settings=STUDY.varied_settings(),
         tried=[ERROR.acquisitions().get(acquisition) for acquisition, _ in TRIALS],
@@ -110,8 +106,7 @@ rule tabulate_noise:
     benchmark:
         "<benchmarks>/registration_error/tabulate_noise.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("tabulate_noise"),
     params:
         code=code("tabulate_noise.py"),
     script:

@@ -7,8 +7,7 @@ rule compile_kernels:
     benchmark:
         "<benchmarks>/compile_kernels.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("compile_kernels"),
     params:
         code=code("compile_kernels.py"),
     script:

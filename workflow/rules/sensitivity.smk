@@ -48,8 +48,7 @@ rule analyse_sensitivity:
     benchmark:
         "<benchmarks>/sensitivity/{setting}/analyse_sensitivity.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("analyse_sensitivity"),
     params:
         setting=surroundings_of,
         study=SENSITIVITY,
@@ -71,8 +70,7 @@ rule study_sphere:
     benchmark:
         "<benchmarks>/sensitivity/study_sphere.tsv"
     resources:
-        mem_mb=1000,
-        runtime=10,
+        **needs("study_sphere"),
     params:
         case=REFERENCE,
         setting=SPHERE,
@@ -100,8 +98,7 @@ rule plot_surroundings:
     benchmark:
         "<benchmarks>/sensitivity/{setting}/plot_surroundings.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("plot_surroundings"),
     params:
         setting=surroundings_of,
         study=SENSITIVITY,
@@ -126,8 +123,7 @@ rule tabulate_selection:
     benchmark:
         "<benchmarks>/sensitivity/tabulate_selection.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("tabulate_selection"),
     params:
         settings=SETTINGS,
         estimated=STUDY.estimated(),

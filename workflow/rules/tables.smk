@@ -23,8 +23,7 @@ rule make_tables:
     benchmark:
         "<benchmarks>/make_tables.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("make_tables"),
     params:
         origin=ORIGIN,
         stated=stated(ORIGIN),
@@ -46,8 +45,7 @@ rule plot_case:
     benchmark:
         "<benchmarks>/{case}/{setting}/plot_case.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("plot_case"),
     params:
         setting=setting_of,
         mechanisms=mechanisms_of,
@@ -68,8 +66,7 @@ rule plot_sensitivity:
     benchmark:
         "<benchmarks>/{case}/{setting}/plot_sensitivity.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("plot_sensitivity"),
     params:
         code=code("plot_sensitivity.py"),
     script:
@@ -89,8 +86,7 @@ rule compare_shape:
     benchmark:
         "<benchmarks>/{case}/{setting}/compare_shape.tsv"
     resources:
-        mem_mb=1000,
-        runtime=5,
+        **needs("compare_shape"),
     params:
         code=code("compare_shape.py"),
     script:
@@ -112,8 +108,7 @@ rule plot_contours:
     wildcard_constraints:
         case=one_of(VIRTUAL + IMAGED),
     resources:
-        mem_mb=1000,
-        runtime=5,
+        **needs("plot_contours"),
     params:
         code=code("plot_contours.py"),
     script:
@@ -135,8 +130,7 @@ rule plot_overlay:
     wildcard_constraints:
         case=one_of(VIRTUAL + IMAGED),
     resources:
-        mem_mb=1000,
-        runtime=5,
+        **needs("plot_overlay"),
     params:
         code=code("plot_overlay.py"),
     script:
@@ -153,8 +147,7 @@ rule plot_activation:
     benchmark:
         "<benchmarks>/{case}/plot_activation.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("plot_activation"),
     params:
         case=case_of,
         stated=stated(case_of),
@@ -178,8 +171,7 @@ rule plot_septal_flash:
     benchmark:
         "<benchmarks>/plot_septal_flash.tsv"
     resources:
-        mem_mb=1500,
-        runtime=5,
+        **needs("plot_septal_flash"),
     params:
         cases=DYSSYNCHRONY,
         settings=SETTINGS,

@@ -11,8 +11,7 @@ rule simulate_calibrated:
     benchmark:
         "<benchmarks>/{case}/{setting}/simulate_calibrated.tsv"
     resources:
-        mem_mb=1500,
-        runtime=30,
+        **needs("simulate_calibrated"),
     params:
         case=case_of,
         setting=setting_of,
@@ -39,8 +38,7 @@ rule compare_case:
     benchmark:
         "<benchmarks>/{case}/{setting}/compare_case.tsv"
     resources:
-        mem_mb=500,
-        runtime=5,
+        **needs("compare_case"),
     params:
         setting=setting_of,
         mechanisms=mechanisms_of,

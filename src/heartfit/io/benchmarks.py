@@ -4,7 +4,7 @@ import csv
 from pathlib import Path
 
 from heartfit.errors import InputError
-from heartfit.tables.costs import Cost
+from heartfit.planning.need import Cost
 
 COLUMNS = {"s", "max_rss", "cpu_time"}
 

@@ -7,12 +7,12 @@ Marchesseau et al. 2012, section 4: about 20 minutes a case, its 2n+1 simulation
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import groupby
 
 import pandas as pd
 from matplotlib.figure import Figure
 
+from heartfit.planning.need import Cost
 from heartfit.tables.figures import clean, colour
 
 PAPER_MINUTES = 9 * 20.0
@@ -32,16 +32,6 @@ STAGES = {
 OTHERS, WHOLE = "tables and figures", "whole study"
 WALL, CPU, SHARE, MEMORY = "wall (s)", "CPU (s)", "share (%)", "largest memory (MB)"
 AGAINST_PAPER = "of the paper's 9 x 20 min (%)"
-
-
-@dataclass(frozen=True)
-class Cost:
-    """A job by its name: time on the wall, CPU time as sampled, s, and the most memory it held, MB."""
-
-    job: str
-    wall: float
-    cpu: float
-    memory: float
 
 
 def stage_of(job: str) -> str:

@@ -39,12 +39,12 @@ def plot_case(
     figure = Figure(figsize=(13, 6), layout="constrained")
     axes = figure.subplots(2, 4)
     start = shift if np.isfinite(shift) else 0.0
-    moved = {name: moved(group, 0.0 if name == "measured" else start) for name, group in curves.items()}
+    shifted = {name: moved(group, 0.0 if name == "measured" else start) for name, group in curves.items()}
     for row, (side, (label, atrium, artery)) in zip(axes, SIDES.items(), strict=True):
-        _volumes(row[0], moved, side, label)
-        _flows(row[1], moved, side, operator)
-        _pressures(row[2], moved, side, (atrium, artery))
-        _loops(row[3], moved, side)
+        _volumes(row[0], shifted, side, label)
+        _flows(row[1], shifted, side, operator)
+        _pressures(row[2], shifted, side, (atrium, artery))
+        _loops(row[3], shifted, side)
     for panel in (axes[0, 0], axes[0, 2]):
         if panel.get_legend_handles_labels()[0]:
             panel.legend(frameon=False, fontsize=8)

@@ -1,0 +1,64 @@
+"""Commands for studies past one machine: what jobs cost, and what many subjects come to."""
+
+import argparse
+from pathlib import Path
+
+from heartfit.configuration.study import Study
+from heartfit.errors import InputError
+from heartfit.io.configuration import read_study
+from heartfit.io.measured_costs import FOOTPRINTS, NEEDS, read_table, write_costs
+from heartfit.own_case import STANDARD
+from heartfit.planning.footprint import Footprint
+from heartfit.planning.forecast import Subjects, forecast
+from heartfit.planning.need import Need
+from heartfit.planning.page import forecast_page
+
+RESOURCES = Path("resources")
+
+
+def costs_arguments(command: argparse.ArgumentParser) -> None:
+    """Of `costs`."""
+    command.set_defaults(carry_out=costs)
+    command.add_argument(
+        "results", type=Path, nargs="+", help="of studies; of a job that several ran, the first one counts"
+    )
+    command.add_argument("-o", "--output", type=Path, default=RESOURCES, help="folder of the two tables")
+
+
+def costs(given: argparse.Namespace) -> int:
+    """Write what jobs of studies took and what files they left: what `plan` and the rules rest on."""
+    write_costs(given.output, given.results)
+    return 0
+
+
+def plan_arguments(command: argparse.ArgumentParser) -> None:
+    """Of `plan`."""
+    command.set_defaults(carry_out=plan)
+    command.add_argument("--cases", type=int, default=10_000, help="subjects")
+    command.add_argument("--kind", choices=("measured", "virtual"), default="measured", help="of all of them")
+    command.add_argument("--setting", nargs="+", default=[], help="settings; all if not given")
+    command.add_argument("--pressure", action="store_true", help="a pressure is recorded too")
+    command.add_argument("--cpus", type=int, default=200, help="that run jobs at once")
+    command.add_argument(
+        "--config", type=Path, nargs="+", default=[STANDARD], metavar="YAML", help="later over earlier ones"
+    )
+    command.add_argument("--costs", type=Path, default=RESOURCES, help="folder of the two tables")
+
+
+def plan(given: argparse.Namespace) -> int:
+    """Print what a study of many subjects comes to: jobs, CPU hours, files, and how to split its graph."""
+    study = read_study(given.config)
+    rows, prints = read_table(Need, given.costs / NEEDS), read_table(Footprint, given.costs / FOOTPRINTS)
+    settings = given.setting or [*study.settings]
+    subjects = Subjects(given.cases, given.kind, len(settings), _points(study, settings, given.pressure))
+    print(forecast_page(forecast(rows, prints, subjects), subjects, given.cpus), end="")
+    return 0
+
+
+def _points(study: Study, settings: list[str], pressure: bool) -> int:
+    """Sigma points of a subject under all settings together."""
+    unknown = [name for name in settings if name not in study.settings]
+    if unknown:
+        raise InputError(f"no setting {unknown[0]!r}; known are {', '.join(study.settings)}")
+    chosen = [study.settings[name] for name in settings]
+    return sum(2 * len((each.seeing_pressure() if pressure else each).estimate) + 1 for each in chosen)

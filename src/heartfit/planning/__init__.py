@@ -1,0 +1,1 @@
+"""What jobs took, what the next ones should be given, and what many of them come to."""

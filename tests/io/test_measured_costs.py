@@ -1,0 +1,57 @@
+"""Costs that were measured are read back as they were written."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from heartfit.errors import InputError
+from heartfit.io.measured_costs import as_table, measured_footprints, measured_needs, read_table
+from heartfit.planning.footprint import Footprint
+from heartfit.planning.need import Need
+
+ROOT = Path(__file__).parents[2]
+HEADER = "s\tmax_rss\tcpu_time\n"
+
+
+def study(folder: Path, **seconds: float) -> Path:
+    for job, wall in seconds.items():
+        file = folder / "benchmarks" / f"{job.replace('__', '/')}.tsv"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(f"{HEADER}{wall}\t200.0\t{wall}\n")
+    return folder
+
+
+def test_of_a_job_that_several_studies_ran_the_first_one_counts(tmp_path):
+    first = study(tmp_path / "first", compile_kernels=3.0, heart1__build_mesh=5.0)
+    second = study(tmp_path / "second", compile_kernels=9.0, make_tables=1.0)
+    found = {row.job: row.typical_s for row in measured_needs([first, second])}
+    assert found == {"build_mesh": 5.0, "compile_kernels": 3.0, "make_tables": 1.0}
+
+
+def test_files_are_counted_by_case_and_setting(tmp_path):
+    results = study(tmp_path, heart1__build_mesh=5.0, heart1__paper__compare_case=1.0)
+    found = {(each.per, each.kind): each.files for each in measured_footprints(results)}
+    assert found == {("case", "measured"): 1.0, ("setting", "measured"): 1.0}
+
+
+def test_a_table_is_read_as_it_was_written(tmp_path):
+    rows = [Need("build_mesh", "case", "virtual", 9, 1.0, 2.33, 3.78, 208.7)]
+    (tmp_path / "costs.tsv").write_text(as_table(Need, rows))
+    assert read_table(Need, tmp_path / "costs.tsv") == rows
+
+
+def test_another_table_and_none_are_refused_in_one_line(tmp_path):
+    with pytest.raises(InputError, match=r"costs\.tsv: no such file; expected measured costs"):
+        read_table(Need, tmp_path / "costs.tsv")
+    (tmp_path / "costs.tsv").write_text(as_table(Footprint, [Footprint("study", "", 3.0, 1.0)]))
+    with pytest.raises(
+        InputError, match=r"costs\.tsv: not the costs that were measured; expected the columns job"
+    ):
+        read_table(Need, tmp_path / "costs.tsv")
+
+
+def test_what_the_rules_ask_for_was_measured():
+    measured = {row.job for row in read_table(Need, ROOT / "resources" / "costs.tsv")}
+    rules = "".join(file.read_text() for file in (ROOT / "workflow" / "rules").glob("*.smk"))
+    assert set(re.findall(r'needs\("(\w+)"\)', rules)) <= measured

@@ -1,0 +1,63 @@
+"""What a kind of job needs follows from what its jobs took."""
+
+import pytest
+
+from heartfit.planning.need import Cost, largest, needs
+
+SEEN = [
+    Cost("compile_kernels", 33.0, 14.0, 335.0),
+    Cost("templates/generator", 14.0, 10.0, 300.0),
+    Cost("registration_error/baseline/try_7", 9.0, 8.0, 416.0),
+    Cost("volunteer1/generate_volunteer", 12.0, 11.0, 527.0),
+    Cost("volunteer1/paper/simulate_point_0", 4.0, 3.0, 270.0),
+    Cost("volunteer1/paper/simulate_point_10", 6.0, 3.0, 300.0),
+    Cost("volunteer1/paper/simulate_point_2", 5.0, 3.0, 280.0),
+    Cost("patient1/paper/simulate_point_0", 16.0, 9.0, 426.4),
+    Cost("patient1/paper/try_mechanism_SeptalLoad", 50.0, 45.0, 390.0),
+]
+
+
+def rows():
+    return {(row.job, row.kind): row for row in needs(SEEN)}
+
+
+def test_jobs_are_told_apart_by_their_place():
+    found = {key: (row.per, row.number) for key, row in rows().items()}
+    assert found == {
+        ("compile_kernels", ""): ("study", 1),
+        ("build_template", ""): ("study", 1),
+        ("try", ""): ("study", 1),
+        ("generate_volunteer", "virtual"): ("case", 1),
+        ("simulate_point", "virtual"): ("point", 3),
+        ("simulate_point", "measured"): ("point", 1),
+        ("try_mechanism", "measured"): ("setting", 1),
+    }
+
+
+def test_what_only_some_have_is_a_share_of_the_most_common_job():
+    seen = [Cost(f"heart{n}/plot_case", 1.0, 1.0, 1.0) for n in range(4)]
+    found = {row.job: row.share for row in needs([*seen, Cost("heart0/register_cine", 1.0, 1.0, 1.0)])}
+    assert found == {"plot_case": 1.0, "register_cine": 0.25}
+
+
+def test_a_row_holds_the_median_and_the_largest():
+    row = rows()["simulate_point", "virtual"]
+    assert (row.typical_s, row.longest_s, row.memory_mb) == (5.0, 6.0, 300.0)
+
+
+def test_what_is_asked_for_holds_whatever_subject_with_room_for_snakemake():
+    need = largest(needs(SEEN), "simulate_point")
+    assert need.megabytes() == 1200  # 1.3 x 426.4 + 600, up to whole hundreds
+    assert need.minutes() == 2  # 3 x 16 s is not one minute
+    assert largest(needs(SEEN), "try_mechanism").minutes() == 4
+
+
+def test_a_job_that_was_never_measured_has_no_needs():
+    with pytest.raises(KeyError, match="dance was never measured"):
+        largest(needs(SEEN), "dance")
+
+
+def test_what_is_run_only_when_asked_for_is_no_part_of_every_study():
+    usual = {key[0] for key, row in rows().items() if row.usual}
+    assert "try_mechanism" not in usual
+    assert {"try", "simulate_point", "compile_kernels"} <= usual
