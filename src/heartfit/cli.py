@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from heartfit import protocol
+from heartfit.campaign import costs, costs_arguments, plan, plan_arguments
 from heartfit.catalogue import composed, declared
 from heartfit.configuration.setting import Setting
 from heartfit.campaign import costs, costs_arguments, plan, plan_arguments
