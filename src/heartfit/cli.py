@@ -11,8 +11,6 @@ from heartfit import protocol
 from heartfit.campaign import costs, costs_arguments, plan, plan_arguments
 from heartfit.catalogue import composed, declared
 from heartfit.configuration.setting import Setting
-from heartfit.campaign import costs, costs_arguments, plan, plan_arguments
-from heartfit.catalogue import declared
 from heartfit.console import Parser, Progress, beat_summary, refusal
 from heartfit.errors import InputError
 from heartfit.geometry.mesh import VentricularMesh
