@@ -60,6 +60,10 @@ def _parser() -> argparse.ArgumentParser:
         "table", type=Path, help="the tolerances whose expected numbers are to be those of the study"
     )
     _diagnose_arguments(commands.add_parser("diagnose", help=diagnose.__doc__, description=diagnose.__doc__))
+    space = commands.add_parser("petab-select", help=petab_select.__doc__)
+    space.set_defaults(carry_out=petab_select)
+    space.add_argument("cause", type=Path, help="folder of a cause card")
+    space.add_argument("-o", "--output", type=Path, default=Path("petab_select"), help="folder to write to")
     compared = commands.add_parser("reference", help=reference.__doc__)
     compared.set_defaults(carry_out=reference)
     compared.add_argument(
@@ -212,6 +216,16 @@ def tolerances(given: argparse.Namespace) -> int:
 
     table = renewed(read_numbers(given.numbers), read_tolerances(given.table))
     print(table.to_csv(sep="\t", index=False, float_format="%.4g"), end="")
+    return 0
+
+
+def petab_select(given: argparse.Namespace) -> int:
+    """write the models that a diagnosis tried, with their criteria, as a problem of PEtab Select"""
+    from heartfit.io.model_space import write_model_space
+
+    print(
+        write_model_space(given.output, given.cause / "cause.json"), f"See {given.output / 'problem.yaml'}."
+    )
     return 0
 
 

@@ -50,6 +50,19 @@ def test_the_card_is_written_and_read(found, tmp_path):
     assert (tmp_path / "deep" / "cause.png").stat().st_size > 10_000
 
 
+def test_every_model_that_was_tried_is_told_with_its_criteria(found):
+    none, *others = found.tried
+    assert none.effects == ()
+    singles = {each.effects[0]: each for each in others if len(each.effects) == 1}
+    assert singles.keys() == found.ranking.keys() - {"unknown"}
+    for name, each in singles.items():
+        assert each.ln_evidence - none.ln_evidence == pytest.approx(found.ranking[name])
+        assert each.unknowns > none.unknowns == 23
+    leak = singles["MitralRegurgitation"]
+    assert none.negative_ln_likelihood - leak.negative_ln_likelihood > 10.0
+    assert found.samples == sum(trace.times.size for trace in found.traces)
+
+
 def test_what_another_condition_adds_tells_members_of_a_group_apart():
     leak, delay, shrunk = ("Leak",), ("Delay",), ("Shrunk",)
     assert likeliest({leak: 9.0, delay: 12.5, shrunk: 10.0}, 3.0) == [delay, shrunk]

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import cast
 
-from heartfit.diagnosis.cause import Cause, Verdict
+from heartfit.diagnosis.cause import Cause, Tried, Verdict
 from heartfit.diagnosis.centre import HUMAN, Centre
 from heartfit.diagnosis.library import Candidate, candidates, hypothesis
 from heartfit.diagnosis.record import data_of
@@ -13,6 +13,7 @@ from heartfit.diagnosis.recording import Recording
 from heartfit.diagnosis.twin import Twin
 from heartfit.discovery.data import Data
 from heartfit.discovery.decide import Effects
+from heartfit.discovery.explanation import Explanation
 from heartfit.discovery.rules import RULES, Rules
 from heartfit.discovery.search import Findings, search
 from heartfit.observation.beat import beat_curves
@@ -83,6 +84,11 @@ class Case:
         factors["unknown"] = evidences.rival - evidences.none
         return dict(sorted(factors.items(), key=lambda each: -each[1]))
 
+    def tried(self) -> tuple[Tried, ...]:
+        """Every model that was fitted: without effects, with one, with two."""
+        survey = self.findings.survey
+        return tuple(map(_tried, (survey.none, *survey.singles, *survey.pairs)))
+
     def phases(self) -> BeatPhases | None:
         """Those of the beat that was fitted without a cause."""
         reached = self.twin.reached(self.findings.survey.none.fit.x)
@@ -93,3 +99,10 @@ class Case:
             return BeatPhases.of(beat_curves(replace(beat, trigger=heart.trigger)))
         except ValueError:
             return None
+
+
+def _tried(explained: Explanation) -> Tried:
+    """The objective of a fit is -ln p(y | x) + |x|^2 / 2."""
+    fit = explained.fit
+    likelihood = fit.objective - 0.5 * float(fit.x @ fit.x)
+    return Tried(explained.effects, explained.log_evidence, likelihood, fit.x.size)

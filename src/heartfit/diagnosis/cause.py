@@ -79,6 +79,19 @@ class Attempt:
     traces: tuple[Trace, ...]
 
 
+@dataclass(frozen=True)
+class Tried:
+    """A model of these effects after its fit to all samples.
+
+    ln_evidence; negative_ln_likelihood at its most probable coordinates; unknowns: how many coordinates it has.
+    """
+
+    effects: tuple[str, ...]
+    ln_evidence: float
+    negative_ln_likelihood: float
+    unknowns: int
+
+
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
     """The verdict and what it rests on.
@@ -89,7 +102,8 @@ class Diagnosis:
     held out; refitted: the proof in three dimensions, where there was one. Without a name it is a trial of the best of
     the ranking. unsearched: curves that were recorded and not searched, and why; phases: those of the beat without a
     cause, None where a valve of it never moves; self_test: the median of the largest ln Bayes factors in beats of the
-    model in which nothing is hidden, None where no sphere was centred or no such beats were at hand.
+    model in which nothing is hidden, None where no sphere was centred or no such beats were at hand; tried: every model
+    that was fitted, without effects, with one and with two, and samples: to how many numbers.
     """
 
     verdict: Verdict
@@ -107,3 +121,5 @@ class Diagnosis:
     unsearched: Mapping[str, str] = field(default_factory=dict)
     phases: BeatPhases | None = None
     self_test: float | None = None
+    tried: tuple[Tried, ...] = ()
+    samples: int = 0

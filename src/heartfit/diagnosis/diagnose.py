@@ -51,6 +51,8 @@ def concluded(case: Case, conditions: Mapping[str, Recording]) -> Diagnosis:
         traces(case.findings, case.findings.of(best), case.data),
         unsearched={name: why for name, why in UNSEARCHED.items() if name in case.recording.curves},
         phases=case.phases(),
+        tried=case.tried(),
+        samples=case.data.values.size,
     )
 
 

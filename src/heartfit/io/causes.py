@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Refitted, Verdict
+from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Refitted, Tried, Verdict
 from heartfit.diagnosis.departure import Departure, departures
 from heartfit.errors import InputError
 from heartfit.io.atomic import replacing, write_text
@@ -40,6 +40,8 @@ class CauseFile:
     refitted: Refitted | None = None
     threshold: float | None = None
     self_test: float | None = None
+    tried: tuple[Tried, ...] = ()
+    samples: int = 0
 
     @classmethod
     def of(cls, diagnosis: Diagnosis, fingerprint: str) -> "CauseFile":
@@ -61,6 +63,8 @@ class CauseFile:
             diagnosis.refitted,
             diagnosis.threshold,
             diagnosis.self_test,
+            diagnosis.tried,
+            diagnosis.samples,
         )
 
 
