@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-FENCE = re.compile(r"^(<!-- .* -->\n)?(?:\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r"^(<!-- [^\n]* -->\n)?(?:\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMAND = re.compile(r"heartfit |snakemake |python3? |\.venv/bin/|git |pip |apt-get ")
 FILE = re.compile(r"# (\w+\.py)\n")
 NUMBER = re.compile(r"[-+]?\d[\d.]*(e[-+]?\d+)?")
