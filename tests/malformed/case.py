@@ -50,6 +50,7 @@ def folder(path: Path) -> None:
 
 def pipe(path: Path) -> None:
     """A pipe that nobody fills."""
+    path.unlink(missing_ok=True)
     os.mkfifo(path)
 
 

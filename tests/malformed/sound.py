@@ -8,6 +8,7 @@ import numpy as np
 from scipy.io import savemat
 from scipy.sparse import eye
 
+from heartfit.geometry.surface import LabelledSurface
 from heartfit.io.meshes import write_mesh
 from heartfit.io.subdivision import SURFACE_OF_LABEL
 from heartfit.verification.specimen import COARSE, SHAPE, specimen
@@ -41,15 +42,15 @@ def recording(
 
 
 @cache
-def control_points() -> np.ndarray:
-    """Points (n,3), mm, of a small closed wall; they are their own control points."""
-    return 1e3 * _surface()[0]
+def wall() -> LabelledSurface:
+    """A closed wall."""
+    return SHAPE.surface()
 
 
 @cache
-def _surface():
-    surface = SHAPE.surface()
-    return surface.points, surface.triangles, surface.labels
+def control_points() -> np.ndarray:
+    """Its points (n,3), mm; they are their own control points."""
+    return 1e3 * wall().points
 
 
 def phase(points: np.ndarray) -> str:
@@ -59,7 +60,7 @@ def phase(points: np.ndarray) -> str:
 
 def write_heart(folder: Path) -> None:
     """The folder of a measured heart, which does not move."""
-    points, triangles, labels = control_points(), _surface()[1], _surface()[2]
+    points, triangles, labels = control_points(), wall().triangles, wall().labels
     for part in ("control_points", "template", "cine"):
         (folder / part).mkdir(parents=True)
     for number in range(PHASES):

@@ -5,11 +5,12 @@ from pathlib import Path
 
 import pytest
 from _pytest.mark import ParameterSet
-from tests.malformed import case_tables, configurations, hearts, meshes, recordings
+from tests.malformed import case_tables, configurations, hearts, images, meshes, pressures, recordings
 from tests.malformed.case import Malformed, exit_code, files_in
+from tests.malformed.pictures import write_sources
 from tests.malformed.sound import write_sound
 
-LISTS = (configurations, case_tables, hearts, recordings, meshes)
+LISTS = (configurations, case_tables, hearts, images, pressures, recordings, meshes)
 MALFORMED = [each for module in LISTS for each in module.MALFORMED]
 EVERY = 6
 """One of so many is tried whenever the tests are, all of them by `python3 study.py malformed`."""
@@ -22,6 +23,7 @@ LONGEST = 600
 def sound(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("sound")
     write_sound(folder)
+    write_sources(folder)
     return folder
 
 
@@ -41,8 +43,9 @@ def each_but_most_when_asked_for() -> list[ParameterSet]:
     ]
 
 
-def test_sound_input_is_read(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert exit_code("check|--no-picture|--config|sound.yaml") == 0
+@pytest.mark.parametrize("source", ["", "|imaged.yaml", "|own.yaml"])
+def test_sound_input_is_read(source: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code(f"check|--no-picture|--config|sound.yaml{source}") == 0
     assert capsys.readouterr().err == ""
 
 

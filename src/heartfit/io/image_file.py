@@ -1,9 +1,7 @@
 """One image file in any format that SimpleITK knows, refused in one line when it is damaged."""
 
-import gzip
 import os
 import re
-import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,11 +12,12 @@ import SimpleITK as sitk
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
 from heartfit.imaging.grid import Grid
+from heartfit.io.image_bytes import require_own_voxels, require_whole
 from heartfit.io.sums import require_as_written
+from heartfit.io.text import require_file
 
 SUFFIXES = (".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd")
 MILLIMETRE = 1e-3
-BLOCK = 1 << 20
 LARGEST_TILT = 1e-6
 
 
@@ -34,9 +33,13 @@ def stem(path: Path) -> str:
 
 def load(path: Path) -> sitk.Image:
     """The image; raises InputError if it is missing, damaged, cut off, or a NIfTI that says not where it lies."""
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; expected an image ({', '.join(SUFFIXES)})")
+    require_file(path, f"an image ({', '.join(SUFFIXES)})")
+    if not is_image(path):
+        raise InputError(
+            f"{path}: not a kind of image that is read; expected {', '.join(SUFFIXES)}: convert it"
+        )
     require_as_written(path)
+    require_own_voxels(path)
     try:
         with quiet():
             image = sitk.ReadImage(str(path))
@@ -45,7 +48,7 @@ def load(path: Path) -> sitk.Image:
             f"{path}: cannot be read: {reason(failure)}; cut off, damaged or no image: export it again"
         ) from None
     if path.name.endswith((".nii", ".nii.gz")):
-        _require_whole(path, image)
+        require_whole(path, image)
         if {image.GetMetaData("qform_code"), image.GetMetaData("sform_code")} == {"0"}:
             raise InputError(
                 f"{path}: neither qform nor sform is set; expected one, to know left from right; export it again"
@@ -87,31 +90,6 @@ def reason(failure: RuntimeError) -> str:
     """
     lines = [line for line in str(failure).splitlines() if line.strip() and not line.startswith("Reason:")]
     return re.sub(r"^.*ERROR: |\w+\(0x[0-9a-f]+\): ", "", lines[-1]).strip().rstrip(".")
-
-
-def _require_whole(path: Path, image: sitk.Image) -> None:
-    """SimpleITK fills up a NIfTI that is cut off; so its bytes are counted here."""
-    voxels = np.prod([int(image.GetMetaData(f"dim[{axis}]")) for axis in range(1, image.GetDimension() + 1)])
-    expected = (
-        int(float(image.GetMetaData("vox_offset"))) + int(voxels) * int(image.GetMetaData("bitpix")) // 8
-    )
-    try:
-        found = _length(path)
-    except (EOFError, zlib.error, gzip.BadGzipFile):
-        raise InputError(
-            f"{path}: the compressed data are cut off or damaged; export or copy it again"
-        ) from None
-    if found < expected:
-        raise InputError(
-            f"{path}: {found} bytes, expected {expected}; it is cut off: export or copy it again"
-        )
-
-
-def _length(path: Path) -> int:
-    if path.suffix != ".gz":
-        return path.stat().st_size
-    with gzip.open(path) as content:
-        return sum(map(len, iter(lambda: content.read(BLOCK), b"")))
 
 
 @contextmanager
