@@ -9,6 +9,8 @@ from heartfit.geometry.arrays import Floats
 from heartfit.geometry.motion import Motion
 
 COMPLETED, FAILED = "completed", "failed"
+COST = "cpu_s"
+"""Of the diagnostics, s of CPU; no two runs agree about it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +38,10 @@ class Beat:
         """Every curve (t,) by name: "lv_volume", "aorta_pressure", "mitral_flow", ...; none of a failed beat."""
         groups = {"volume": self.volume, "pressure": self.pressure, "flow": self.flow}
         return {f"{name}_{kind}": values for kind, group in groups.items() for name, values in group.items()}
+
+    def findings(self) -> dict[str, float]:
+        """The diagnostics but for the cost: the same for the same beat."""
+        return {name: value for name, value in self.diagnostics.items() if name != COST}
 
     @property
     def completed(self) -> bool:

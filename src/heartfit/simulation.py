@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from heartfit.beat import Beat, failed_beat
+from heartfit.beat import COST, Beat, failed_beat
 from heartfit.circulation.coupling import Body, Coupling, HeartState, Tolerances
 from heartfit.circulation.network import NetworkStep
 from heartfit.errors import InputError
@@ -176,5 +176,5 @@ class _Run:
             "step_cuts": float(self.cuts),
             "iterations": float(self.coupling.iterations),
             "factorisations": float(self.coupling.factorisations),
-            "cpu_s": clock.process_time() - self._started,
+            COST: clock.process_time() - self._started,
         }

@@ -7,4 +7,4 @@ from heartfit.io.results import write_result
 from heartfit.kernels import compile_kernels
 
 record(snakemake.log[0])
-write_result(Path(snakemake.output[0]), compile_kernels().diagnostics, snakemake.params.code)
+write_result(Path(snakemake.output[0]), compile_kernels().findings(), snakemake.params.code)

@@ -13,5 +13,9 @@ def read_arrays(path: Path, *names: str) -> dict[str, np.ndarray]:
     """The arrays of these names; raises InputError for a missing or damaged file and one that lacks a name."""
     expected = f"the arrays {', '.join(names)} in .npz format"
     require_file(path, expected)
-    with parsing(path, expected, BadZipFile, OSError), np.load(path, allow_pickle=False) as stored:
+    with (
+        parsing(path, expected, BadZipFile, OSError),
+        Path(path).open("rb") as file,
+        np.load(file, allow_pickle=False) as stored,
+    ):
         return {name: stored[name] for name in names}

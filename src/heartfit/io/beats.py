@@ -11,13 +11,13 @@ from heartfit.io.results import read_result, write_result
 
 
 def write_beat(path: Path, beat: Beat, fingerprint: str) -> None:
-    """Write `path` and the curves as .csv beside it, without rows for a failed beat; nodes are not kept."""
+    """Write `path` and the curves as .csv beside it, without rows for a failed beat; nodes and cost are not kept."""
     state = {
         "status": beat.status,
         "reason": beat.reason,
         "period": beat.period,
         "trigger": beat.trigger,
-        "diagnostics": beat.diagnostics,
+        "diagnostics": beat.findings(),
     }
     write_table_of_curves(Path(path).with_suffix(".csv"), beat.time, _arrays(beat), beat.period)
     write_result(path, state, fingerprint, {"period": "s", "trigger": "s"})

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from heartfit.beat import Beat, failed_beat
+from heartfit.beat import COST, Beat, failed_beat
 from heartfit.circulation.windkessel import WindkesselState
 from heartfit.geometry.arrays import Floats
 from heartfit.heart import Heart
@@ -126,7 +126,7 @@ class _Run:
             "drift": float(self.drift),
             "step_cuts": float(self.cuts),
             "iterations": float(self.iterations),
-            "cpu_s": clock.thread_time() - self._started,
+            COST: clock.thread_time() - self._started,
         }
 
 
