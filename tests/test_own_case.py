@@ -105,4 +105,4 @@ def test_a_measured_heart_is_described(project, capsys, measured_heart_folder):
     assert main(["init", "heart1", "--fit", folder, "--conduction", "healthy"]) == 0
     assert "\t0.8288\thealthy" in (project / "config" / "heart1.tsv").read_text(), "the data say the period"
     assert main(["check", "heart1", "--no-picture"]) == 0
-    assert "heart1: wall of 5806 points in 25 phases, beat of 0.829 s" in capsys.readouterr().out
+    assert "heart1: surfaces in 25 phases, beat of 0.829 s" in capsys.readouterr().out

@@ -10,6 +10,7 @@ import numpy as np
 from heartfit import protocol
 from heartfit.campaign import costs, costs_arguments, plan, plan_arguments
 from heartfit.catalogue import composed, declared
+from heartfit.checking import check, check_arguments
 from heartfit.configuration.setting import Setting
 from heartfit.console import Parser, Progress, beat_summary, refusal
 from heartfit.errors import InputError
@@ -21,7 +22,7 @@ from heartfit.io.image_times import BEATS
 from heartfit.io.inside import require_writable
 from heartfit.io.made_by import made_by
 from heartfit.io.meshes import read_mesh
-from heartfit.own_case import STANDARD, check, check_arguments, init, init_arguments
+from heartfit.own_case import STANDARD, init, init_arguments
 from heartfit.pages import PAGES
 
 

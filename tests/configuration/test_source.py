@@ -28,6 +28,7 @@ def test_each_kind_of_wall_is_taken(content):
         ({}, "no source given for the wall; expected one of fit, surfaces, segmentation"),
         ({"fit": "a", "surfaces": "b"}, "fit and surfaces given"),
         ({"segmentation": "a.nrrd"}, "segmentation and labels go together"),
+        ({"segmentation": "a.nrrd", "labels": LABELS}, "images are missing"),
         ({"fit": "a", "labels": LABELS}, "segmentation and labels go together"),
         ({"fit": "a", "end_diastole": 3}, "phase 0 of a fit"),
         ({"fit": "a", "labls": 1}, "did you mean labels"),

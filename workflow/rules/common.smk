@@ -32,6 +32,7 @@ for line in [PLAN.left_out, *(RUN.put_in_order() if RUN else [])]:
 
 STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources
 SETTINGS = list(STUDY.settings)
+SEGMENTED = [name for name, source in SOURCES.items() if source.segmented]
 FITTED = [name for name, source in SOURCES.items() if not source.segmented]
 IMAGED = [name for name, source in SOURCES.items() if source.images]
 CINE = [name for name in FITTED if name in IMAGED]
@@ -235,9 +236,9 @@ def measured_files(wildcards):
     return source_files(source_of(wildcards))
 
 
-def images_of(wildcards):
-    """The images of a case."""
-    return "<results>/{case}/images/cine.nrrd" if wildcards.case in VIRTUAL else source_of(wildcards).images
+def given_images(wildcards):
+    """The images of a measured case, where they lie."""
+    return source_of(wildcards).images
 
 
 def noise_of(wildcards):

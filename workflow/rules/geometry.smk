@@ -28,7 +28,7 @@ rule build_measured_mesh:
     benchmark:
         "<benchmarks>/{case}/build_mesh.tsv"
     wildcard_constraints:
-        case=one_of(FITTED),
+        case=one_of(SOURCES),
     resources:
         **needs("build_mesh"),
     params:

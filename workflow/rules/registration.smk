@@ -1,6 +1,30 @@
 SOURCE = {"source": source_of, "stated": stated(source_of)}
 
 
+rule take_images:
+    input:
+        files=measured_files,
+        images=given_images,
+    output:
+        images="<results>/{case}/images/cine.nrrd",
+        times="<results>/{case}/images/cine.json",
+    log:
+        "<logs>/{case}/take_images.log",
+    benchmark:
+        "<benchmarks>/{case}/take_images.tsv"
+    wildcard_constraints:
+        case=one_of(IMAGED),
+    resources:
+        mem_mb=1500,
+        runtime=5,
+    params:
+        **SOURCE,
+        case=case_of,
+        code=code("take_images.py"),
+    script:
+        "../scripts/take_images.py"
+
+
 rule register_measured:
     input:
         files=measured_files,
@@ -47,10 +71,35 @@ rule register_volunteer:
         "../scripts/register_volunteer.py"
 
 
+rule register_segmented:
+    input:
+        mesh="<results>/{case}/geometry/mesh.vtu",
+        images="<results>/{case}/images/cine.nrrd",
+        times="<results>/{case}/images/cine.json",
+    output:
+        motion="<results>/{case}/registration/motion.npz",
+        quality="<results>/{case}/registration/quality.json",
+    log:
+        "<logs>/{case}/register.log",
+    benchmark:
+        "<benchmarks>/{case}/register.tsv"
+    wildcard_constraints:
+        case=one_of(SEGMENTED),
+    resources:
+        mem_mb=1500,
+        runtime=10,
+    params:
+        registration=STUDY.measured_registration.free_form(),
+        stated=stated(STUDY.measured_registration),
+        code=code("register_segmented.py"),
+    script:
+        "../scripts/register_segmented.py"
+
+
 rule register_cine:
     input:
         files=measured_files,
-        images=images_of,
+        images="<results>/{case}/images/cine.nrrd",
     output:
         "<results>/{case}/registration/cine.npz",
     log:
@@ -71,7 +120,7 @@ rule register_cine:
 rule compare_cine:
     input:
         files=measured_files,
-        images=images_of,
+        images="<results>/{case}/images/cine.nrrd",
         motion="<results>/{case}/registration/cine.npz",
     output:
         outlines=printed("{case}_cine_outlines"),

@@ -97,7 +97,7 @@ rule plot_contours:
     input:
         mesh="<results>/{case}/geometry/mesh.vtu",
         motion="<results>/{case}/registration/motion.npz",
-        images=images_of,
+        images="<results>/{case}/images/cine.nrrd",
     output:
         figure=expand("<results>/figures/{{case}}_contours.{suffix}", suffix=("png", "pdf")),
         animation="<results>/figures/{case}_beat.gif",
@@ -120,7 +120,7 @@ rule plot_overlay:
         mesh="<results>/{case}/geometry/mesh.vtu",
         registered="<results>/{case}/registration/motion.npz",
         calibrated="<results>/{case}/{setting}/verification/motion.npz",
-        images=images_of,
+        images="<results>/{case}/images/cine.nrrd",
     output:
         expand("<results>/figures/{{case}}_{{setting}}_overlay.{suffix}", suffix=("png", "pdf")),
     log:

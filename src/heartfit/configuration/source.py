@@ -69,7 +69,7 @@ class Source(Strict):
     fit: str | None = Field(None, min_length=1, description="folder in the layout of a biv-me subject")
     surfaces: str | None = Field(None, min_length=1, description="folder of surface meshes, one a phase")
     segmentation: str | None = Field(
-        None, min_length=1, description="label volume at end diastole, or one for each frame"
+        None, min_length=1, description="label volume, of end diastole or of each frame of the images"
     )
     labels: Labels | None = Field(None, description="of the segmentation")
     rv_wall_thickness: float = Field(
@@ -90,6 +90,10 @@ class Source(Strict):
             raise ValueError(
                 "segmentation and labels go together; expected labels such as "
                 "{lv_cavity: 1, lv_wall: 2, rv_cavity: 3}"
+            )
+        if self.segmentation is not None and self.images is None:
+            raise ValueError(
+                "images are missing; expected the cine that the motion of a segmentation is registered from"
             )
         if self.segmentation is None and self.end_diastole:
             raise ValueError(

@@ -59,6 +59,10 @@ class Study(Strict):
     end_diastolic_pressure: Pressures
     cohort: Cohort
     registration: Registration = Registration()
+    measured_registration: Registration = Field(
+        Registration(knots=0.02, stiffness=4e-8, incompressibility=0.1),
+        description="of a measured cine whose slices lie far apart",
+    )
     registration_error: RegistrationError
     sensitivity: SensitivityStudy
     sphere_study: SphereStudy

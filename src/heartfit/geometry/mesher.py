@@ -18,16 +18,20 @@ class MeshingError(RuntimeError):
 
 
 def fill_wall(
-    surface: LabelledSurface, edge_length: float, tolerance: float, smallest_angle: float = SMALLEST_ANGLE
+    surface: LabelledSurface,
+    edge_length: float,
+    tolerance: float,
+    smallest_angle: float = SMALLEST_ANGLE,
+    attempts: int = ATTEMPTS,
 ) -> VentricularMesh:
     """Tetrahedra of the wall inside the surface, with the surface's names on their boundary.
 
     edge_length: wished edge length in m; tolerance: how far in m the boundary may leave the surface;
-    smallest_angle: between two faces, rad. Raises MeshingError when in ATTEMPTS meshes the wall volume is off by
+    smallest_angle: between two faces, rad. Raises MeshingError when in all attempts the wall volume is off by
     more than 2 %, an angle is smaller, or a valve ring is pinched.
     """
     defects = []
-    for seed in range(ATTEMPTS):
+    for seed in range(attempts):
         points, tets = tetrahedralise(surface, edge_length, tolerance, seed)
         mesh = VentricularMesh(points, tets, _name_surfaces(surface, points, boundary_faces(tets)))
         defect = defect_of(mesh, surface, smallest_angle)
@@ -35,8 +39,8 @@ def fill_wall(
             return mesh
         defects.append(defect)
     raise MeshingError(
-        f"edge length {edge_length * 1e3:g} mm, tolerance {tolerance * 1e3:g} mm: {ATTEMPTS} bad meshes: "
-        f"{'; '.join(defects)}; use a shorter edge length or a smaller tolerance"
+        f"edge length {edge_length * 1e3:g} mm, tolerance {tolerance * 1e3:g} mm: {attempts} bad meshes: "
+        f"{'; '.join(dict.fromkeys(defects))}; use a shorter edge length or a smaller tolerance"
     )
 
 

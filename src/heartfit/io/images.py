@@ -26,16 +26,20 @@ NIFTI_TIMES = 8, 16, 24
 
 
 def read_images(
-    path: Path, period: float | None = None, times: Sequence[float] | Floats | None = None
+    path: Path,
+    period: float | None = None,
+    times: Sequence[float] | Floats | None = None,
+    usual: float | None = None,
 ) -> ImageSequence:
     """The images of one beat at `path`: a 4-D file, a folder of numbered 3-D files, or a folder of DICOM files.
 
-    period s and times (p,) s of the frames go before the sidecar's, which go before the images' own. Raises InputError,
-    in one line that names the file, for what is missing, damaged, incomplete, mixed or without times.
+    period s and times (p,) s of the frames go before the sidecar's, which go before the images' own; where none of them
+    says the period it is the usual one, if there is one. Raises InputError, in one line that names the file, for what
+    is missing, damaged, incomplete, mixed or without times.
     """
     path = Path(path)
     grid, voxels, own = _read(path)
-    said = Timing(period, times), read_sidecar(path), own
+    said = Timing(period, times), read_sidecar(path), own, Timing(usual)
     times, period = settle(path, len(voxels), *said)
     try:
         return ImageSequence(grid, voxels, times, period)

@@ -8,11 +8,17 @@ from typing import Any, TypeVar
 from heartfit.configuration.case import Case
 from heartfit.configuration.source import Source
 from heartfit.errors import InputError
+from heartfit.geometry.cavity import Cavity
+from heartfit.geometry.surface import LabelledSurface
 from heartfit.imaging.checks import require_match
 from heartfit.imaging.sequence import ImageSequence
 from heartfit.io.images import read_images
 from heartfit.io.measured_heart import MeasuredHeart, read_measured_heart, short_axis_images
+from heartfit.io.segmentations import read_segmentation
+from heartfit.io.surface_folder import read_surfaces, surface_files
 from heartfit.observation.recorded_pressure import AveragedPressure
+from heartfit.segmentation.surface import surface_of
+from heartfit.segmentation.wall import Shaping
 
 LARGEST_PERIOD_DIFFERENCE = 0.02
 OUT_OF_IMAGES = -0.02
@@ -22,11 +28,15 @@ T = TypeVar("T")
 
 @dataclass
 class Subject:
-    """What the files of a measured case hold, None where they do not or cannot be read, and a line for each mistake."""
+    """What the files of a measured case hold, None where they do not or cannot be read, and a line for each mistake.
+
+    wall: at end diastole; heart: in every phase, where it need not be registered.
+    """
 
     case: Case
     source: Source
     heart: MeasuredHeart | None = None
+    wall: LabelledSurface | None = None
     images: ImageSequence | None = None
     pressure: AveragedPressure | None = None
     problems: list[str] = field(default_factory=list)
@@ -42,12 +52,20 @@ class Subject:
     def said(self, filling_pressure: float) -> list[str]:
         """What was read, a line each; filling_pressure: under which the study takes the left ventricle to stand, Pa."""
         lines = []
-        if self.heart is not None:
-            phases, points = self.heart.positions.shape[:2]
-            lines.append(f"wall of {points} points in {phases} phases, beat of {self.heart.period:.3f} s")
-        if self.images is not None:
+        if self.wall is not None:
+            volumes = [
+                1e6 * Cavity.of(self.wall, name).volume(self.wall.points) for name in ("lv_endo", "rv_endo")
+            ]
             lines.append(
-                f"images of {' x '.join(map(str, self.images.grid.size))} voxels in {len(self.images.times)} frames"
+                f"at end diastole {volumes[0]:.0f} mL in the left cavity, {volumes[1]:.0f} mL in the right one, "
+                f"{1e6 * self.wall.volume():.0f} mL of wall"
+            )
+        if self.heart is not None:
+            lines.append(f"surfaces in {len(self.heart.times)} phases, beat of {self.heart.period:.3f} s")
+        if self.images is not None:
+            size = " x ".join(map(str, self.images.grid.size))
+            lines.append(
+                f"images of {size} voxels in {len(self.images.times)} frames, beat of {self.images.period:.3f} s"
             )
         if self.pressure is not None:
             kept, values = self.pressure.kept, 1e-3 * self.pressure.curve.values
@@ -61,18 +79,56 @@ class Subject:
 
 def read_heart(source: Source) -> MeasuredHeart:
     """The wall in every phase, of a fit or of surface meshes."""
+    if source.surfaces is not None:
+        return read_surfaces(Path(source.surfaces))
     return read_measured_heart(Path(source.fit or ""))
+
+
+def read_wall(source: Source) -> LabelledSurface:
+    """The wall at end diastole, from whatever says it."""
+    if source.segmentation is None or source.labels is None:
+        return read_heart(source).surface
+    frames = read_segmentation(Path(source.segmentation), source.labels.numbers())
+    if len(frames) > 1 and source.end_diastole >= len(frames):
+        raise InputError(
+            f"{source.segmentation}: {len(frames)} frames, and end_diastole is {source.end_diastole}; expected one of "
+            "them, counted from 0"
+        )
+    drawn = frames[source.end_diastole if len(frames) > 1 else 0]
+    return surface_of(drawn, Shaping(right_wall=source.rv_wall_thickness))
+
+
+def read_source_images(case: Case, source: Source) -> ImageSequence:
+    """The images, end diastole first and at time zero; a beat length that they do not say is the row's.
+
+    Those that a wall in every phase comes with were taken at its times.
+    """
+    return _images_with(case, source, None if source.segmented else read_heart(source))
+
+
+def _images_with(case: Case, source: Source, heart: MeasuredHeart | None) -> ImageSequence:
+    path = Path(source.images or "")
+    if heart is not None:
+        return read_images(path, heart.period, heart.times)
+    return read_images(path, usual=case.period).starting_at(source.end_diastole)
 
 
 def examine(case: Case, source: Source) -> Subject:
     """Read all that the jobs of a case will read."""
     subject = Subject(case, source)
-    subject.heart = subject.attempt(read_heart, source)
+    if source.segmented:
+        subject.wall = subject.attempt(read_wall, source)
+    else:
+        subject.heart = subject.attempt(read_heart, source)
     if subject.heart is not None:
+        subject.wall = subject.heart.surface
         subject.attempt(_require_period, case, subject.heart.period, "the surfaces")
-    subject.images = subject.attempt(_read_images, case, source, subject.heart)
-    if subject.images is not None and subject.heart is not None:
-        subject.attempt(require_match, subject.images, subject.heart.surface, OUT_OF_IMAGES)
+    if source.images is not None:
+        subject.images = subject.attempt(_images_with, case, source, subject.heart)
+    if subject.images is not None:
+        subject.attempt(_require_period, case, subject.images.period, "the images")
+        if subject.wall is not None:
+            subject.attempt(require_match, subject.images, subject.wall, OUT_OF_IMAGES)
     subject.pressure = subject.attempt(_read_pressure, case, source)
     return subject
 
@@ -97,16 +153,12 @@ def stated_period(source: Source) -> float | None:
 
 def source_files(source: Source) -> list[str]:
     """The files of the wall, for a workflow to watch."""
+    if source.segmentation is not None:
+        return [source.segmentation]
+    if source.surfaces is not None:
+        return [str(file) for file in surface_files(Path(source.surfaces))]
     folder = Path(source.fit or "")
     return sorted(str(file) for part in ("control_points", "template") for file in folder.glob(f"{part}/*"))
-
-
-def _read_images(case: Case, source: Source, heart: MeasuredHeart | None) -> ImageSequence | None:
-    if source.images is None:
-        return None
-    if heart is not None:
-        return read_images(Path(source.images), heart.period, heart.times)
-    return read_images(Path(source.images), case.period)
 
 
 def _read_pressure(case: Case, source: Source) -> AveragedPressure | None:

@@ -34,7 +34,8 @@ class Groups:
     @property
     def means(self) -> dict[str, tuple[str, ...]]:
         """The groups of healthy hearts that have a mean, by what is added to its name."""
-        with_measured = {f" with {', '.join(self.measured)}": self.healthy} if self.measured else {}
+        several = bool(self.measured) and len(self.healthy) > 1
+        with_measured = {f" with {', '.join(self.measured)}": self.healthy} if several else {}
         return ({"": self.volunteers} if self.volunteers else {}) | with_measured
 
 

@@ -1,0 +1,22 @@
+"""Carry the mesh of a segmented heart through its images, whose slices may lie far apart."""
+
+from pathlib import Path
+
+from heartfit.imaging.checks import require_match
+from heartfit.io.images import read_images
+from heartfit.io.log import record
+from heartfit.io.meshes import read_mesh, write_motion
+from heartfit.io.results import write_result
+from heartfit.io.sources import OUT_OF_IMAGES
+from heartfit.registration.track import track
+
+record(snakemake.log[0])
+mesh = read_mesh(Path(snakemake.input.mesh))
+images = read_images(Path(snakemake.input.images))
+require_match(images, mesh, OUT_OF_IMAGES)
+tracking = track(images, mesh, snakemake.params.registration)
+write_motion(Path(snakemake.output.motion), tracking.motion)
+quality = {"mismatch": tracking.mismatch, "compression": tracking.compression}
+write_result(
+    Path(snakemake.output.quality), quality, snakemake.params.code, {"mismatch": "1", "compression": "1"}
+)
