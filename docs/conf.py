@@ -28,6 +28,7 @@ autodoc_default_options = {"members": True, "show-inheritance": True, "member-or
 autodoc_typehints = "signature"
 autodoc_preserve_defaults = True
 
-# types of other libraries have no pages here, and none is fetched; type variables have no page at all
-nitpick_ignore_regex = [("py:.*", r"(?!heartfit\b).*"), ("py:class", r"heartfit\..*\.(T|M|Value)")]
+# types of other libraries have no pages here, and none is fetched; type variables, private names and
+# aliases have no page at all
+nitpick_ignore_regex = [("py:.*", r"(?!heartfit\b).*"), ("py:class", r"heartfit\..*\.(_\w+|[A-Z]|Value|Row)")]
 suppress_warnings = ["ref.python"]  # "slice" is a type, and the name of two fields

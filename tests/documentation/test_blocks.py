@@ -7,8 +7,7 @@ from tests.documentation.blocks import ROOT, Block, blocks_of, carry_out
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 RUN = [page for page in PAGES if any(block.run_here for block in blocks_of(page))]
-TUTORIALS = [ROOT / "docs" / "write_a_mechanism.md"]
-"""Pages whose blocks take half a minute and more."""
+"""These take a minute together."""
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -21,14 +20,9 @@ def test_what_is_not_run_here_says_where_it_is_or_why_not(page):
             assert not elsewhere or (ROOT / elsewhere[1]).exists(), block.remark
 
 
-@pytest.mark.parametrize("page", [page for page in RUN if page not in TUTORIALS], ids=lambda page: page.name)
-def test_blocks_run(page, tmp_path):
-    carry_out(page, tmp_path)
-
-
 @pytest.mark.long
-@pytest.mark.parametrize("page", TUTORIALS, ids=lambda page: page.name)
-def test_tutorials_run(page, tmp_path):
+@pytest.mark.parametrize("page", RUN, ids=lambda page: page.name)
+def test_blocks_run(page, tmp_path):
     carry_out(page, tmp_path)
 
 
