@@ -12,6 +12,7 @@ from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Refitted, Tried, Ve
 from heartfit.diagnosis.departure import Departure, departures
 from heartfit.errors import InputError
 from heartfit.io.atomic import replacing, write_text
+from heartfit.io.made_by import versions
 from heartfit.io.traces import read_traces, write_traces
 from heartfit.tables.cause_card import card, missed, sentence
 from heartfit.tables.cause_figure import plot_cause
@@ -22,7 +23,7 @@ class CauseFile:
     """What a cause.json holds; see :class:`heartfit.diagnosis.cause.Diagnosis`.
 
     departures: the greatest of each curve; misses: the same in words; threshold: the least ln Bayes factor of a
-    detection; self_test: the median of the largest where nothing is hidden.
+    detection; self_test: the median of the largest where nothing is hidden; made_by: versions.
     """
 
     verdict: Verdict
@@ -42,6 +43,7 @@ class CauseFile:
     self_test: float | None = None
     tried: tuple[Tried, ...] = ()
     samples: int = 0
+    made_by: str = ""
 
     @classmethod
     def of(cls, diagnosis: Diagnosis, fingerprint: str) -> "CauseFile":
@@ -65,6 +67,7 @@ class CauseFile:
             diagnosis.self_test,
             diagnosis.tried,
             diagnosis.samples,
+            versions(),
         )
 
 
