@@ -5,6 +5,8 @@ begins with $ is a command, and what stands below is what it prints, but for the
 elsewhere says so in a comment of the page just above it:
 
     <!-- run by tests/one_test.py -->   or   <!-- not run: it takes hours -->
+
+and a page of which all is run elsewhere says so once: <!-- every block is run by tests/one_test.py -->
 """
 
 import os
@@ -17,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 FENCE = re.compile(r"^(<!-- [^\n]* -->\n)?(?:\n)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMAND = re.compile(r"heartfit |snakemake |python3? |\.venv/bin/|git |pip |apt-get ")
+ELSEWHERE = re.compile(r"^<!-- every block is (run by .*) -->$", re.MULTILINE)
 FILE = re.compile(r"# (\w+\.py)\n")
 NUMBER = re.compile(r"[-+]?\d[\d.]*(e[-+]?\d+)?")
 
@@ -37,13 +40,18 @@ class Block:
     @property
     def silent(self) -> bool:
         """Whether it looks like a command and nothing says where it is run."""
-        return not self.run_here and not self.remark and COMMAND.match(self.code) is not None
+        command = self.language == "console" or COMMAND.match(self.code) is not None
+        return command and not self.remark and not (self.run_here and self.code.startswith("$ "))
 
 
 def blocks_of(page: Path) -> list[Block]:
     """The blocks of a page in their order."""
-    found = FENCE.findall(page.read_text(encoding="utf-8"))
-    return [Block(language, code, remark.strip()) for remark, language, code in found]
+    text = page.read_text(encoding="utf-8")
+    elsewhere = [f"<!-- {said} -->" for said in ELSEWHERE.findall(text)]
+    return [
+        Block(language, code, *elsewhere or [remark.strip()])
+        for remark, language, code in FENCE.findall(text)
+    ]
 
 
 def carry_out(page: Path, folder: Path) -> None:

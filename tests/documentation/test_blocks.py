@@ -53,3 +53,11 @@ def test_a_comment_above_belongs_to_its_block(tmp_path):
     assert not configured.run_here
     assert not configured.silent
     assert checked.silent
+
+
+def test_a_page_may_be_run_elsewhere_and_a_command_without_its_sign_is_noticed(tmp_path):
+    text = "```console\nheartfit check\n```\n"
+    (alone,) = blocks_of(page_of(tmp_path, text))
+    (led,) = blocks_of(page_of(tmp_path, f"<!-- every block is run by tests/a.py -->\n\n{text}"))
+    assert alone.silent
+    assert (led.silent, led.run_here, led.remark) == (False, False, "<!-- run by tests/a.py -->")
