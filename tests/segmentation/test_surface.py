@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.ndimage import distance_transform_edt
 from tests.segmentation.conftest import PIXEL, STEP, axes
 
 from heartfit.errors import InputError
@@ -88,3 +89,25 @@ def test_a_hole_in_the_wall_is_no_heart(segmentation: Segmentation, grid: Grid) 
     wall[6, :, 40:] = False
     with pytest.raises(InputError, match=r"slice 6, \d+ % .* touch what is no wall"):
         surface_of(Segmentation(grid, {**segmentation.parts, "lv_wall": wall}))
+
+
+def test_inflow_and_outflow_of_the_right_ventricle_leave_one_opening(segmentation: Segmentation) -> None:
+    """Its last slice is parted; the smaller part ends below it."""
+    right = segmentation.parts["rv_cavity"].copy()
+    last = int(np.flatnonzero(right.any(axis=(1, 2)))[-1])
+    rows = np.flatnonzero(right[last].any(axis=1))
+    right[last, rows[len(rows) // 3] : rows[len(rows) // 3] + 4] = False
+    surface = surface_of(Segmentation(segmentation.grid, {**segmentation.parts, "rv_cavity": right}))
+    assert euler_characteristic(surface.triangles) == 2
+    assert len(rim_loops(surface.surfaces["rv_endo"])) == 1
+
+
+def test_what_the_parts_enclose_in_a_slice_is_wall(
+    segmentation: Segmentation, found: LabelledSurface
+) -> None:
+    """A pit between the parts, as between aorta and right ventricle, would be a tunnel."""
+    wall = segmentation.parts["lv_wall"].copy()
+    j, i = np.unravel_index(distance_transform_edt(wall[11]).argmax(), wall[11].shape)
+    wall[10:, j - 1 : j + 2, i - 1 : i + 2] = False
+    surface = surface_of(Segmentation(segmentation.grid, {**segmentation.parts, "lv_wall": wall}))
+    assert surface.volume() == pytest.approx(found.volume(), rel=2e-3)

@@ -42,11 +42,6 @@ class Segmentation:
                 )
 
     @property
-    def left(self) -> Mask:
-        """The left ventricle, cavity and wall."""
-        return self.parts["lv_cavity"] | self.parts["lv_wall"]
-
-    @property
     def heart(self) -> Mask:
         """All that is labelled."""
         whole: Mask = np.logical_or.reduce(list(self.parts.values()))

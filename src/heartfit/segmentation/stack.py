@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
+from scipy.ndimage import label
 
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
@@ -38,13 +39,14 @@ class Stack:
     step: int
 
     @classmethod
-    def of(cls, segmentation: Segmentation) -> "Stack":
+    def of(cls, segmentation: Segmentation, step: int | None = None) -> "Stack":
         """The slices up to the highest one in which wall surrounds the left cavity and the right cavity is seen.
 
-        Above it lie valves and outflow tracts. Raises InputError for holes in the wall, parts that skip a slice and
+        Above it lie valves and outflow tracts. step: as below, or found from the heart, which widens towards the base;
+        at end systole it may not. Raises InputError for holes in the wall, parts that skip a slice and
         fewer than FEWEST_SLICES.
         """
-        step = _towards_base(segmentation.parts["lv_cavity"])
+        step = step or _towards_base(segmentation.heart)
         whole = cls(
             {name: mask[::step] for name, mask in segmentation.parts.items()},
             0 if step == 1 else segmentation.grid.shape[0] - 1,
@@ -53,7 +55,8 @@ class Stack:
         ring = whole.rings()
         _require_slices(int(ring.sum()))
         base = int(np.flatnonzero(ring)[-1])
-        stack = cls({name: mask[: base + 1] for name, mask in whole.parts.items()}, whole.first, step)
+        below = {name: mask[: base + 1] for name, mask in whole.parts.items()}
+        stack = cls(below | {"rv_cavity": _one_opening(below["rv_cavity"])}, whole.first, step)
         stack._require_whole()
         return stack
 
@@ -98,9 +101,23 @@ class Stack:
                 )
 
 
-def _towards_base(cavity: Mask) -> int:
-    """1 if the left cavity widens along k, else -1."""
-    seen = areas(cavity)
+def _one_opening(cavity: Mask) -> Mask:
+    """The right cavity without the smaller pieces of its last slices, where inflow and outflow part.
+
+    A wall with two openings into one cavity has a bar between them, too thin to be filled with tetrahedra.
+    """
+    kept = cavity.copy()
+    for k in range(len(cavity) - 1, -1, -1):
+        pieces, count = label(cavity[k])
+        if count < 2:
+            break
+        kept[k] = pieces == 1 + np.bincount(pieces.ravel())[1:].argmax()
+    return kept
+
+
+def _towards_base(heart: Mask) -> int:
+    """1 if the heart widens along k, else -1."""
+    seen = areas(heart)
     centre = float(np.flatnonzero(seen).mean())
     return 1 if float(((np.arange(len(seen)) - centre) * seen).sum()) >= 0.0 else -1
 

@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats, Integers, Names
 from heartfit.geometry.surface import LabelledSurface, enclosed_volume
-from heartfit.geometry.topology import neighbours
+from heartfit.geometry.topology import euler_characteristic, neighbours
 from heartfit.segmentation.labels import Segmentation
 from heartfit.segmentation.wall import Levels, Shaping, levels_of
 
@@ -40,8 +40,18 @@ def surface_of(segmentation: Segmentation, shaping: Shaping = SHAPING) -> Labell
     labels = np.full(len(triangles), "base", dtype="<U8")
     labels[~lid] = _named(levels, places, triangles[~lid], pieces)
     points = levels.box.points(places)
+    _require_no_tunnel(triangles)
     outwards = enclosed_volume(points, triangles) > 0.0
     return LabelledSurface(points, triangles if outwards else triangles[:, ::-1], labels)
+
+
+def _require_no_tunnel(triangles: Integers) -> None:
+    tunnels = 1 - euler_characteristic(triangles) // 2
+    if tunnels:
+        raise InputError(
+            f"segmentation: {tunnels} tunnels go through the wall; expected none: fill what the parts enclose, or "
+            "segment thinner slices"
+        )
 
 
 def _marched(field: Floats) -> tuple[Floats, Integers]:

@@ -8,7 +8,7 @@ the cavities; nowhere is the wall about them thinner.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, gaussian_filter
+from scipy.ndimage import binary_fill_holes, distance_transform_edt, gaussian_filter
 from scipy.spatial import cKDTree
 
 from heartfit.geometry.arrays import Floats
@@ -70,7 +70,8 @@ def levels_of(segmentation: Segmentation, shaping: Shaping) -> Levels:
     whole = stack.heart if "rv_wall" in stack.parts else stack.left
     masks = stack.parts["lv_cavity"], stack.parts["rv_cavity"], whole
     left, right, drawn = (_smooth(box.level(mask), shaping) for mask in masks)
-    return Levels(box, left, right, np.minimum(drawn, _beyond(np.minimum(left, right), shaping)))
+    outside = np.minimum(drawn, _beyond(np.minimum(left, right), shaping))
+    return Levels(box, left, right, _without_pits(outside, shaping.spacing))
 
 
 def _smooth(field: Floats, shaping: Shaping) -> Floats:
@@ -84,6 +85,13 @@ def _beyond(cavities: Floats, shaping: Shaping) -> Floats:
     near = np.argwhere((steps > 0.0) & (steps < shaping.right_wall / shaping.spacing + AROUND))
     steps[tuple(near.T)] = cKDTree(_crossings(cavities)).query(near)[0]
     return _smooth(shaping.spacing * steps - shaping.right_wall, shaping)
+
+
+def _without_pits(outside: Floats, spacing: float) -> Floats:
+    """The outside (h,v,u) m, where what it encloses in a layer, as between aorta and right ventricle, is wall."""
+    heart = outside < 0.0
+    filled = np.array([binary_fill_holes(layer) for layer in heart])
+    return np.where(filled & ~heart, -spacing, outside)
 
 
 def _crossings(field: Floats) -> Floats:
