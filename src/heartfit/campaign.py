@@ -5,7 +5,8 @@ from pathlib import Path
 
 from heartfit.configuration.study import Study
 from heartfit.errors import InputError
-from heartfit.io.configuration import read_study
+from heartfit.io.cases import read_cases
+from heartfit.io.configuration import read_configuration, read_study
 from heartfit.io.measured_costs import FOOTPRINTS, NEEDS, read_table, write_costs
 from heartfit.own_case import STANDARD
 from heartfit.planning.footprint import Footprint
@@ -55,6 +56,60 @@ def plan(given: argparse.Namespace) -> int:
     return 0
 
 
+def shards_arguments(command: argparse.ArgumentParser) -> None:
+    """Of `shards`."""
+    command.set_defaults(carry_out=shards)
+    command.add_argument(
+        "--size", type=_positive, default=100, help="subjects in each, besides the reference"
+    )
+    command.add_argument(
+        "-o", "--output", type=Path, default=Path("config/shards"), help="folder of all of them"
+    )
+    command.add_argument(
+        "--config", type=Path, nargs="+", default=[STANDARD], metavar="YAML", help="later over earlier ones"
+    )
+
+
+def shards(given: argparse.Namespace) -> int:
+    """Split the cases of a study into tables and configurations of studies that run on their own."""
+    from heartfit.io.shards import write_shards  # pandas, which few commands need
+
+    study = read_study(given.config)
+    read_cases(Path(study.cases))
+    over, reference = read_configuration(given.config[1:]), study.sensitivity.case
+    written = write_shards(given.output, Path(study.cases), reference, given.size, study.results, over)
+    print(f"{len(written)} shards: {written[0]} to {written[-1]}")
+    return 0
+
+
+def _positive(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text}; expected at least one subject")
+    return number
+
+
+def join_arguments(command: argparse.ArgumentParser) -> None:
+    """Of `join`."""
+    command.set_defaults(carry_out=join)
+    command.add_argument("results", type=Path, nargs="+", help="folders of the shards' results")
+    command.add_argument(
+        "-o", "--output", type=Path, default=Path("results/joined"), help="folder of the tables"
+    )
+
+
+def join(given: argparse.Namespace) -> int:
+    """Write the numbers of all shards as those of one study, and their means; fails where shards disagree."""
+    from heartfit.io.shards import read_joined
+    from heartfit.io.tables import write_tables
+    from heartfit.tables.joined import summary
+
+    numbers = read_joined(given.results)
+    write_tables(given.output, {"numbers": numbers, "summary": summary(numbers)})
+    print(f"{numbers['case'].nunique()} cases of {len(given.results)} shards in {given.output}")
+    return 0
+
+
 def _points(study: Study, settings: list[str], pressure: bool) -> int:
     """Sigma points of a subject under all settings together."""
     unknown = [name for name in settings if name not in study.settings]
@@ -62,3 +117,11 @@ def _points(study: Study, settings: list[str], pressure: bool) -> int:
         raise InputError(f"no setting {unknown[0]!r}; known are {', '.join(study.settings)}")
     chosen = [study.settings[name] for name in settings]
     return sum(2 * len((each.seeing_pressure() if pressure else each).estimate) + 1 for each in chosen)
+
+
+COMMANDS = (
+    (costs, costs_arguments, "write what jobs of studies took"),
+    (plan, plan_arguments, "print what a study of many subjects comes to"),
+    (shards, shards_arguments, "split a study of many subjects"),
+    (join, join_arguments, "put the numbers of shards together"),
+)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from heartfit import protocol
-from heartfit.campaign import costs, costs_arguments, plan, plan_arguments
+from heartfit.campaign import COMMANDS
 from heartfit.catalogue import composed, declared
 from heartfit.checking import check, check_arguments
 from heartfit.configuration.setting import Setting
@@ -47,8 +47,7 @@ def _parser() -> argparse.ArgumentParser:
     for carry_out, arguments, text in (
         (init, init_arguments, "write the configuration of a heart of your own"),
         (check, check_arguments, "say all that is wrong with a study before it runs"),
-        (costs, costs_arguments, "write what jobs of studies took"),
-        (plan, plan_arguments, "print what a study of many subjects comes to"),
+        *COMMANDS,
     ):
         arguments(commands.add_parser(carry_out.__name__, help=text, description=carry_out.__doc__))
     for page in PAGES:
