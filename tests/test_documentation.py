@@ -9,7 +9,7 @@ import pytest
 from heartfit.mechanism import registry
 
 ROOT = Path(__file__).parents[1]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "config" / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 def test_the_example_of_a_mechanism_is_one(monkeypatch):

@@ -1,13 +1,19 @@
-"""Docstrings are prose with formulas: a bar, a star or a last underscore outside of a role stands for itself."""
+"""Docstrings are prose with formulas: a bar, a star or a last underscore outside of a role stands for itself.
+
+Signatures name arrays of numbers as the code does.
+"""
 
 import re
 
 QUOTED = re.compile(r"(``.*?``|(?::\w+:)?`[^`]*`)")
 MARK = re.compile(r"(?<!\\)([|*])|(?<=\w)(_)(?!\w)")
+ARRAYS = {"float64": "Floats", "int64": "Integers", "str_": "Names"}
+ARRAY = re.compile(r"ndarray\[tuple\[Any, \.\.\.\], dtype\[(\w+)\]\]")
 
 
 def setup(app):
     app.connect("autodoc-process-docstring", keep_marks)
+    app.connect("autodoc-process-signature", name_arrays)
     return {"parallel_read_safe": True}
 
 
@@ -24,3 +30,9 @@ def plain(line):
     parts = QUOTED.split(line)
     parts[::2] = [MARK.sub(r"\\\g<0>", part) for part in parts[::2]]
     return "".join(parts)
+
+
+def name_arrays(*given):
+    return tuple(
+        text and ARRAY.sub(lambda found: ARRAYS.get(found[1], "ndarray"), text) for text in given[-2:]
+    )

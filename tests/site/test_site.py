@@ -40,3 +40,8 @@ def test_formulas_are_mathml_and_lines_that_are_aligned_stand_below_each_other()
     formula = mathml.convert(mathml.aligned(r"a &= b \\ &= c"))
     assert formula.startswith("<math")
     assert formula.count("<mtr>") == 2
+
+
+def test_a_signature_names_arrays_as_the_code_does():
+    said = "(x: ndarray[tuple[Any, ...], dtype[float64]], n: int)"
+    assert prose.name_arrays(None, "function", "f", None, {}, said, None) == ("(x: Floats, n: int)", None)
