@@ -1,0 +1,64 @@
+"""The page of error messages and the messages of the code belong together."""
+
+import ast
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+PAGE = (ROOT / "docs" / "errors.md").read_text(encoding="utf-8")
+GAP = "…"
+PHRASES = [
+    phrase
+    for row in re.findall(r"^\| (`.*?) \| ", PAGE, re.MULTILINE)
+    for phrase in re.findall(r"`(.*?)`", row)
+]
+TREES = [
+    ast.parse(file.read_text(encoding="utf-8")) for file in sorted((ROOT / "src" / "heartfit").rglob("*.py"))
+]
+CONFIGURATION = [
+    ast.parse(file.read_text(encoding="utf-8"))
+    for file in sorted((ROOT / "src" / "heartfit" / "configuration").rglob("*.py"))
+]
+
+
+def written(node: ast.AST) -> str:
+    """A text of the code, a gap for what is put into it."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value
+    if isinstance(node, ast.JoinedStr):
+        return "".join(map(written, node.values))
+    return GAP
+
+
+def messages(trees: list[ast.Module], error: str) -> set[str]:
+    """What is raised, but for texts that are handed on."""
+    calls = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Call) and node.args]
+    raised = {
+        written(call.args[0]) for call in calls if isinstance(call.func, ast.Name) and call.func.id == error
+    }
+    return {said for said in raised if re.search(r"\w", said.replace("expected", ""))}
+
+
+def tells_of(phrase: str, text: str) -> bool:
+    return re.search(".*".join(map(re.escape, phrase.split(GAP))), text) is not None
+
+
+def test_every_message_of_the_code_is_on_the_page():
+    said = messages(TREES, "InputError") | messages(CONFIGURATION, "ValueError")
+    untold = [text for text in sorted(said) if not any(tells_of(phrase, text) for phrase in PHRASES)]
+    assert len(said) > 200
+    assert not untold, "tell in docs/errors.md what they mean"
+
+
+def test_the_page_tells_of_no_message_that_there_is_not():
+    texts = {
+        written(node)
+        for tree in TREES
+        for node in ast.walk(tree)
+        if isinstance(node, ast.JoinedStr | ast.Constant)
+    }
+    assert not [phrase for phrase in PHRASES if not any(tells_of(phrase, text) for text in texts)]
+
+
+def test_no_phrase_stands_for_whatever_is_said():
+    assert not [phrase for phrase in PHRASES if len(re.findall(r"\w", phrase)) < 3]
