@@ -10,6 +10,7 @@ from heartfit.exchange.inference_data import groups
 from heartfit.io.atomic import replacing
 from heartfit.io.beats import read_beat
 from heartfit.io.curves import read_curves
+from heartfit.io.made_by import made_by
 from heartfit.io.results import read_case, read_observations, read_posterior
 from heartfit.observation.beat import beat_curves
 
@@ -35,6 +36,7 @@ def write_inference_data(path: Path, found: Calibrated) -> None:
         "setting": found.case.setting,
         "inference_library": "heartfit",
         "fingerprint": found.case.fingerprint,
+        "history": f"made by {made_by()}",
         "Conventions": "CF-1.11",
     }
     tree = {name: group.assign_attrs(about | group.attrs) for name, group in groups(found).items()}
