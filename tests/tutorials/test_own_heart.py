@@ -1,13 +1,13 @@
 """The page on one's own heart does what it says: its commands are run one after the other in a new folder."""
 
 import os
-import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from tests.documentation.blocks import blocks_of
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "own_heart.md"
@@ -16,10 +16,14 @@ COARSE = "config/smoke.yaml"
 CAUSE = "results/mine/mine/discovery/physical/search/cause.json"
 
 
-def commands() -> list[str]:
-    """The lines of the page's console blocks."""
-    blocks = re.findall(r"```console\n(.*?)```", PAGE.read_text(), re.DOTALL)
-    return [line for block in blocks for line in block.splitlines()]
+def steps() -> list[str]:
+    """What the page lets one do, in order: the commands of console blocks, and each Python block as a whole."""
+    return [
+        step.removeprefix("$ ")
+        for block in blocks_of(PAGE)
+        if block.language in ("console", "python")
+        for step in ([block.code] if block.language == "python" else block.code.splitlines())
+    ]
 
 
 @pytest.fixture
@@ -34,34 +38,30 @@ def project(tmp_path: Path, measured_heart_folder: Path) -> Path:
     return tmp_path
 
 
-def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
-    """A command of the page with this Python; the study coarse, on the cores there are."""
-    program, *arguments = command.replace("python3 study.py run", "study").split()
+def command(step: str) -> list[str]:
+    """A step of the page with this Python; the study coarse, on two cores."""
+    if "\n" in step:
+        return [sys.executable, "-c", step]
+    program, *arguments = step.replace("python3 study.py run", "study").split()
     if program == "study":
-        first, *others = arguments
-        snakemake = [sys.executable, "-m", "snakemake", "--workflow-profile", "none", "--cores", "2"]
-        whole = [*snakemake, first, COARSE, *others]
-    else:
-        assert program == ".venv/bin/heartfit", f"{program} is not run by this test"
-        whole = [
-            sys.executable,
-            "-c",
-            "import sys; from heartfit.cli import main; sys.exit(main())",
-            *arguments,
-        ]
-    environment = os.environ | {"PYTHONPATH": str(folder / "src")}
-    return subprocess.run(whole, cwd=folder, env=environment, capture_output=True, text=True)
+        coarse = " ".join(arguments).replace("--configfile", f"--configfile {COARSE}").split()
+        return [sys.executable, "-m", "snakemake", "--workflow-profile", "none", "--cores", "2", *coarse]
+    assert program == ".venv/bin/heartfit", f"{program} is not run by this test"
+    return [sys.executable, "-c", "import sys; from heartfit.cli import main; sys.exit(main())", *arguments]
 
 
 @pytest.mark.long
 @pytest.mark.measured
-def test_every_command_of_the_page_ends_well(project: Path) -> None:
-    ran = commands()
-    assert len(ran) >= 4, "init twice, check, run"
-    for command in ran:
-        done = run(command, project)
-        sys.stdout.write(f"$ {command}\n{done.stdout[-1000:]}\n")
-        assert done.returncode == 0, f"{command}\n{done.stderr[-4000:]}"
-    assert (project / "results/mine/figures/mine_check.png").stat().st_size > 100_000
+def test_every_step_of_the_page_ends_well(project: Path) -> None:
+    environment = os.environ | {"PYTHONPATH": str(project / "src")}
+    for step in steps():
+        sys.stdout.write(f"$ {step}\n")
+        done = subprocess.run(command(step), cwd=project, env=environment, capture_output=True, text=True)
+        sys.stdout.write(f"{done.stdout[-1000:]}\n")
+        assert done.returncode == 0, f"{step}\n{done.stdout[-2000:]}\n{done.stderr[-4000:]}"
+    for case in ("mine", "drawn"):
+        assert (project / f"results/{case}/figures/{case}_check.png").stat().st_size > 100_000
     assert (project / CAUSE).is_file()
-    assert not list((project / "results").glob("*/cohort")), "no virtual heart is made"
+    assert (project / "results/mine/report.html").is_file()
+    assert (project / "results/drawn/drawn/curves/measured.csv").is_file()
+    assert not list((project / "results").glob("*/*/cohort")), "no virtual heart is made"

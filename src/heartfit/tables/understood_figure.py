@@ -85,7 +85,7 @@ def _pictures(figure: FigureBase, heart: Understood, images: ImageSequence) -> N
     moved = heart.mesh.points if heart.motion is None else heart.motion.positions[late]
     titles = (
         "end diastole",
-        "end systole" if heart.motion else "most unlike it, outlines still of end diastole",
+        "end systole" if heart.motion else "least like it, outlines as above",
     )
     panels = figure.subplots(2, len(named))
     for row, title, frame, points in zip(panels, titles, (0, late), (heart.mesh.points, moved), strict=True):
