@@ -47,6 +47,17 @@ def read_mesh(path: Path) -> VentricularMesh:
         return _mesh(path, stored)
 
 
+def read_prepared_mesh(file: Path) -> VentricularMesh:
+    """A mesh with the fields that a beat needs; raises InputError where one is missing."""
+    mesh = read_mesh(file)
+    for name in ("fibres", "activation", "segments"):
+        if getattr(mesh, name) is None:
+            raise InputError(
+                f"{file}: no cell field {name}; expected a mesh as the study builds it: build it again"
+            )
+    return mesh
+
+
 def _mesh(path: Path, stored: meshio.Mesh) -> VentricularMesh:
     points, tets = stored.points.astype(float), stored.cells_dict["tetra"].astype(np.int64)
     triangles, surface_id = stored.cells_dict["triangle"], stored.cell_data_dict["surface"]["triangle"]

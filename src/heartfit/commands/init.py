@@ -6,19 +6,18 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from heartfit.commands.options import STANDARD, Command
 from heartfit.configuration.own_case import row_text, study_text
 from heartfit.configuration.source import Source
 from heartfit.configuration.strict import validated
 from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
 
-STANDARD = Path("config/config.yaml")
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9-]*")
 
 
 def init_arguments(command: argparse.ArgumentParser) -> None:
     """The arguments of init."""
-    command.set_defaults(carry_out=init)
     command.add_argument("case", metavar="CASE", help="its name: letters, digits and hyphens")
     for option, text in (
         ("--fit", "folder in the layout of a biv-me subject"),
@@ -102,3 +101,6 @@ def _label(text: str) -> tuple[str, int]:
     if not number.strip().isdecimal():
         raise InputError(f"--labels {text!r}: expected NAME=NUMBER, as lv_cavity=1,lv_wall=2,rv_cavity=3")
     return name.strip(), int(number)
+
+
+COMMANDS: tuple[Command, ...] = ((init, init_arguments, "write the configuration of a heart of your own"),)

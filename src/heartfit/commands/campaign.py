@@ -3,12 +3,12 @@
 import argparse
 from pathlib import Path
 
+from heartfit.commands.options import Command, configuration
 from heartfit.configuration.study import Study
 from heartfit.errors import InputError
 from heartfit.io.cases import read_cases
 from heartfit.io.configuration import read_configuration, read_study
 from heartfit.io.measured_costs import FOOTPRINTS, NEEDS, read_table, write_costs
-from heartfit.own_case import STANDARD
 from heartfit.planning.footprint import Footprint
 from heartfit.planning.forecast import Subjects, forecast
 from heartfit.planning.need import Need
@@ -19,7 +19,6 @@ RESOURCES = Path("resources")
 
 def costs_arguments(command: argparse.ArgumentParser) -> None:
     """Of `costs`."""
-    command.set_defaults(carry_out=costs)
     command.add_argument(
         "results", type=Path, nargs="+", help="of studies; of a job that several ran, the first one counts"
     )
@@ -34,15 +33,12 @@ def costs(given: argparse.Namespace) -> int:
 
 def plan_arguments(command: argparse.ArgumentParser) -> None:
     """Of `plan`."""
-    command.set_defaults(carry_out=plan)
     command.add_argument("--cases", type=int, default=10_000, help="subjects")
     command.add_argument("--kind", choices=("measured", "virtual"), default="measured", help="of all of them")
     command.add_argument("--setting", nargs="+", default=[], help="settings; all if not given")
     command.add_argument("--pressure", action="store_true", help="a pressure is recorded too")
     command.add_argument("--cpus", type=int, default=200, help="that run jobs at once")
-    command.add_argument(
-        "--config", type=Path, nargs="+", default=[STANDARD], metavar="YAML", help="later over earlier ones"
-    )
+    configuration(command)
     command.add_argument("--costs", type=Path, default=RESOURCES, help="folder of the two tables")
 
 
@@ -58,16 +54,13 @@ def plan(given: argparse.Namespace) -> int:
 
 def shards_arguments(command: argparse.ArgumentParser) -> None:
     """Of `shards`."""
-    command.set_defaults(carry_out=shards)
     command.add_argument(
         "--size", type=_positive, default=100, help="subjects in each, besides the reference"
     )
     command.add_argument(
         "-o", "--output", type=Path, default=Path("config/shards"), help="folder of all of them"
     )
-    command.add_argument(
-        "--config", type=Path, nargs="+", default=[STANDARD], metavar="YAML", help="later over earlier ones"
-    )
+    configuration(command)
 
 
 def shards(given: argparse.Namespace) -> int:
@@ -91,7 +84,6 @@ def _positive(text: str) -> int:
 
 def join_arguments(command: argparse.ArgumentParser) -> None:
     """Of `join`."""
-    command.set_defaults(carry_out=join)
     command.add_argument("results", type=Path, nargs="+", help="folders of the shards' results")
     command.add_argument(
         "-o", "--output", type=Path, default=Path("results/joined"), help="folder of the tables"
@@ -119,7 +111,7 @@ def _points(study: Study, settings: list[str], pressure: bool) -> int:
     return sum(2 * len((each.seeing_pressure() if pressure else each).estimate) + 1 for each in chosen)
 
 
-COMMANDS = (
+COMMANDS: tuple[Command, ...] = (
     (costs, costs_arguments, "write what jobs of studies took"),
     (plan, plan_arguments, "print what a study of many subjects comes to"),
     (shards, shards_arguments, "split a study of many subjects"),

@@ -5,9 +5,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from heartfit.commands.options import STANDARD, Command
 from heartfit.console import one_line
 from heartfit.io.configuration import read_configuration
-from heartfit.own_case import STANDARD
 
 if TYPE_CHECKING:  # imported where they are needed: other commands take a second less
     from heartfit.io.inspection import Inspection
@@ -20,7 +20,6 @@ COARSE = (0.015, 0.0006)
 
 def check_arguments(command: argparse.ArgumentParser) -> None:
     """The arguments of check."""
-    command.set_defaults(carry_out=check)
     command.add_argument("case", metavar="CASE", nargs="?", help="a heart of one's own, as init wrote it")
     command.add_argument(
         "--config", type=Path, nargs="+", metavar="YAML", help="later ones over earlier ones"
@@ -107,3 +106,8 @@ def _understood(subject: "Subject") -> "Understood | None":
     if heart is not None:
         motion = carry_mesh(mesh, heart.surface, heart.positions, heart.times, heart.period)
     return Understood(case.case, case.conduction, mesh, motion, subject.images, subject.pressure)
+
+
+COMMANDS: tuple[Command, ...] = (
+    (check, check_arguments, "say all that is wrong with a study before it runs"),
+)
