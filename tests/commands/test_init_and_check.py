@@ -9,7 +9,7 @@ import pytest
 from heartfit.cli import main
 from heartfit.io.configuration import read_configuration
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
