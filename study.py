@@ -179,7 +179,7 @@ def docs(_: list[str]) -> int:
     """Make the site anew: a link, an anchor, a reference or a formula that is broken is a warning, and that fails."""
     for folder in ("site", "docs/api", "build/doctrees"):
         shutil.rmtree(folder, ignore_errors=True)
-    warnings = ("--nitpicky", "--fail-on-warning", "--keep-going", "--quiet")
+    warnings = ("--nitpicky", "--fail-on-warning", "--keep-going", "--quiet", "--jobs", "2")
     sphinx = tool("python", "-m", "sphinx", *warnings, "-d", "build/doctrees", "docs", "site")
     code = subprocess.run(sphinx, check=False).returncode
     print("docs: failed, see above" if code else "docs: site/index.html is there", flush=True)

@@ -8,7 +8,8 @@ import re
 QUOTED = re.compile(r"(``.*?``|(?::\w+:)?`[^`]*`)")
 MARK = re.compile(r"(?<!\\)([|*])|(?<=\w)(_)(?!\w)")
 ARRAYS = {"float64": "Floats", "int64": "Integers", "str_": "Names"}
-ARRAY = re.compile(r"ndarray\[tuple\[Any, \.\.\.\], dtype\[(\w+)\]\]")
+PLACE = r"~?(?:\w+\.)?"
+ARRAY = re.compile(rf"{PLACE}ndarray\[tuple\[{PLACE}Any, \.\.\.\], {PLACE}dtype\[{PLACE}(\w+)\]\]")
 
 
 def setup(app):

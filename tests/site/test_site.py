@@ -42,6 +42,13 @@ def test_formulas_are_mathml_and_lines_that_are_aligned_stand_below_each_other()
     assert formula.count("<mtr>") == 2
 
 
-def test_a_signature_names_arrays_as_the_code_does():
-    said = "(x: ndarray[tuple[Any, ...], dtype[float64]], n: int)"
-    assert prose.name_arrays(None, "function", "f", None, {}, said, None) == ("(x: Floats, n: int)", None)
+@pytest.mark.parametrize(
+    "array",
+    [
+        "ndarray[tuple[Any, ...], dtype[float64]]",
+        "~numpy.ndarray[tuple[~typing.Any, ...], ~numpy.dtype[~numpy.float64]]",
+    ],
+)
+def test_a_signature_names_arrays_as_the_code_does(array):
+    named = prose.name_arrays(None, "function", "f", None, {}, f"(x: {array}, n: int)", None)
+    assert named == ("(x: Floats, n: int)", None)
