@@ -231,6 +231,11 @@ def source_of(wildcards):
     return SOURCES[wildcards.case]
 
 
+def wall_of(wildcards):
+    """The same but for the pressure, which neither mesh nor motion rests on."""
+    return source_of(wildcards).model_copy(update={"pressure": None})
+
+
 def measured_files(wildcards):
     """The files of a measured case's wall."""
     return source_files(source_of(wildcards))

@@ -33,9 +33,9 @@ rule build_measured_mesh:
         **needs("build_mesh"),
     params:
         case=case_of,
-        source=source_of,
+        source=wall_of,
         size=STUDY.mesh,
-        stated=stated(case_of, source_of, STUDY.mesh),
+        stated=stated(case_of, wall_of, STUDY.mesh),
         code=code("build_measured_mesh.py"),
     script:
         "../scripts/build_measured_mesh.py"

@@ -1,4 +1,4 @@
-SOURCE = {"source": source_of, "stated": stated(source_of)}
+SOURCE = {"source": wall_of, "stated": stated(wall_of)}
 
 
 rule take_images:
