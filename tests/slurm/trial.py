@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -16,7 +17,9 @@ from tests.slurm.lab import Lab, LabError, await_that, install
 
 TINY = ("--configfile", "config/tiny.yaml")
 RESULTS = Path("results/tiny")
-AGAIN = "Trying to restart job"
+AGAIN, DONE = "Trying to restart job", re.compile(r"steps \((\d+)%\) done")
+KILLED_AT, LOST_AT = 10, 50
+"""% of the study that are done when a job is killed and when the node is lost."""
 LONG = 3600.0
 """s within which a study must have got to the next job."""
 
@@ -38,7 +41,7 @@ class Study:
     def _read(self) -> None:
         for line in self.process.stdout or ():
             self.lines.append(line)
-            if " steps (" in line or "rror" in line or AGAIN in line:
+            if DONE.search(line) or line.startswith("Error") or AGAIN in line:
                 say(line.rstrip())
 
     def ended(self) -> bool:
@@ -49,6 +52,11 @@ class Study:
         """Wait for its end; 0 if all that was asked for is there."""
         self.reader.join()
         return self.process.wait()
+
+    def share(self) -> int:
+        """How much of it is done, %."""
+        done = [int(found[1]) for line in self.lines if (found := DONE.search(line))]
+        return done[-1] if done else 0
 
     def restarts(self) -> int:
         """How many jobs Snakemake tried again."""
@@ -102,11 +110,11 @@ def lab(cpus: int) -> Iterator[Lab]:
 def trial(slurm: Lab, cpus: int, arguments: list[str]) -> None:
     """Run the study, kill a job, cut the node's power, and see it through; raises LabError if it does not recover."""
     begin, study = time.monotonic(), Study(arguments, cpus)
-    killed = running(slurm, study)
+    killed = running(slurm, study, KILLED_AT)
     slurm.kill_job(killed)
     say(f"killed all processes of job {killed}")
     await_that(lambda: slurm.states()[killed] != "RUNNING", f"the end of job {killed}")
-    lost = running(slurm, study)
+    lost = running(slurm, study, LOST_AT)
     slurm.lose_node()
     say(f"node lost with job {lost}; SLURM says {slurm.states()[lost]}")
     slurm.start_node()
@@ -132,13 +140,14 @@ def say(line: str) -> None:
     sys.stdout.flush()
 
 
-def running(slurm: Lab, study: Study) -> int:
-    """The number of a job whose step has begun; raises LabError if the study ends before there is one."""
+def running(slurm: Lab, study: Study, share: int) -> int:
+    """The number of a job whose step has begun once so much is done; raises LabError if the study ends before that."""
+    begun: list[int] = []
 
-    def found() -> int:
-        return next((job for job in slurm.jobs() if len(slurm.processes(job)) > 1), 0)
+    def some() -> bool:
+        begun[:] = [job for job in slurm.jobs() if len(slurm.processes(job)) > 1]
+        return study.ended() or (study.share() >= share and bool(begun))
 
-    await_that(lambda: study.ended() or found() > 0, "a job that runs", LONG)
-    if study.ended():
-        raise LabError("the study ended before all of it was tried: is there anything left to do?")
-    return found()
+    await_that(some, "a job that runs", LONG)
+    require(not study.ended(), "the study ended before all of it was tried: is there anything left to do?")
+    return begun[0]

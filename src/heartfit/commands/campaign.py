@@ -39,6 +39,15 @@ def plan_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument("--pressure", action="store_true", help="a pressure is recorded too")
     command.add_argument("--cpus", type=int, default=200, help="that run jobs at once")
     configuration(command)
+    command.set_defaults(carry_out=plan)
+    command.add_argument("--cases", type=_positive, default=10_000, help="subjects")
+    command.add_argument("--kind", choices=("measured", "virtual"), default="measured", help="of all of them")
+    command.add_argument("--setting", nargs="+", default=[], help="settings; all if not given")
+    command.add_argument("--pressure", action="store_true", help="a pressure is recorded too")
+    command.add_argument("--cpus", type=_positive, default=200, help="that run jobs at once")
+    command.add_argument(
+        "--config", type=Path, nargs="+", default=[STANDARD], metavar="YAML", help="later over earlier ones"
+    )
     command.add_argument("--costs", type=Path, default=RESOURCES, help="folder of the two tables")
 
 
@@ -76,10 +85,9 @@ def shards(given: argparse.Namespace) -> int:
 
 
 def _positive(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{text}; expected at least one subject")
-    return number
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text}; expected a whole number, one or more")
+    return int(text)
 
 
 def join_arguments(command: argparse.ArgumentParser) -> None:
