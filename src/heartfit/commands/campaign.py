@@ -33,21 +33,12 @@ def costs(given: argparse.Namespace) -> int:
 
 def plan_arguments(command: argparse.ArgumentParser) -> None:
     """Of `plan`."""
-    command.add_argument("--cases", type=int, default=10_000, help="subjects")
-    command.add_argument("--kind", choices=("measured", "virtual"), default="measured", help="of all of them")
-    command.add_argument("--setting", nargs="+", default=[], help="settings; all if not given")
-    command.add_argument("--pressure", action="store_true", help="a pressure is recorded too")
-    command.add_argument("--cpus", type=int, default=200, help="that run jobs at once")
-    configuration(command)
-    command.set_defaults(carry_out=plan)
     command.add_argument("--cases", type=_positive, default=10_000, help="subjects")
     command.add_argument("--kind", choices=("measured", "virtual"), default="measured", help="of all of them")
     command.add_argument("--setting", nargs="+", default=[], help="settings; all if not given")
     command.add_argument("--pressure", action="store_true", help="a pressure is recorded too")
     command.add_argument("--cpus", type=_positive, default=200, help="that run jobs at once")
-    command.add_argument(
-        "--config", type=Path, nargs="+", default=[STANDARD], metavar="YAML", help="later over earlier ones"
-    )
+    configuration(command)
     command.add_argument("--costs", type=Path, default=RESOURCES, help="folder of the two tables")
 
 
