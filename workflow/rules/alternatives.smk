@@ -3,7 +3,7 @@ rule compare_alternatives:
         kernels="<results>/kernels.json",
     output:
         table=expand("<results>/tables/alternatives.{suffix}", suffix=("csv", "md", "tex")),
-        figure=expand("<results>/figures/alternatives.{suffix}", suffix=("png", "pdf")),
+        figure=pictured("alternatives", "alternatives", "Methods"),
     log:
         "<logs>/compare_alternatives.log",
     benchmark:
@@ -24,7 +24,7 @@ rule cover_spheres:
         kernels="<results>/kernels.json",
     output:
         table=expand("<results>/tables/coverage_sphere.{suffix}", suffix=("csv", "md", "tex")),
-        figure=expand("<results>/figures/coverage_sphere.{suffix}", suffix=("png", "pdf")),
+        figure=pictured("coverage_sphere", "coverage", "Methods"),
     log:
         "<logs>/cover_spheres.log",
     benchmark:

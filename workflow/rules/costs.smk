@@ -4,8 +4,8 @@ rule tabulate_costs:
     input:
         whole_study(),
     output:
-        printed("costs"),
-        expand("<results>/figures/costs.{kind}", kind=("png", "pdf")),
+        tabulated("costs"),
+        pictured("costs", "costs", "Cohort"),
     log:
         "<logs>/tabulate_costs.log",
     benchmark:

@@ -32,7 +32,6 @@ ASKED = {
     "pressures": STUDY.end_diastolic_pressure,
     "steps": DISCOVERY.most_steps,
 }
-CAUSE = ("cause.json", "cause.md", "cause.png", "traces.json")
 
 
 rule plot_residual:
@@ -40,7 +39,7 @@ rule plot_residual:
         **CALIBRATED_CASE,
     output:
         table="<results>/{case}/discovery/{setting}/residual.csv",
-        figure=expand("<results>/figures/residual_{{case}}_{{setting}}.{suffix}", suffix=("png", "pdf")),
+        figure=pictured("residual_{case}_{setting}", "residual"),
     log:
         "<logs>/{case}/{setting}/plot_residual.log",
     benchmark:
@@ -62,7 +61,7 @@ rule search_cause:
         beats=sigma_point_beats,
         kernels="<results>/kernels.json",
     output:
-        expand("<results>/{{case}}/discovery/{{setting}}/search/{file}", file=CAUSE),
+        cause_card("<results>/{case}/discovery/{setting}/search"),
     log:
         "<logs>/{case}/{setting}/search_cause.log",
     benchmark:
@@ -106,7 +105,8 @@ rule prove_cause:
         beats=sigma_point_beats,
         refit="<results>/{case}/discovery/{setting}/none/refit.json",
     output:
-        expand("<results>/{{case}}/discovery/{{setting}}/{file}", file=(*CAUSE, "refit.json")),
+        cause_card("<results>/{case}/discovery/{setting}"),
+        "<results>/{case}/discovery/{setting}/refit.json",
     log:
         "<logs>/{case}/{setting}/prove_cause.log",
     benchmark:
@@ -146,7 +146,7 @@ rule compare_attempts:
         expand("<results>/{{case}}/discovery/{{setting}}/trials/{mechanism}.json", mechanism=DISCOVERY.trials),
     output:
         tables=expand("<results>/tables/{{case}}_{{setting}}_trials.{suffix}", suffix=("csv", "md", "tex")),
-        figure=expand("<results>/figures/trials_{{case}}_{{setting}}.{suffix}", suffix=("png", "pdf")),
+        figure=pictured("trials_{case}_{setting}", "trials"),
     log:
         "<logs>/{case}/{setting}/compare_attempts.log",
     benchmark:

@@ -23,7 +23,7 @@ rule make_cards:
     input:
         **POSTERIORS,
     output:
-        printed("cards", "coverage_cohort"),
+        tabulated("cards", "coverage_cohort"),
         [f"<results>/figures/{name}" for name in CASE_PICTURES if "_card." in name],
     log:
         "<logs>/make_cards.log",
@@ -45,8 +45,8 @@ rule compare_groups:
     input:
         **POSTERIORS,
     output:
-        printed("specificity", "claims"),
-        expand("<results>/figures/specificity.{suffix}", suffix=("png", "pdf")),
+        tabulated("specificity", "claims"),
+        pictured("specificity", "specificity", "Cohort"),
     log:
         "<logs>/compare_groups.log",
     benchmark:

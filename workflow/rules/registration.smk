@@ -126,8 +126,8 @@ rule compare_cine:
         outlines=printed("{case}_cine_outlines"),
         wall=printed("{case}_cine_wall"),
         volume=printed("{case}_cine_volume"),
-        outlines_figure=expand("<results>/figures/{{case}}_cine_outlines.{suffix}", suffix=("png", "pdf")),
-        volume_figure=expand("<results>/figures/{{case}}_cine_volume.{suffix}", suffix=("png", "pdf")),
+        outlines_figure=pictured("{case}_cine_outlines", "cine"),
+        volume_figure=pictured("{case}_cine_volume", "cine"),
     log:
         "<logs>/{case}/compare_cine.log",
     benchmark:

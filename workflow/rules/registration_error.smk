@@ -73,7 +73,7 @@ rule tabulate_registration:
     output:
         costs=expand("<results>/tables/registration.{suffix}", suffix=("csv", "md", "tex")),
         segments=expand("<results>/tables/registration_segments.{suffix}", suffix=("csv", "md", "tex")),
-        figure=expand("<results>/figures/registration.{suffix}", suffix=("png", "pdf")),
+        figure=pictured("registration", "registration", "Measurement"),
     log:
         "<logs>/registration_error/tabulate_registration.log",
     benchmark:
@@ -100,7 +100,7 @@ rule tabulate_noise:
         left_out=expand("<results>/tables/noise_model.{suffix}", suffix=("csv", "md", "tex")),
         fresh=expand("<results>/tables/noise_model_fresh.{suffix}", suffix=("csv", "md", "tex")),
         sensors=expand("<results>/tables/sensors.{suffix}", suffix=("csv", "md", "tex")),
-        figure=expand("<results>/figures/noise_model.{suffix}", suffix=("png", "pdf")),
+        figure=pictured("noise_model", "noise_model", "Measurement"),
     log:
         "<logs>/registration_error/tabulate_noise.log",
     benchmark:

@@ -1,3 +1,6 @@
+report: "../report/workflow.rst"
+
+
 SHOWN = {
     "meshes": expand("<results>/{case}/geometry/mesh.vtu", case=CASES),
     "registered": expand("<results>/{case}/registration/motion.npz", case=CASES),

@@ -90,8 +90,8 @@ rule plot_surroundings:
         beats=surrounding_beats,
         sensitivity="<results>/sensitivity/{setting}/sensitivity.json",
     output:
-        curves=expand("<results>/figures/sensitivity_curves_{{setting}}.{suffix}", suffix=("png", "pdf")),
-        figure=expand("<results>/figures/sensitivity_{{setting}}.{suffix}", suffix=("png", "pdf")),
+        curves=pictured("sensitivity_curves_{setting}", "surroundings", "Parameters"),
+        figure=pictured("sensitivity_{setting}", "surroundings", "Parameters"),
         table=expand("<results>/tables/sensitivity_{{setting}}.{suffix}", suffix=("csv", "md", "tex")),
     log:
         "<logs>/sensitivity/{setting}/plot_surroundings.log",
@@ -117,7 +117,7 @@ rule tabulate_selection:
         prior=printed("prior"),
         sobol=printed("sobol"),
         bulk_modulus=printed("bulk_modulus"),
-        figure=expand("<results>/figures/sobol.{suffix}", suffix=("png", "pdf")),
+        figure=pictured("sobol", "sobol", "Parameters"),
     log:
         "<logs>/sensitivity/tabulate_selection.log",
     benchmark:

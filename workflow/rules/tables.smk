@@ -16,7 +16,7 @@ rule make_tables:
         truths=expand("<results>/{case}/cohort/truth.json", case=GROUPS.virtual),
         paper=expand("resources/marchesseau2012/{name}.csv", name=("table1", "table2", "patients")),
     output:
-        printed("table1", "table2", "table3", "table3_parameters", "plausibility"),
+        tabulated("table1", "table2", "table3", "table3_parameters", "plausibility"),
         numbers="<results>/tables/numbers.csv",
     log:
         "<logs>/make_tables.log",
@@ -39,7 +39,7 @@ rule plot_case:
         calibrated="<results>/{case}/{setting}/verification/beat.json",
         errors="<results>/{case}/{setting}/verification/errors.json",
     output:
-        expand("<results>/figures/{{case}}_{{setting}}.{suffix}", suffix=("png", "pdf")),
+        pictured("{case}_{setting}", "curves"),
     log:
         "<logs>/{case}/{setting}/plot_case.log",
     benchmark:
@@ -60,7 +60,7 @@ rule plot_sensitivity:
     input:
         "<results>/{case}/{setting}/calibration/posterior.json",
     output:
-        expand("<results>/figures/{{case}}_{{setting}}_sensitivity.{suffix}", suffix=("png", "pdf")),
+        pictured("{case}_{setting}_sensitivity", "sensitivity"),
     log:
         "<logs>/{case}/{setting}/plot_sensitivity.log",
     benchmark:
@@ -80,7 +80,7 @@ rule compare_shape:
         calibrated="<results>/{case}/{setting}/verification/shape.csv",
     output:
         table=expand("<results>/tables/{{case}}_{{setting}}_shape.{suffix}", suffix=("csv", "md", "tex")),
-        figure=expand("<results>/figures/{{case}}_{{setting}}_shape.{suffix}", suffix=("png", "pdf")),
+        figure=pictured("{case}_{setting}_shape", "shape"),
     log:
         "<logs>/{case}/{setting}/compare_shape.log",
     benchmark:
@@ -99,7 +99,7 @@ rule plot_contours:
         motion="<results>/{case}/registration/motion.npz",
         images="<results>/{case}/images/cine.nrrd",
     output:
-        figure=expand("<results>/figures/{{case}}_contours.{suffix}", suffix=("png", "pdf")),
+        figure=pictured("{case}_contours", "contours"),
         animation="<results>/figures/{case}_beat.gif",
     log:
         "<logs>/{case}/plot_contours.log",
@@ -122,7 +122,7 @@ rule plot_overlay:
         calibrated="<results>/{case}/{setting}/verification/motion.npz",
         images="<results>/{case}/images/cine.nrrd",
     output:
-        expand("<results>/figures/{{case}}_{{setting}}_overlay.{suffix}", suffix=("png", "pdf")),
+        pictured("{case}_{setting}_overlay", "overlay"),
     log:
         "<logs>/{case}/{setting}/plot_overlay.log",
     benchmark:
@@ -141,7 +141,7 @@ rule plot_activation:
     input:
         "<results>/{case}/geometry/mesh.vtu",
     output:
-        expand("<results>/figures/{{case}}_activation.{suffix}", suffix=("png", "pdf")),
+        pictured("{case}_activation", "activation"),
     log:
         "<logs>/{case}/plot_activation.log",
     benchmark:
@@ -165,7 +165,7 @@ rule plot_septal_flash:
         calibrated=shapes_of(DYSSYNCHRONY),
     output:
         table=expand("<results>/tables/septal_flash.{suffix}", suffix=("csv", "md", "tex")),
-        figure=expand("<results>/figures/septal_flash.{suffix}", suffix=("png", "pdf")),
+        figure=pictured("septal_flash", "septal_flash", "Cohort"),
     log:
         "<logs>/plot_septal_flash.log",
     benchmark:
