@@ -1,4 +1,4 @@
-"""What the viewer is given is the heart, to a twentieth of a millimetre."""
+"""What the viewer is given is the heart, to a tenth of a millimetre."""
 
 import numpy as np
 import pytest

@@ -3,7 +3,6 @@
 import base64
 import hashlib
 import json
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +14,7 @@ from heartfit.report.cohort_figure import plot_cohort
 from heartfit.report.curves_figure import plot_curves
 from heartfit.report.markup import number, quantity, rows
 from heartfit.report.observed import facts, observations, status
-from heartfit.report.parameters_figure import plot_parameters
+from heartfit.report.parameters_figure import plot_estimates, plot_parameters
 from heartfit.report.picture import Picture
 from heartfit.report.record import CaseRecord, Fit, StudyRecord
 from heartfit.report.shades import shades
@@ -53,7 +52,7 @@ class Section:
 
     case: CaseRecord
     curves: Picture
-    parameters: Mapping[str, Picture]
+    parameters: Picture
     causes: list[CauseCard]
     viewed: dict[str, Any]
 
@@ -76,9 +75,10 @@ def render(study: StudyRecord, assets: Assets) -> str:
 
 def _section(case: CaseRecord, cases: list[CaseRecord]) -> Section:
     curves = plot_curves(case)
-    parameters = {setting: plot_parameters(cases, setting, case.name) for setting in case.fits}
     causes = [card for setting, fit in case.fits.items() for card in _causes(setting, fit)]
-    return Section(case, curves, parameters, causes, viewed(case) | {"follow": curves.follow})
+    return Section(
+        case, curves, plot_estimates(case, cases), causes, viewed(case) | {"follow": curves.follow}
+    )
 
 
 def _causes(setting: str, fit: Fit) -> list[CauseCard]:

@@ -37,7 +37,7 @@ def shades(cases: Sequence[CaseRecord]) -> dict[str, dict[str, Any]]:
         "strain": {
             "title": "stretch of the surface",
             "label": "stretch of the surface since end diastole (%), violet: shorter",
-            **_ramp("PuOr_r", -STRAIN, STRAIN, "cell"),
+            **_ramp("PuOr_r", -STRAIN, STRAIN, "vertex"),
         },
         "segment": {
             "title": "region of the wall",

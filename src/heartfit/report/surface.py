@@ -12,7 +12,7 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.report.record import CaseRecord
 from heartfit.tables.activation_figure import nodal_means
 
-QUANTUM = 5e-5
+QUANTUM = 1e-4
 """m: positions are rounded to it, and no eye sees less."""
 OUTSIDE, INSIDE = ("epi",), ("lv_endo", "rv_endo", "base")
 

@@ -31,7 +31,7 @@ def plot_card(card: Card) -> Figure:
     count = len(card.prior.names)
     figure = Figure(figsize=(8.0, 1.75 + 0.42 * count), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=(3.4, 1))
-    _parameters(left, card)
+    draw_parameters(left, card)
     _directions(right, card)
     figure.suptitle(
         f"{card.case}, {card.setting}: the data inform {card.seen.rank} of {count} directions", fontsize=11
@@ -42,7 +42,8 @@ def plot_card(card: Card) -> Figure:
     return figure
 
 
-def _parameters(axes: Axes, card: Card) -> None:
+def draw_parameters(axes: Axes, card: Card) -> None:
+    """A row for each parameter, in prior standard deviations: prior, posterior, estimate, truth."""
     rows = np.arange(len(card.prior.names))
     covered = card.covered(card.weighed.estimate)
     axes.barh(rows, 2 * REACH, left=-REACH, height=0.62, color="#e6e6e6", label="prior, 95 %")

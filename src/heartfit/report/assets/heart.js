@@ -4,14 +4,14 @@
 const PARTS = ["outside", "inside"];
 const UP = { x: 0, y: 0, z: 1 };
 const VIEWS = {
-  front: { eye: { x: 0, y: -1.8, z: 0.25 }, up: UP },
-  left: { eye: { x: 1.8, y: 0, z: 0.25 }, up: UP },
-  septum: { eye: { x: -1.8, y: 0, z: 0.25 }, up: UP },
-  apex: { eye: { x: 0, y: 0, z: -1.8 }, up: { x: 0, y: -1, z: 0 } },
-  base: { eye: { x: 0, y: -0.5, z: 1.75 }, up: { x: 0, y: -1, z: 0 } },
+  front: { eye: { x: 0, y: -1.45, z: 0.2 }, up: UP },
+  left: { eye: { x: 1.45, y: 0, z: 0.2 }, up: UP },
+  septum: { eye: { x: -1.45, y: 0, z: 0.2 }, up: UP },
+  apex: { eye: { x: 0, y: 0, z: -1.45 }, up: { x: 0, y: -1, z: 0 } },
+  base: { eye: { x: 0, y: -0.4, z: 1.4 }, up: { x: 0, y: -1, z: 0 } },
 };
 const LIGHT = { ambient: 0.6, diffuse: 0.55, specular: 0.08, roughness: 0.8, fresnel: 0.05 };
-const LAMP = 1e5; // mm; from the beholder, a little above
+const LAMP = 4e4; // mm; from the beholder, a little above; plotly takes no more than 1e5
 const SHADES = JSON.parse(document.getElementById("shades").textContent);
 
 /* Integers that the page holds in base 64, deflated. */
@@ -42,13 +42,16 @@ function extents(parts) {
   return [0, 1, 2].map((axis) => [least(all.map((place) => least(place[axis]))), -least(all.map((place) => least(place[axis].map((v) => -v))))]);
 }
 
-/* Area of each triangle. */
+/* Area of the triangles around each node. */
 function areas([x, y, z], [i, j, k]) {
-  return Array.from(i, (a, face) => {
+  const sums = new Float64Array(x.length);
+  i.forEach((a, face) => {
     const [b, c] = [j[face], k[face]];
     const [ux, uy, uz, vx, vy, vz] = [x[b] - x[a], y[b] - y[a], z[b] - z[a], x[c] - x[a], y[c] - y[a], z[c] - z[a]];
-    return Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
+    const area = Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
+    [a, b, c].forEach((node) => (sums[node] += area));
   });
+  return sums;
 }
 
 const distances = (p, q) => Array.from(p[0], (_, n) => Math.hypot(p[0][n] - q[0][n], p[1][n] - q[1][n], p[2][n] - q[2][n]));
@@ -131,7 +134,7 @@ class Heart {
       segment: () => segment,
       strain: () => {
         const first = areas(places[name][0], triangles);
-        return areas(now, triangles).map((area, face) => 100 * (Math.sqrt(area / first[face]) - 1));
+        return areas(now, triangles).map((area, node) => 100 * (Math.sqrt(area / first[node]) - 1));
       },
       distance: () => distances(now, places[other][this.phase]),
     }[this.find("shade").value]();
@@ -158,7 +161,7 @@ class Heart {
     const [xaxis, yaxis, zaxis] = this.extents.map((range) => ({ range, visible: false, showspikes: false }));
     const sizes = this.extents.map(([low, high]) => high - low);
     const [x, y, z] = sizes.map((size) => size / Math.cbrt(sizes[0] * sizes[1] * sizes[2]));
-    const scene = { aspectmode: "manual", aspectratio: { x, y, z }, xaxis, yaxis, zaxis, camera: this.camera, dragmode: "turntable" };
+    const scene = { aspectmode: "manual", aspectratio: { x, y, z }, xaxis, yaxis, zaxis, camera: this.camera, dragmode: "orbit" };
     return { scene, margin: { l: 0, r: 0, t: 0, b: 0 }, paper_bgcolor: "#ffffff" };
   }
 
