@@ -1,10 +1,13 @@
 """Commands for many subjects: what they print, and what they refuse."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 from heartfit.cli import main
+
+ROOT = Path(__file__).parents[2]
 
 
 def jobs(capsys, *arguments):
@@ -20,6 +23,13 @@ def test_a_plan_grows_by_the_same_for_each_subject_setting_and_parameter(capsys)
     assert one[1] - one[0] < both[1] - both[0]
     seen = [jobs(capsys, "--cases", str(number), "--pressure") for number in (10, 20)]
     assert seen[1] - seen[0] == both[1] - both[0] + 10 * 2 * 6  # three parameters more, two points each
+
+
+def test_the_page_shows_what_the_command_prints(capsys):
+    page = (ROOT / "docs" / "cluster.md").read_text()
+    command, shown = re.search(r"^\$ heartfit (plan .*)\n((?:.*\n)*?)```$", page, re.MULTILINE).groups()
+    assert main(command.split()) == 0
+    assert capsys.readouterr().out == shown
 
 
 def test_an_unknown_setting_is_refused(capsys):
