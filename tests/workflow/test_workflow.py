@@ -40,7 +40,8 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert counts["make_tables"] == 1
     assert counts["compile_kernels"] == 1
     assert readers(run.stdout, "truth") == {"make_tables", "make_cards", "compare_groups", "report_study"}
-    assert readers(run.stdout, "posterior_noise") == {"make_cards", "compare_groups", "report_study"}
+    everybody = {"make_cards", "compare_groups", "report_study", "exchange_results"}
+    assert readers(run.stdout, "posterior_noise") == everybody
     assert readers(run.stdout, "cohort/motion") == {"image_volunteer", "plot_septal_flash"}
     assert readers(run.stdout, "cohort/beat") == {"record_pressure"}
     assert readers(run.stdout, "cohort/heart") == {
