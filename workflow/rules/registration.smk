@@ -73,6 +73,7 @@ rule register_volunteer:
 
 rule register_segmented:
     input:
+        files=measured_files,
         mesh="<results>/{case}/geometry/mesh.vtu",
         images="<results>/{case}/images/cine.nrrd",
         times="<results>/{case}/images/cine.json",
@@ -89,8 +90,9 @@ rule register_segmented:
         mem_mb=1500,
         runtime=10,
     params:
+        source=source_of,
         registration=STUDY.measured_registration.free_form(),
-        stated=stated(STUDY.measured_registration),
+        stated=stated(source_of, STUDY.measured_registration),
         code=code("register_segmented.py"),
     script:
         "../scripts/register_segmented.py"

@@ -1,8 +1,9 @@
-"""Carry the mesh of a segmented heart through its images, whose slices may lie far apart."""
+"""Carry the mesh of a segmented heart through its cine, or through its segmentations if every frame has one."""
 
 from pathlib import Path
 
 from heartfit.imaging.checks import require_match
+from heartfit.io.followed import followed
 from heartfit.io.images import read_images
 from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh, write_motion
@@ -14,9 +15,8 @@ record(snakemake.log[0])
 mesh = read_mesh(Path(snakemake.input.mesh))
 images = read_images(Path(snakemake.input.images))
 require_match(images, mesh, OUT_OF_IMAGES)
-tracking = track(images, mesh, snakemake.params.registration)
+given = snakemake.params
+tracking = track(followed(given.source, images), mesh, given.registration)
 write_motion(Path(snakemake.output.motion), tracking.motion)
 quality = {"mismatch": tracking.mismatch, "compression": tracking.compression}
-write_result(
-    Path(snakemake.output.quality), quality, snakemake.params.code, {"mismatch": "1", "compression": "1"}
-)
+write_result(Path(snakemake.output.quality), quality, given.code, {"mismatch": "1", "compression": "1"})

@@ -56,6 +56,14 @@ class Box:
         ]
         return interpolated(np.array(slices), areas(part), distance, self.heights - lowest(mask) * distance)
 
+    def image_grid(self) -> Grid:
+        """Where these points lie as voxels of an image."""
+        corner, *ends = self.points(np.vstack([np.zeros(3), np.eye(3)]))
+        axes = np.column_stack(ends) - corner[:, None]
+        spacing = np.linalg.norm(axes, axis=0)
+        size = len(self.columns), len(self.rows), len(self.heights)
+        return Grid(size, spacing, corner, axes / spacing)
+
     def points(self, places: Floats) -> Floats:
         """Places (n,3) m in the scanner's coordinates of fractional indices (n,3) in the order u, v, h."""
         i, j, h = (

@@ -12,6 +12,7 @@ from scipy.ndimage import binary_fill_holes, distance_transform_edt, gaussian_fi
 from scipy.spatial import cKDTree
 
 from heartfit.geometry.arrays import Floats
+from heartfit.imaging.grid import Grid
 from heartfit.segmentation.box import Box
 from heartfit.segmentation.checks import require_one_piece, require_upright
 from heartfit.segmentation.labels import Segmentation
@@ -44,6 +45,12 @@ class Shaping:
         """Of the points between which the surface is found, m."""
         return min(COARSEST, self.right_wall / POINTS_IN_WALL)
 
+    def base(self, stack: Stack, grid: Grid) -> float:
+        """Height of the base above the first slice of a stack, m."""
+        step = float(grid.spacing[2])
+        above = 0.5 * step if self.above_base is None else self.above_base
+        return (len(stack.heart) - 1) * step + above
+
 
 @dataclass(frozen=True, eq=False)
 class Levels:
@@ -65,8 +72,13 @@ def levels_of(segmentation: Segmentation, shaping: Shaping) -> Levels:
     stack, grid = Stack.of(segmentation), segmentation.grid
     require_one_piece(stack)
     require_upright(stack, segmentation)
-    above = 0.5 * float(grid.spacing[2]) if shaping.above_base is None else shaping.above_base
-    box = Box.around(stack, grid, shaping.spacing, shaping.right_wall, above)
+    above = shaping.base(stack, grid) - (len(stack.heart) - 1) * float(grid.spacing[2])
+    return levels_in(Box.around(stack, grid, shaping.spacing, shaping.right_wall, above), shaping)
+
+
+def levels_in(box: Box, shaping: Shaping) -> Levels:
+    """The functions of the stack of a box."""
+    stack = box.stack
     whole = stack.heart if "rv_wall" in stack.parts else stack.left
     masks = stack.parts["lv_cavity"], stack.parts["rv_cavity"], whole
     left, right, drawn = (_smooth(box.level(mask), shaping) for mask in masks)
