@@ -1,14 +1,11 @@
 """Malformed input ends in one clear line and exit code 2: never a traceback, a hang, a result, or no complaint."""
 
-import shutil
 from pathlib import Path
 
 import pytest
 from _pytest.mark import ParameterSet
 from tests.malformed import case_tables, configurations, hearts, images, meshes, pressures, recordings
 from tests.malformed.case import Malformed, exit_code, files_in
-from tests.malformed.pictures import write_sources
-from tests.malformed.sound import write_sound
 
 LISTS = (configurations, case_tables, hearts, images, pressures, recordings, meshes)
 MALFORMED = [each for module in LISTS for each in module.MALFORMED]
@@ -17,22 +14,6 @@ EVERY = 6
 
 LONGEST = 600
 """Characters of a line that somebody still reads."""
-
-
-@pytest.fixture(scope="session")
-def sound(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("sound")
-    write_sound(folder)
-    write_sources(folder)
-    return folder
-
-
-@pytest.fixture
-def here(sound: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with sound input, in which commands run."""
-    shutil.copytree(sound, tmp_path / "here")
-    monkeypatch.chdir(tmp_path / "here")
-    return tmp_path / "here"
 
 
 def each_but_most_when_asked_for() -> list[ParameterSet]:
