@@ -131,7 +131,7 @@ def torn(mesh: meshio.Mesh) -> meshio.Mesh:
 
 
 FAULTS: dict[str, tuple[Callable[[Path], object], str]] = {
-    "no notes": (lambda at: (at / "surfaces.json").unlink(), r"surfaces\.json: missing"),
+    "no notes": (lambda at: (at / "surfaces.json").unlink(), r"surfaces\.json: no such file"),
     "no unit": (lambda at: write_notes(at, unit=None), "unit is None; expected one of mm"),
     "inches": (lambda at: write_notes(at, unit="in"), "unit is 'in'"),
     "no period": (lambda at: write_notes(at, period_s=None), "how long the beat is"),

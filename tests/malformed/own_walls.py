@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import SimpleITK as sitk
-
-from heartfit.geometry.surface import SURFACES
 from tests.malformed.case import Content, Malformed, folder, hole, pipe
 from tests.malformed.sound import PHASES, wall
+
+from heartfit.geometry.surface import SURFACES
 
 CHECK = "check|--no-picture|--config|sound.yaml|bad.yaml"
 LABELS = "{lv_cavity: 1, lv_wall: 2, rv_cavity: 3}"
@@ -101,7 +101,7 @@ MALFORMED = [
     segmented("an archive", b"PK\x03\x04" * 99, "not a kind of image", file="seg.zip"),
     segmented("a part that nobody drew", drawn(), "no voxel has 3, stated for rv_cavity"),
     segmented("halves of labels", put(1.5), "no whole numbers"),
-    segmented("labels of NaN", put(np.nan), "no whole numbers"),
+    segmented("labels of NaN", put(np.nan), "no whole numbers", file="seg.nrrd"),
     segmented(
         "the numbers of another data set", drawn(right), "mine", "{lv_cavity: 3, lv_wall: 2, rv_cavity: 1}"
     ),

@@ -4,10 +4,19 @@ from pathlib import Path
 
 import pytest
 from _pytest.mark import ParameterSet
-from tests.malformed import case_tables, configurations, hearts, images, meshes, pressures, recordings
+from tests.malformed import (
+    case_tables,
+    configurations,
+    hearts,
+    images,
+    meshes,
+    own_walls,
+    pressures,
+    recordings,
+)
 from tests.malformed.case import Malformed, exit_code, files_in
 
-LISTS = (configurations, case_tables, hearts, images, pressures, recordings, meshes)
+LISTS = (configurations, case_tables, hearts, images, pressures, own_walls, recordings, meshes)
 MALFORMED = [each for module in LISTS for each in module.MALFORMED]
 EVERY = 6
 """One of so many is tried whenever the tests are, all of them by `python3 study.py malformed`."""

@@ -79,6 +79,8 @@ def _in_order(folder: Path) -> list[Path]:
 
 
 def _require_all(folder: Path, found: list[int]) -> None:
+    if not found:
+        raise InputError(f"{folder}: holds no images; expected a 3-D file for each frame: correct the path")
     missing = sorted(set(range(found[0], found[-1] + 1)) - set(found))
     if missing:
         raise InputError(

@@ -6,16 +6,24 @@ import meshio
 import numpy as np
 
 from heartfit.errors import InputError
+from heartfit.io.foreign import parsing
 from heartfit.io.polygons import Triangles, is_polygons, read_polygons
+from heartfit.io.text import require_file
 
-SUFFIXES = (".vtk", ".vtu", ".ply", ".stl", ".obj")
+READERS = {
+    ".vtk": meshio.vtk.read,
+    ".vtu": meshio.vtu.read,
+    ".ply": meshio.ply.read,
+    ".stl": meshio.stl.read,
+    ".obj": meshio.obj.read,
+}
+SUFFIXES = tuple(READERS)
 LABEL = "label"
 
 
 def read_triangles(file: Path) -> Triangles:
     """The triangles of a file; raises InputError, naming it, if it is damaged, holds none, or NaN."""
-    if not file.is_file():
-        raise InputError(f"{file}: no such file; expected a surface ({', '.join(SUFFIXES)})")
+    require_file(file, f"a surface ({', '.join(SUFFIXES)})")
     found = read_polygons(file) if is_polygons(file) else _by_meshio(file)
     if not len(found.triangles):
         raise InputError(f"{file}: holds no triangles; expected a surface")
@@ -29,12 +37,8 @@ def read_triangles(file: Path) -> Triangles:
 
 
 def _by_meshio(file: Path) -> Triangles:
-    try:
-        mesh = meshio.read(file)
-    except (SystemExit, meshio.ReadError, ValueError, KeyError, IndexError, OSError):
-        raise InputError(
-            f"{file}: cannot be read as {file.suffix}; cut off, damaged or of another kind: export it again"
-        ) from None
+    with parsing(file, f"triangles in {file.suffix} format", meshio.ReadError, OSError):
+        mesh = READERS[file.suffix](file)
     others = sorted(set(mesh.cells_dict) - {"triangle", "vertex", "line"})
     if others or "triangle" not in mesh.cells_dict:
         raise InputError(

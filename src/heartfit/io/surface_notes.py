@@ -3,7 +3,6 @@
 surfaces.json beside them: {"unit": "mm", "period_s": 0.829, "times_s": [0.0, 0.033], "labels": {"lv_endo": 1, ...}}.
 """
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 from heartfit.errors import InputError
 from heartfit.geometry.surface import SURFACES
 from heartfit.io.image_times import Timing
+from heartfit.io.text import read_json
 
 NOTES = "surfaces.json"
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
@@ -30,12 +30,7 @@ class Notes:
 def read_notes(folder: Path) -> Notes:
     """The notes of a folder; raises InputError, naming the file, for what is missing, unknown or of another kind."""
     file = folder / NOTES
-    if not file.is_file():
-        raise InputError(f'{file}: missing; expected {{"unit": "mm" or "m", "period_s": ...}}: write it')
-    try:
-        content = json.loads(file.read_text(encoding="utf-8"))
-    except ValueError as fault:
-        raise InputError(f"{file}: {fault}; expected JSON: correct it") from None
+    content = read_json(file, '{"unit": "mm" or "m", "period_s": ...}')
     if not isinstance(content, dict):
         raise InputError(f"{file}: expected a table in braces with {', '.join(KEYS)}: correct it")
     for key in content:
