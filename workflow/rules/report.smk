@@ -12,6 +12,7 @@ SHOWN = {
         for file in ("beat.json", "motion.npz", "errors.json")
     ],
     "noise": [NOISE_MODEL] if VIRTUAL else [],
+    "stills": expand("<results>/figures/{case}_activation.png", case=CASES),
 }
 
 

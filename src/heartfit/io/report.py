@@ -1,12 +1,15 @@
 """Reads the results of a whole study for its report, and writes the page."""
 
+import base64
 import hashlib
 import platform
 from collections.abc import Mapping
 from importlib import metadata, resources
+from io import BytesIO
 from pathlib import Path
 
 import pandas as pd
+from PIL import Image
 from plotly.offline import get_plotlyjs
 
 from heartfit.calibration.update import Posterior
@@ -38,6 +41,8 @@ TITLES = {
     "plausibility": "What no observation holds and must still be plausible",
     "costs": "What it took",
 }
+STILL = 1100
+"""Pixels across."""
 PACKAGES = (
     "heartfit",
     "numpy",
@@ -87,7 +92,19 @@ def _case(results: Path, study: Study, case: Case) -> CaseRecord:
         measured=read_curves(folder / "curves" / "measured.csv"),
         noise=[read_noise_model(model)] if case.kind == "virtual" else [],
         fits={name: _fit(folder, name, setting, truth) for name, setting in settings.items()},
+        still=_still(results / "figures" / f"{case.case}_activation.png"),
     )
+
+
+def _still(path: Path) -> str:
+    """A figure of the study small enough for the page, nothing where it was not drawn."""
+    if not path.exists():
+        return ""
+    stream = BytesIO()
+    with Image.open(path) as picture:
+        small = picture.convert("RGB").resize((STILL, round(STILL * picture.height / picture.width)))
+    small.save(stream, "WEBP", quality=80)
+    return f"data:image/webp;base64,{base64.b64encode(stream.getvalue()).decode('ascii')}"
 
 
 def _fit(folder: Path, name: str, setting: Setting, truth: Mapping[str, float]) -> Fit:

@@ -18,8 +18,8 @@ from heartfit.tables.display import printed, printed_unit
 from heartfit.tables.figures import ARTERY, CALIBRATED, MEASURED, clean
 from heartfit.tables.text import symbol
 
-COLUMNS, HEAD, ROW = 4, 0.9, 0.24
-"""Panels in a row; inches of a panel beside its cases, and of each case."""
+COLUMNS, HEAD, ROW, LEGEND = 4, 0.9, 0.24, 26
+"""Panels in a row; inches of a panel beside its cases, and of each case; points of a line of legend."""
 PRIOR = "#dddddd"
 
 
@@ -45,7 +45,7 @@ def plot_estimates(case: CaseRecord, cases: Sequence[CaseRecord]) -> Picture:
         ):
             draw_parameters(axes, fit.card)
             _others(axes, fit, [each.fits[setting] for each in cases if each is not case])
-            axes.set_title(setting, loc="left")
+            axes.set_title(setting, pad=LEGEND)
         return picture(figure, f"Parameters of {case.name} beside the prior and the cohort")
 
 

@@ -57,7 +57,7 @@ class Fit:
 class CaseRecord:
     """One heart: its wall and motion as measured, its curves, and its fits by setting.
 
-    noise: the noise model of its images, or none.
+    noise: the noise model of its images, or none; still: a picture of the ventricles as a data address, for print.
     """
 
     name: str
@@ -68,6 +68,7 @@ class CaseRecord:
     measured: Curves
     noise: Sequence[NoiseModel]
     fits: Mapping[str, Fit]
+    still: str = ""
 
 
 @dataclass(frozen=True, eq=False)
