@@ -15,8 +15,10 @@ from threading import Thread
 
 from tests.slurm.lab import Lab, LabError, await_that, install
 
-TINY = ("--configfile", "config/tiny.yaml")
 RESULTS = Path("results/tiny")
+TINY = ("--configfile", "config/tiny.yaml", "--", f"{RESULTS}/tables/numbers.csv")
+UNEQUAL = ("logs", "benchmarks", ".sums")
+"""What tells of times and of the order of jobs."""
 AGAIN, DONE = "Trying to restart job", re.compile(r"steps \((\d+)%\) done")
 KILLED_AT, LOST_AT = 10, 50
 """% of the study that are done when a job is killed and when the node is lost."""
@@ -81,18 +83,24 @@ def main(arguments: list[str]) -> int:
 
 
 def differing(cpus: int) -> list[str]:
-    """Names of the tables of the small study that differ from those of a run on this machine alone; also printed."""
+    """Names of the results of the small study that differ from those of a run on this machine alone; also printed."""
     through = RESULTS.with_name(f"{RESULTS.name}_through_slurm")
     shutil.rmtree(through, ignore_errors=True)
     RESULTS.rename(through)
     say("the same without SLURM")
     command = [sys.executable, "-m", "snakemake", "--cores", str(cpus), *TINY]
     subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
-    here = {file.name: file.read_bytes() for file in (RESULTS / "tables").iterdir() if file.stem != "costs"}
-    there = {name: (through / "tables" / name).read_bytes() for name in here}
-    others = [name for name in here if here[name] != there[name]]
-    say(f"{len(here)} tables compared, {', '.join(others) or 'none'} differ")
+    there, here = results_in(through), results_in(RESULTS)
+    others = sorted(name for name in here.keys() | there.keys() if here.get(name) != there.get(name))
+    say(f"{len(here)} results compared, {', '.join(others) or 'none'} differ")
     return others
+
+
+def results_in(folder: Path) -> dict[str, bytes]:
+    """Every result by name, but those that tell of times."""
+    files = [file for file in folder.rglob("*") if file.is_file()]
+    named = {file.relative_to(folder): file for file in files}
+    return {str(name): file.read_bytes() for name, file in named.items() if name.parts[0] not in UNEQUAL}
 
 
 @contextmanager
