@@ -71,6 +71,14 @@ def test_what_cannot_be_read_does_not_hide_the_rest(segmented: Source, tmp_path:
     assert all(problem.startswith(f"heart1: {tmp_path}/") for problem in problems)
 
 
+def test_other_frames_than_the_images_are_refused(segmented: Source, tmp_path: Path) -> None:
+    codes = np.random.default_rng(2).integers(0, 4, (5, *GRID.shape))
+    frames = [Segmentation(GRID, {name: code == n for name, n in LABELS.items()}) for code in codes]
+    write_segmentation(tmp_path / "labels.nrrd", frames, LABELS)
+    problems = examine(CASE, segmented).problems
+    assert sum("5 frames, the images have 8" in problem for problem in problems) == 1
+
+
 def test_a_workflow_watches_the_files_of_the_wall(segmented: Source, tmp_path: Path) -> None:
     assert source_files(segmented) == [str(tmp_path / "labels.nrrd")]
     (tmp_path / "control_points").mkdir()

@@ -9,7 +9,8 @@ from tests.tables.imaged_beat import PERIOD, beating, images
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.observation.curve import Curve
 from heartfit.observation.recorded_pressure import AveragedPressure
-from heartfit.tables.understood_figure import Understood, letters, plot_understood
+from heartfit.tables.patient_view import letters
+from heartfit.tables.understood_figure import Understood, plot_understood
 
 
 @pytest.mark.parametrize(

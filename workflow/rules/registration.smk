@@ -87,12 +87,11 @@ rule register_segmented:
     wildcard_constraints:
         case=one_of(SEGMENTED),
     resources:
-        mem_mb=1500,
-        runtime=10,
+        **needs("register"),
     params:
-        source=source_of,
+        source=wall_of,
         registration=STUDY.measured_registration.free_form(),
-        stated=stated(source_of, STUDY.measured_registration),
+        stated=stated(wall_of, STUDY.measured_registration),
         code=code("register_segmented.py"),
     script:
         "../scripts/register_segmented.py"

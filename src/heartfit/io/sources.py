@@ -12,6 +12,7 @@ from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.surface import LabelledSurface
 from heartfit.imaging.checks import require_match
 from heartfit.imaging.sequence import ImageSequence
+from heartfit.io.followed import frames_of
 from heartfit.io.images import read_images
 from heartfit.io.measured_heart import MeasuredHeart, read_measured_heart, short_axis_images
 from heartfit.io.segmentations import read_segmentation
@@ -46,7 +47,8 @@ class Subject:
         try:
             return read(*arguments)
         except InputError as error:
-            self.problems += [f"{self.case.case}: {problem}" for problem in error.problems]
+            found = [f"{self.case.case}: {problem}" for problem in error.problems]
+            self.problems += [problem for problem in found if problem not in self.problems]
             return None
 
     def said(self, filling_pressure: float) -> list[str]:
@@ -127,6 +129,7 @@ def examine(case: Case, source: Source) -> Subject:
         subject.images = subject.attempt(_images_with, case, source, subject.heart)
     if subject.images is not None:
         subject.attempt(_require_period, case, subject.images.period, "the images")
+        subject.attempt(frames_of, source, subject.images)
         if subject.wall is not None:
             subject.attempt(require_match, subject.images, subject.wall, OUT_OF_IMAGES)
     subject.pressure = subject.attempt(_read_pressure, case, source)

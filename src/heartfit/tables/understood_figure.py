@@ -10,23 +10,20 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure, FigureBase
 
-from heartfit.geometry.arrays import Floats
 from heartfit.geometry.coordinates import LeftVentricularAxes
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.motion import Motion
 from heartfit.imaging.sequence import ImageSequence
-from heartfit.imaging.view import View, views
+from heartfit.imaging.view import views
 from heartfit.observation.curve import Curve
 from heartfit.observation.recorded_pressure import AveragedPressure
 from heartfit.observation.volumes import cavity_volumes
 from heartfit.tables.activation_figure import ISOCHRONES, ONSETS, nodal_means
 from heartfit.tables.contours import SIDES
 from heartfit.tables.figures import CALIBRATED, REFERENCE, clean
-from heartfit.tables.overlay import COLOURS, OUTLINES, PIXEL, WHITE, draw_key
+from heartfit.tables.overlay import COLOURS, OUTLINES, draw_key
 from heartfit.tables.painting import Side, paint, surface
-
-TOWARDS = (("R", "L"), ("A", "P"), ("F", "H"))
-"""The patient's right and left, front and back, feet and head, along the scanner's axes."""
+from heartfit.tables.patient_view import draw_view
 
 HALF_FIBRE = 2.5e-3
 """m of the strokes that stand for fibres."""
@@ -90,42 +87,12 @@ def _pictures(figure: FigureBase, heart: Understood, images: ImageSequence) -> N
     panels = figure.subplots(2, len(named))
     for row, title, frame, points in zip(panels, titles, (0, late), (heart.mesh.points, moved), strict=True):
         for axes, (what, view) in zip(row, named.items(), strict=True):
-            _picture(axes, images, view, frame)
+            draw_view(axes, images, view, frame)
             for name, colour in COLOURS.items():
                 lines = list(1e3 * view.outline(points, heart.mesh.surfaces[name]))
                 axes.add_collection(LineCollection(lines, colors=colour, linewidths=1.3), autolim=False)
             axes.set_title(f"{title}, {1e3 * images.times[frame]:.0f} ms: {what}", fontsize=9)
     draw_key(figure, dict(OUTLINES.values()))
-
-
-def _picture(axes: Axes, images: ImageSequence, view: View, frame: int) -> None:
-    """The images in a view, mm from its origin, with the letters of where its sides lie."""
-    left, bottom, right, top = 1e3 * np.array([*view.low, *view.high])
-    bright = np.percentile(view.picture(images.voxels[0], images.grid, PIXEL), WHITE)
-    picture = view.picture(images.voxels[frame], images.grid, PIXEL)
-    axes.imshow(
-        picture, cmap="gray", origin="lower", extent=(left, right, bottom, top), vmin=0.0, vmax=float(bright)
-    )
-    places = {(1.0, 0.5): view.right, (0.0, 0.5): -view.right, (0.5, 1.0): view.up, (0.5, 0.0): -view.up}
-    for (x, y), direction in places.items():
-        axes.text(
-            0.03 + 0.94 * x,
-            0.03 + 0.94 * y,
-            letters(direction),
-            color="white",
-            fontsize=9,
-            fontweight="bold",
-            ha="center",
-            va="center",
-            transform=axes.transAxes,
-        )
-    axes.set_axis_off()
-
-
-def letters(direction: Floats) -> str:
-    """The patient's sides that a direction (3,) leads to, the nearest first: "AL" is front and left."""
-    near = [axis for axis in np.argsort(-np.abs(direction)) if abs(direction[axis]) > 0.4]
-    return "".join(TOWARDS[axis][int(direction[axis] > 0.0)] for axis in near)
 
 
 def _volumes(axes: Axes, heart: Understood) -> None:
