@@ -7,6 +7,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from heartfit.errors import InputError
+from heartfit.io.configuration import read_configuration
 from heartfit.io.fingerprint import PACKAGE, fingerprint
 from heartfit.io.measured_costs import NEEDS, read_table
 from heartfit.io.plan import plan_study
@@ -22,6 +23,7 @@ for library in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
 try:
+    read_configuration(map(Path, workflow.configfiles))  # Snakemake lets pass a key that stands twice
     PLAN = plan_study(config, thorough=workflow.is_main_process)
     RUN = Run(PLAN.study.results) if workflow.is_main_process else None  # and not a job on another machine
 except InputError as problem:

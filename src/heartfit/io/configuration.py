@@ -1,7 +1,7 @@
 """Reads the configuration of a study, and writes its schema."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ def read_study(paths: Sequence[Path]) -> Study:
     return validated(Study, read_configuration(paths), " + ".join(map(str, paths)))
 
 
-def read_configuration(paths: Sequence[Path]) -> dict[str, Any]:
+def read_configuration(paths: Iterable[Path]) -> dict[str, Any]:
     """What the files say together, later ones over earlier ones, as Snakemake's --configfile does."""
     return reduce(_layered, map(_read_table, paths), {})
 

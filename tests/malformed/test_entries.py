@@ -1,0 +1,58 @@
+"""The other doors: the command as a program of its own, and Snakemake, which reads the same before any job runs."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from tests.malformed.configurations import LAUGHS
+
+ROOT = Path(__file__).parents[2]
+PATIENCE = 120  # s
+SNAKEMAKE = "Config file is not valid JSON or YAML"
+
+BAD = {
+    "a misspelt key": ("mseh: {}\n", "unknown key mseh; did you mean mesh"),
+    "a path outside": ("results: ../outside\n", "not within the working directory"),
+    "a key twice": ("mesh: {edge_length: 0.01}\nmesh: {tolerance: 0.001}\n", "twice"),
+    "aliases of aliases": (LAUGHS, "alias"),
+    "a Python object": ("results: !!python/object/apply:os.system ['touch hacked']\n", "tag"),
+}
+
+
+def run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
+    return subprocess.run(
+        command, cwd=folder, env=environment, capture_output=True, text=True, timeout=PATIENCE
+    )
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", BAD)
+def test_the_program_refuses_in_one_line(name: str, tmp_path: Path) -> None:
+    text, says = BAD[name]
+    (tmp_path / "bad.yaml").write_text(text)
+    command = [sys.executable, "-c", "import sys; from heartfit.cli import main; sys.exit(main())"]
+    given = ["check", "--no-picture", "--config", str(ROOT / "config" / "config.yaml"), "bad.yaml"]
+    done = run([*command, *given], tmp_path)
+    assert done.returncode == 2
+    assert any(says in line for line in done.stderr.splitlines())
+    assert all(line.startswith("heartfit: ") for line in done.stderr.splitlines())
+    assert {file.name for file in tmp_path.iterdir()} == {"bad.yaml"}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", BAD)
+def test_snakemake_refuses_before_any_job(name: str, tmp_path: Path) -> None:
+    text, says = BAD[name]
+    (tmp_path / "bad.yaml").write_text(text)
+    command = [sys.executable, "-m", "snakemake", "-n", "--workflow-profile", "none", "--nolock"]
+    done = run([*command, "--configfile", str(tmp_path / "bad.yaml")], ROOT)
+    said = done.stdout + done.stderr  # a dry run puts its errors on the standard output
+    expected = SNAKEMAKE if name == "a Python object" else says  # it reads the file first
+    assert done.returncode == 1
+    assert "Traceback" not in said
+    assert sum(expected in line for line in said.splitlines()) == 1
+    assert "Job stats" not in said
+    assert not (ROOT / "hacked").exists()
