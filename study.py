@@ -13,6 +13,7 @@ python3 study.py docs         set up, then make the site of docs/ and of the lib
 python3 study.py malformed    set up, then see every malformed input refused in one line; under a minute
 python3 study.py tutorial     set up, then run every command of docs/own_heart.md, the study coarsely; some minutes
 python3 study.py slurm        set up, then lead a small study through a SLURM that loses a job and its node; as root
+python3 study.py faults       set up, then kill and damage the smallest study, mend it and write docs/faults.md; as long
 python3 study.py lock         write requirements.lock and that of profiles/slurm anew from pyproject.toml
 """
 
@@ -207,6 +208,11 @@ def slurm(arguments: list[str]) -> int:
     return subprocess.run(tool("python", "-m", "tests.slurm", *arguments), check=False).returncode
 
 
+def faults(arguments: list[str]) -> int:
+    """Write docs/faults.md anew; `--quick` tries a part in some minutes and writes nothing."""
+    return subprocess.run(tool("python", "-m", "tests.faults", *arguments), check=False).returncode
+
+
 def lock(_: list[str]) -> int:
     """Write the lock files anew."""
     commands = (COMPILE_LOCK, COMPILE_SLURM_LOCK)
@@ -225,6 +231,7 @@ COMMANDS = {
     "malformed": malformed,
     "tutorial": tutorial,
     "slurm": slurm,
+    "faults": faults,
     "lock": lock,
 }
 

@@ -1,0 +1,52 @@
+"""Clocks that jump: what they do to a study are the dates of its files."""
+
+import os
+import threading
+import time
+from random import Random
+
+from tests.faults.outcome import Outcome, one_more_call
+from tests.faults.tiny import RESULTS, TinyStudy, finish
+
+HOUR = 3600.0
+
+
+def clocks(study: TinyStudy, expected: dict[str, str], chance: Random, ways: int) -> list[Outcome]:
+    """Results from here and there, from the future, and from the past; some of these ways."""
+    jumps = {
+        "every result from another moment of the two days about now": lambda: chance.uniform(-24, 24) * HOUR,
+        "the clock was an hour ahead: all results are from the future": lambda: HOUR,
+        "the clock was ten years behind: all results are old": lambda: -87660 * HOUR,
+    }
+    outcomes = []
+    for done, jump in list(jumps.items())[:ways]:
+        study.put_back()
+        for file in sorted((study.folder / RESULTS).rglob("*")):
+            date = file.stat().st_mtime + jump()
+            os.utime(file, (date, date))
+        study.remove("volunteer1/physical", "tables", "figures")
+        mended = one_more_call(study, expected)
+        outcomes.append(Outcome(done, "what is older than its input is made again", mended))
+    return outcomes
+
+
+def jumping_clock(study: TinyStudy, expected: dict[str, str], chance: Random) -> list[Outcome]:
+    """The clock goes back by an hour while a call is at work."""
+    study.put_back()
+    study.remove("volunteer1/physical", "tables", "figures")
+    process = study.start()
+    timer = threading.Timer(chance.uniform(6.0, 10.0), lambda: _age(study))
+    timer.start()
+    code, _ = finish(process)
+    timer.cancel()
+    mended = one_more_call(study, expected)
+    done = "the clock goes back by an hour while a call is at work"
+    return [Outcome(done, f"that call ended with {code}", mended)]
+
+
+def _age(study: TinyStudy) -> None:
+    """All that is there is an hour newer, for the clock."""
+    date = time.time() + HOUR
+    for file in list((study.folder / RESULTS).rglob("*")):
+        if file.is_file() and not any(part.startswith(".") for part in file.parts[-2:]):
+            os.utime(file, (date, date))

@@ -1,0 +1,66 @@
+"""Other numbers of threads and other orders of the jobs."""
+
+from io import StringIO
+from random import Random
+
+import pandas as pd
+from tests.faults.outcome import Outcome, one_more_call
+from tests.faults.tiny import RESULTS, TinyStudy, finish
+
+THREADS = 'environ[f"{library}_NUM_THREADS"] = "%d"'
+
+
+def orders(
+    study: TinyStudy, expected: dict[str, str], chance: Random, threads: tuple[int, ...]
+) -> list[Outcome]:
+    """Everything from nothing, with so many threads in each job, and its jobs in another order each time."""
+    ways = (
+        ("--cores", "1"),
+        ("--cores", "3", "--scheduler", "greedy"),
+        ("--cores", "2", "--scheduler", "greedy"),
+    )
+    outcomes = []
+    for count, way in zip(threads, ways, strict=False):
+        study.wipe()
+        first = chance.sample(sorted(expected), 8)
+        with study.edited("workflow/rules/common.smk", THREADS % 1, THREADS % count):
+            same = one_more_call(
+                study, expected, *way, "--prioritize", *(f"{RESULTS}/{name}" for name in first)
+            )
+        done = f"from nothing with {count} threads in each job, `{' '.join(way)}`, eight results drawn at random first"
+        outcomes.append(Outcome(done, "the same tables" if same else "other tables", same))
+    return outcomes
+
+
+OLD_PROCESSOR = {
+    "OPENBLAS_CORETYPE": "Nehalem",
+    "NUMBA_CPU_NAME": "x86-64",
+    "NPY_DISABLE_CPU_FEATURES": "AVX2 FMA3 AVX512F AVX512CD AVX512_SKX",
+    "NUMBA_CACHE_DIR": "kernels-of-an-old-processor",
+}
+"""What libraries and compiled kernels do on a processor of 2008, which has neither AVX nor FMA."""
+
+
+def other_processor(study: TinyStudy, expected: dict[str, str]) -> list[Outcome]:
+    """Everything from nothing as on another machine; there the last digits may differ, and how far is told."""
+    study.put_back()
+    numbers = study.folder / RESULTS / "tables" / "numbers.csv"
+    before = _numbers(numbers.read_text())
+    study.wipe()
+    code, _ = finish(study.start(environment=OLD_PROCESSOR))
+    after = _numbers(numbers.read_text())
+    largest = ((after - before).abs() / before.abs().clip(lower=1e-12)).max()
+    done = "from nothing with the arithmetic of a processor of 2008 (no AVX, no FMA)"
+    same = f"{_same(study, expected)} of {len(expected)} results the same"
+    came = f"{same}; the numbers of the tables differ by {largest:.0e} at most"
+    return [Outcome(done, came, code == 0 and len(after) == len(before))]
+
+
+def _same(study: TinyStudy, expected: dict[str, str]) -> int:
+    found = study.sums()
+    return sum(found.get(name) == digest for name, digest in expected.items())
+
+
+def _numbers(text: str) -> "pd.Series[float]":
+    table = pd.read_csv(StringIO(text), comment="#")
+    return pd.to_numeric(table["value"], errors="coerce").dropna()

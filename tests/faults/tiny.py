@@ -1,0 +1,132 @@
+"""The smallest study in a folder of its own, which faults may break."""
+
+import hashlib
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+PARTS = ("Snakefile", "workflow", "config", "resources", "profiles", "src")
+RESULTS = "results/tiny"
+TARGETS = (f"{RESULTS}/tables/numbers.csv", f"{RESULTS}/figures/volunteer1_physical.png")
+UNEQUAL = ("logs", "benchmarks", ".sums")
+"""What tells of times and of the order of jobs."""
+PATIENCE = 1800.0  # s
+
+
+class TinyStudy:
+    """A copy of the project; `results` and what Snakemake knows of them can be kept and put back."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder / "project"
+        self._kept = folder / "kept"
+        self.folder.mkdir(parents=True)
+        for part in PARTS:
+            _copy(ROOT / part, self.folder / part)
+
+    def start(
+        self,
+        *arguments: str,
+        results: str = RESULTS,
+        environment: Mapping[str, str] | None = None,
+        asked: Iterable[str] = (),
+    ) -> "subprocess.Popen[str]":
+        """Begin a run that makes the tables and what is asked for, the leader of its own group of processes."""
+        command = [sys.executable, "-m", "snakemake", "--cores", "2", "--configfile", "config/tiny.yaml"]
+        targets = [target.replace(RESULTS, results) for target in (*TARGETS, *asked)]
+        elsewhere = [] if results == RESULTS else ["--config", f"results={results}"]
+        return subprocess.Popen(
+            [*command, *elsewhere, *arguments, "--", *targets],
+            cwd=self.folder,
+            env=os.environ | {"PYTHONPATH": str(self.folder / "src")} | dict(environment or {}),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+
+    def run(self, *arguments: str, asked: Iterable[str] = ()) -> tuple[int, str]:
+        """Run to the end; what it ended with and said."""
+        return finish(self.start(*arguments, asked=asked))
+
+    def sums(self, results: str = RESULTS) -> dict[str, str]:
+        """The SHA-256 of every result by name, but of those that tell of times."""
+        root = self.folder / results
+        return {
+            file.relative_to(root).as_posix(): hashlib.sha256(file.read_bytes()).hexdigest()
+            for file in sorted(root.rglob("*"))
+            if file.is_file() and file.relative_to(root).parts[0] not in UNEQUAL and not left_over(file)
+        }
+
+    def left_over(self) -> list[Path]:
+        """Parts of files that were not finished."""
+        return [file for file in (self.folder / RESULTS).rglob("*") if left_over(file)]
+
+    def keep(self) -> None:
+        """Keep the results as they are now."""
+        for part in ("results", ".snakemake"):
+            shutil.rmtree(self._kept / part, ignore_errors=True)
+            shutil.copytree(self.folder / part, self._kept / part)
+
+    def put_back(self) -> None:
+        """The results as they were kept."""
+        self.wipe()
+        for part in ("results", ".snakemake"):
+            shutil.copytree(self._kept / part, self.folder / part)
+
+    def wipe(self) -> None:
+        """No results."""
+        for part in ("results", ".snakemake"):
+            shutil.rmtree(self.folder / part, ignore_errors=True)
+
+    @contextmanager
+    def edited(self, file: str, old: str, new: str) -> Iterator[None]:
+        """With another text in the one place of a file where it stands."""
+        path = self.folder / file
+        text = path.read_text()
+        if text.count(old) != 1:
+            raise ValueError(f"{file} has {text.count(old)} times {old!r}; expected one")
+        path.write_text(text.replace(old, new))
+        try:
+            yield
+        finally:
+            path.write_text(text)
+
+    def remove(self, *parts: str) -> None:
+        """Take away some of the results, so that there is something to do."""
+        for part in parts:
+            shutil.rmtree(self.folder / RESULTS / part)
+
+
+def finish(process: "subprocess.Popen[str]") -> tuple[int, str]:
+    """What the run ended with and said."""
+    said, _ = process.communicate(timeout=PATIENCE)
+    return process.returncode, said
+
+
+def kill(process: "subprocess.Popen[str]", after: float) -> bool:
+    """SIGKILL to the run and all its jobs after some seconds; whether it was still at work."""
+    time.sleep(after)
+    working = process.poll() is None
+    if working:
+        os.killpg(process.pid, signal.SIGKILL)
+    finish(process)
+    return working
+
+
+def left_over(file: Path) -> bool:
+    return any(part.startswith(".draft-") for part in file.parts) or file.suffix == ".altered"
+
+
+def _copy(source: Path, target: Path) -> None:
+    if source.is_dir():
+        ignore = shutil.ignore_patterns("__pycache__", "bivme_patient1")
+        shutil.copytree(source, target, ignore=ignore)
+    else:
+        shutil.copy2(source, target)
