@@ -4,9 +4,11 @@ from pathlib import Path
 
 import meshio
 import numpy as np
+from meshio._exceptions import CorruptionError
 
 from heartfit.errors import InputError
 from heartfit.io.foreign import parsing
+from heartfit.io.image_file import quiet
 from heartfit.io.polygons import Triangles, is_polygons, read_polygons
 from heartfit.io.text import require_file
 
@@ -37,17 +39,20 @@ def read_triangles(file: Path) -> Triangles:
 
 
 def _by_meshio(file: Path) -> Triangles:
-    with parsing(file, f"triangles in {file.suffix} format", meshio.ReadError, OSError):
+    with (
+        parsing(file, f"triangles in {file.suffix} format", meshio.ReadError, CorruptionError, OSError),
+        quiet(),
+    ):
         mesh = READERS[file.suffix](file)
-    others = sorted(set(mesh.cells_dict) - {"triangle", "vertex", "line"})
-    if others or "triangle" not in mesh.cells_dict:
+        cells, labels = mesh.cells_dict, mesh.cell_data_dict.get(LABEL, {}).get("triangle")
+    others = sorted(set(cells) - {"triangle", "vertex", "line"})
+    if others or "triangle" not in cells:
         raise InputError(
             f"{file}: holds {', '.join(others) or 'no cells'}; expected triangles: triangulate it"
         )
-    labels = mesh.cell_data_dict.get(LABEL, {}).get("triangle")
     points = np.zeros((len(mesh.points), 3))
     points[:, : mesh.points.shape[1]] = mesh.points
-    triangles = mesh.cells_dict["triangle"].astype(np.int64)
+    triangles = cells["triangle"].astype(np.int64)
     return Triangles(
         points, triangles, None if labels is None else np.array([_text(each) for each in labels])
     )
