@@ -35,7 +35,7 @@ def orders(
 OLD_PROCESSOR = {
     "OPENBLAS_CORETYPE": "Nehalem",
     "NUMBA_CPU_NAME": "x86-64",
-    "NPY_DISABLE_CPU_FEATURES": "AVX2 FMA3 AVX512F AVX512CD AVX512_SKX",
+    "NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4 AVX512_ICL AVX512_SPR",
     "NUMBA_CACHE_DIR": "kernels-of-an-old-processor",
 }
 """What libraries and compiled kernels do on a processor of 2008, which has neither AVX nor FMA."""
