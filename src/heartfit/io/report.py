@@ -1,11 +1,9 @@
 """Reads the results of a whole study for its report, and writes the page."""
 
-import base64
 import hashlib
 import platform
 from collections.abc import Mapping
 from importlib import metadata, resources
-from io import BytesIO
 from pathlib import Path
 
 import pandas as pd
@@ -28,6 +26,7 @@ from heartfit.io.simulated_motion import read_simulated_motion
 from heartfit.observation.beat import beat_curves
 from heartfit.report.band import band
 from heartfit.report.page import Assets, render
+from heartfit.report.picture import still
 from heartfit.report.record import CaseRecord, Curves, Fit, Printed, Provenance, StudyRecord
 from heartfit.tables.card import Card
 from heartfit.tables.evaluation import comparable
@@ -41,8 +40,6 @@ TITLES = {
     "plausibility": "What no observation holds and must still be plausible",
     "costs": "What it took",
 }
-STILL = 1100
-"""Pixels across."""
 PACKAGES = (
     "heartfit",
     "numpy",
@@ -97,14 +94,11 @@ def _case(results: Path, study: Study, case: Case) -> CaseRecord:
 
 
 def _still(path: Path) -> str:
-    """A figure of the study small enough for the page, nothing where it was not drawn."""
+    """A figure of the study for print, nothing where it was not drawn."""
     if not path.exists():
         return ""
-    stream = BytesIO()
     with Image.open(path) as picture:
-        small = picture.convert("RGB").resize((STILL, round(STILL * picture.height / picture.width)))
-    small.save(stream, "WEBP", quality=80)
-    return f"data:image/webp;base64,{base64.b64encode(stream.getvalue()).decode('ascii')}"
+        return still(picture)
 
 
 def _fit(folder: Path, name: str, setting: Setting, truth: Mapping[str, float]) -> Fit:

@@ -11,6 +11,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
 from heartfit.geometry.arrays import Floats
 
@@ -22,6 +23,8 @@ SVG: Any = {"svg.hashsalt": "heartfit", "svg.fonttype": "path"}
 PATH, LONG = re.compile(rb' (?:d|x|y)="[^"]*"'), re.compile(rb"(\.\d\d)\d+")
 DIGITS = 5
 """Of the place of a panel, in widths of its figure."""
+STILL = 1100
+"""Pixels across."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,14 @@ def picture(figure: Figure, alt: str, follow: Sequence[dict[str, Any]] = ()) -> 
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     text = base64.b64encode(_rounded(stream.getvalue())).decode("ascii")
     return Picture(f"data:image/svg+xml;base64,{text}", alt, follow)
+
+
+def still(drawn: Image.Image) -> str:
+    """The address, as data, of a picture made small enough for a page."""
+    stream = BytesIO()
+    small = drawn.convert("RGB").resize((STILL, round(STILL * drawn.height / drawn.width)))
+    small.save(stream, "WEBP", quality=80)
+    return f"data:image/webp;base64,{base64.b64encode(stream.getvalue()).decode('ascii')}"
 
 
 def _rounded(svg: bytes) -> bytes:
