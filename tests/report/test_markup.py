@@ -33,3 +33,9 @@ def test_rows_are_told_apart() -> None:
     )
     assert [row["kind"] for row in rows(table)] == ["ours", "mean", "paper"]
     assert [row["cells"][-1] for row in rows(table)] == ["5.00", "", "0.35"]
+
+
+def test_a_number_among_words_is_printed_as_a_number() -> None:
+    (row, paper) = rows(pd.DataFrame({"setting": ["paper"] * 2, "value": ["16.86318149764966", "<4"]}))
+    assert row["cells"][-1] == "16.9"
+    assert paper["cells"][-1] == "<4"

@@ -12,6 +12,7 @@ from heartfit.tables.errors_table import PAPER
 from heartfit.tables.text import GREEK, RATES, strings
 
 LETTERS = {"alpha": "α", "sigma": "σ", "mu": "μ", "tau": "τ", "eta": "η"}
+DECIMAL = re.compile(r"-?\d+\.\d+")
 
 
 def quantity(name: str) -> Markup:
@@ -45,10 +46,15 @@ def number(value: float | None, digits: int = 3) -> str:
 
 def rows(table: pd.DataFrame) -> list[Mapping[str, object]]:
     """Cells as text by row, with the class of the row: the paper's, a mean or one of ours."""
-    texts = strings(table).to_dict("records")
+    texts = strings(table.map(_value)).to_dict("records")
     return [
         {"kind": _kind(row), "cells": [text.replace("nan", "") for text in row.values()]} for row in texts
     ]
+
+
+def _value(cell: object) -> object:
+    """A number as such where its column, as it was read, holds words too."""
+    return float(cell) if isinstance(cell, str) and DECIMAL.fullmatch(cell) else cell
 
 
 def _kind(row: Mapping[Hashable, str]) -> str:
