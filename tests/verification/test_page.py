@@ -24,6 +24,7 @@ def test_the_checks_of_the_finest_meshes_are_met():
     assert not [check for check in fine_land_checks() if not check.passed]
 
 
+@pytest.mark.long
 def test_every_check_is_met():
     missed = [check for check in all_checks() if not check.passed]
     assert not missed

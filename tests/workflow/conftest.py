@@ -59,3 +59,9 @@ class Workflow:
 @pytest.fixture
 def workflow(tmp_path):
     return Workflow(tmp_path / "project")
+
+
+@pytest.fixture(scope="module")
+def planned(tmp_path_factory):
+    """A dry run of the study as it is, without a measured heart."""
+    return Workflow(tmp_path_factory.mktemp("planned") / "project").snakemake("-n")

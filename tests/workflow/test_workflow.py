@@ -29,28 +29,27 @@ def readers(output, part):
     return {rule for rule, job in jobs(output) if any(part in name for name in inputs(job))}
 
 
-def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_only(workflow):
-    run = workflow.snakemake("-n")
-    counts = job_counts(run.stdout)
-    assert run.returncode == 0, run.stdout
+def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_only(planned):
+    counts = job_counts(planned.stdout)
+    assert planned.returncode == 0, planned.stdout
     assert counts["simulate_point"] == POINTS_OF_COHORT
     assert counts["simulate_calibrated"] == SETTINGS * (VOLUNTEERS + PATIENTS)
     assert counts["generate_volunteer"] == VOLUNTEERS + PATIENTS
     assert counts["record_pressure"] == PATIENTS
     assert counts["make_tables"] == 1
     assert counts["compile_kernels"] == 1
-    assert readers(run.stdout, "truth") == {"make_tables", "make_cards", "compare_groups", "report_study"}
+    assert readers(planned.stdout, "truth") == {"make_tables", "make_cards", "compare_groups", "report_study"}
     everybody = {"make_cards", "compare_groups", "report_study", "exchange_results"}
-    assert readers(run.stdout, "posterior_noise") == everybody
-    assert readers(run.stdout, "cohort/motion") == {"image_volunteer", "plot_septal_flash"}
-    assert readers(run.stdout, "cohort/beat") == {"record_pressure"}
-    assert readers(run.stdout, "cohort/heart") == {
+    assert readers(planned.stdout, "posterior_noise") == everybody
+    assert readers(planned.stdout, "cohort/motion") == {"image_volunteer", "plot_septal_flash"}
+    assert readers(planned.stdout, "cohort/beat") == {"record_pressure"}
+    assert readers(planned.stdout, "cohort/heart") == {
         "image_volunteer",
         "build_volunteer_mesh",
         "plot_septal_flash",
     }
-    assert readers(run.stdout, "images/cine") == {"register_volunteer", "plot_contours", "plot_overlay"}
-    assert readers(run.stdout, "verification/motion") == {"plot_overlay", "plot_residual", "report_study"}
+    assert readers(planned.stdout, "images/cine") == {"register_volunteer", "plot_contours", "plot_overlay"}
+    assert readers(planned.stdout, "verification/motion") == {"plot_overlay", "plot_residual", "report_study"}
     assert counts["plot_overlay"] == PATIENTS + 1
     assert counts["try_acquisition"] == 21 + 3 + 6 * 2
     assert counts["build_template"] == 3
@@ -65,8 +64,8 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
         "cover_spheres",
         "search_cause",
     }
-    assert readers(run.stdout, "kernels") == beating
-    targets = inputs(dict(jobs(run.stdout))["all"])
+    assert readers(planned.stdout, "kernels") == beating
+    targets = inputs(dict(jobs(planned.stdout))["all"])
     assert sum("/beats/" in name for name in targets) == (
         counts["simulate_point"] + counts["simulate_surrounding"]
     ), "a deleted one is not missed"
@@ -94,12 +93,11 @@ def test_a_spoilt_measured_heart_is_refused_in_one_line_before_anything_runs(wor
     assert not (workflow.folder / "results").exists()
 
 
-def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(workflow):
-    run = workflow.snakemake("-n")
-    assert run.returncode == 0, run.stdout
-    assert "build_measured_mesh" not in job_counts(run.stdout)
-    assert job_counts(run.stdout)["simulate_point"] == POINTS_OF_COHORT
-    said = [line for line in run.stdout.splitlines() if "left out" in line]
+def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(planned):
+    assert planned.returncode == 0, planned.stdout
+    assert "build_measured_mesh" not in job_counts(planned.stdout)
+    assert job_counts(planned.stdout)["simulate_point"] == POINTS_OF_COHORT
+    said = [line for line in planned.stdout.splitlines() if "left out" in line]
     assert len(said) == 1
     assert "fetch_measured_heart" in said[0]
 
@@ -144,8 +142,8 @@ def test_bad_input_is_refused_in_one_line_before_anything_runs(workflow, file, t
     assert not (workflow.folder / "results").exists()
 
 
-def test_numbers_are_checked_where_it_is_asked_for(workflow):
-    assert "check_numbers" not in job_counts(workflow.snakemake("-n").stdout)
+def test_numbers_are_checked_where_it_is_asked_for(workflow, planned):
+    assert "check_numbers" not in job_counts(planned.stdout)
     run = workflow.snakemake("-n", "check_numbers", "--configfile", "config/smoke.yaml")
     assert job_counts(run.stdout)["check_numbers"] == job_counts(run.stdout)["make_tables"] == 1
     job = dict(jobs(run.stdout))["check_numbers"]

@@ -79,7 +79,7 @@ most 118.106 kPa, at 479.5 ms.
 
 
 def all_checks() -> list[Check]:
-    """Every check that the tests assert each time; takes some 40 s of computing."""
+    """Every check on meshes of the usual size; takes some 40 s of computing."""
     return (
         block_checks()
         + time_order_checks()
