@@ -25,8 +25,8 @@ HEADER = """# Faults
 What was done to the smallest study there is (`config/tiny.yaml`, one virtual volunteer, {files} results), and what came
 of it. After each fault one more call, the same as before, has to complete, with every result identical to the bit to
 those of a study that nothing happened to: {kinds}. Only logs and benchmarks, which tell
-of times, are left out. This page is written by `python3 study.py faults`; continuous integration tries a part of it
-(`--quick`).
+of times, are left out. This page is written by `python3 study.py faults`; `--quick` tries a part of it, in ten
+minutes on two cores.
 
 | what was done | what came of it | mended by one more call |
 |---|---|---|

@@ -40,13 +40,19 @@ def install() -> None:
         subprocess.run(["apt-get", "--quiet=2", *command], env=quiet, check=True, stdout=subprocess.DEVNULL)
 
 
+def physical_memory() -> int:
+    """Of this machine, MB."""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2**20
+
+
 class Lab:
     """The daemons and what can be done to them; `folder` holds keys, state, spool and logs.
 
-    cpus: how many jobs of one thread run at once; memory: of the node, MB.
+    cpus: how many jobs of one thread run at once. The node has nine tenths of the machine's memory: a group that is
+    tried again asks for twice as much.
     """
 
-    def __init__(self, folder: Path, cpus: int, memory: int = 4000) -> None:
+    def __init__(self, folder: Path, cpus: int) -> None:
         if os.geteuid() != 0:
             raise LabError("munge and SLURM's daemons are started as root; this is somebody else")
         self.folder, self.host = folder, socket.gethostname().split(".")[0]
@@ -54,7 +60,13 @@ class Lab:
         for name in ("munge", "state", "spool"):
             (folder / name).mkdir(parents=True, mode=0o755)
         folder.chmod(0o755)  # munge refuses a folder that others may write, and must enter it itself
-        stated = {"host": self.host, "folder": folder, "cpus": cpus, "memory": memory, **PORTS}
+        stated = {
+            "host": self.host,
+            "folder": folder,
+            "cpus": cpus,
+            "memory": physical_memory() * 9 // 10,
+            **PORTS,
+        }
         (folder / "slurm.conf").write_text(Template(CONFIGURATION.read_text()).substitute(stated))
 
     def up(self) -> None:
