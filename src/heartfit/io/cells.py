@@ -42,6 +42,14 @@ def number(text: str) -> float:
     return value
 
 
+def number_in(path: Path, column: str, row: int, text: str) -> float:
+    """The number in a row, from 0, of a column; raises InputError that names the place of what is none."""
+    try:
+        return number(text)
+    except ValueError as fault:
+        raise InputError(f"{path}: {column} in data row {row + 1} is {fault}: fill or drop the row") from None
+
+
 def _counts(line: str) -> bool:
     return bool(line.strip(" \r")) and not line.lstrip().startswith("#")
 

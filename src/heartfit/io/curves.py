@@ -17,7 +17,7 @@ import numpy as np
 
 from heartfit.errors import InputError
 from heartfit.io.atomic import write_text
-from heartfit.io.cells import LARGEST, number, read_cells
+from heartfit.io.cells import LARGEST, number, number_in, read_cells
 from heartfit.io.text import read_text
 from heartfit.observation.curve import Curve
 
@@ -138,12 +138,7 @@ def _numbers(path: Path, column: str, cells: list[str]) -> np.ndarray:
     values = np.full(len(cells), np.nan)
     for row, cell in enumerate(cells):
         if cell.strip() or column == "time_s":
-            try:
-                values[row] = number(cell)
-            except ValueError as fault:
-                raise InputError(
-                    f"{path}: {column} in data row {row + 1} is {fault}: fill or drop the row"
-                ) from None
+            values[row] = number_in(path, column, row, cell)
     return values
 
 

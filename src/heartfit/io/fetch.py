@@ -1,13 +1,13 @@
 """Brings published files here, each checked against its known checksum."""
 
 import csv
-import hashlib
 import shutil
 from pathlib import Path
 from urllib.request import urlopen
 
 from heartfit.errors import InputError
 from heartfit.io.atomic import replacing
+from heartfit.io.sums import checksum
 
 TIMEOUT = 60  # s
 
@@ -25,15 +25,11 @@ def fetch(manifest: Path, address: str, folder: Path) -> None:
 
 
 def _fetch_one(address: str, path: Path, sha256: str) -> None:
-    if path.is_file() and _checksum(path) == sha256:
+    if path.is_file() and checksum(path) == sha256:
         return
     with replacing(path) as draft:
         with urlopen(address, timeout=TIMEOUT) as source, draft.open("wb") as target:
             shutil.copyfileobj(source, target)
-        found = _checksum(draft)
+        found = checksum(draft)
         if found != sha256:
             raise InputError(f"{address}: sha256 {found}, expected {sha256}; it is not the published file")
-
-
-def _checksum(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -13,7 +13,7 @@ import numpy as np
 
 from heartfit.configuration.source import RecordedPressure
 from heartfit.errors import InputError
-from heartfit.io.cells import number, read_cells
+from heartfit.io.cells import number_in, read_cells
 from heartfit.observation.recorded_pressure import AveragedPressure, PressureTrace, average_beats
 
 PASCAL = {"mmhg": 133.322368, "kpa": 1e3}
@@ -89,15 +89,7 @@ def _unit(column: str) -> str:
 
 
 def _numbers(path: Path, cells: Mapping[str, Sequence[str]], column: str) -> np.ndarray:
-    texts, numbers = cells[column], np.empty(len(cells[column]))
-    for row, text in enumerate(texts):
-        try:
-            numbers[row] = number(text)
-        except ValueError as fault:
-            raise InputError(
-                f"{path}: {column} in data row {row + 1} is {fault}: fill or drop the row"
-            ) from None
-    return numbers
+    return np.array([number_in(path, column, row, text) for row, text in enumerate(cells[column])])
 
 
 def _known(columns: Iterable[str]) -> str:

@@ -26,7 +26,7 @@ def note(path: Path, draft: Path) -> None:
         return
     noted.parent.mkdir(parents=True, exist_ok=True)
     fresh = noted.with_name(f"{DRAFT}{noted.name}")
-    fresh.write_text(f"{_sum(draft)}  {path.name}\n", encoding="utf-8")
+    fresh.write_text(f"{checksum(draft)}  {path.name}\n", encoding="utf-8")
     fresh.replace(noted)
 
 
@@ -42,7 +42,7 @@ def is_as_written(path: Path) -> bool:
     noted = _note_of(path)
     if noted is None or not noted.is_file():
         return True
-    return noted.read_text(encoding="utf-8", errors="replace").split()[:1] == [_sum(path)]
+    return noted.read_text(encoding="utf-8", errors="replace").split()[:1] == [checksum(path)]
 
 
 def require_as_written(path: Path) -> None:
@@ -67,6 +67,7 @@ def _note_of(path: Path) -> Path | None:
     return None if any(part.startswith(DRAFT) for part in inside.parts) else root / FOLDER / inside
 
 
-def _sum(path: Path) -> str:
+def checksum(path: Path) -> str:
+    """The SHA-256 of a file, hexadecimal."""
     with Path(path).open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
