@@ -41,7 +41,11 @@ def kills(
 
 def _from_halfway(study: TinyStudy) -> None:
     study.put_back()
-    study.remove("templates", "volunteer1", "sensitivity", "tables", "figures")
+    drawn_again = (
+        "templates/generator.vtu",
+        "templates/calibrator.vtu",
+    )  # what is kept needs the third no more
+    study.remove(*drawn_again, "volunteer1", "sensitivity", "tables", "figures")
 
 
 def orphans(study: TinyStudy, expected: dict[str, str], chance: Random) -> list[Outcome]:

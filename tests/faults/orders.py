@@ -23,7 +23,7 @@ def orders(
     for count, way in zip(threads, ways, strict=False):
         study.wipe()
         first = chance.sample(sorted(expected), 8)
-        with study.edited("workflow/rules/common.smk", THREADS % 1, THREADS % count):
+        with study.edited("workflow/common/begin.smk", THREADS % 1, THREADS % count):
             same = one_more_call(
                 study, expected, *way, "--prioritize", *(f"{RESULTS}/{name}" for name in first)
             )

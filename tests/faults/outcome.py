@@ -25,8 +25,11 @@ def one_more_call(study: TinyStudy, expected: dict[str, str], *arguments: str) -
 
 
 def differences(found: dict[str, str], expected: dict[str, str]) -> list[str]:
-    """Names of results that are missing, too many or other than expected."""
-    return sorted(name for name in found.keys() | expected.keys() if found.get(name) != expected.get(name))
+    """What is wrong with the results, each named."""
+    wrong = {name: "missing" for name in expected.keys() - found.keys()}
+    wrong |= {name: "too many" for name in found.keys() - expected.keys()}
+    wrong |= {name: "other bytes" for name in found.keys() & expected.keys() if found[name] != expected[name]}
+    return [f"{name}: {what}" for name, what in sorted(wrong.items())]
 
 
 def half_written(study: TinyStudy, expected: dict[str, str]) -> list[str]:

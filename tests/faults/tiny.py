@@ -100,8 +100,8 @@ class TinyStudy:
 
     def remove(self, *parts: str) -> None:
         """Take away some of the results, so that there is something to do."""
-        for part in parts:
-            shutil.rmtree(self.folder / RESULTS / part)
+        for part in (self.folder / RESULTS / part for part in parts):
+            shutil.rmtree(part) if part.is_dir() else part.unlink()
 
 
 def finish(process: "subprocess.Popen[str]") -> tuple[int, str]:
