@@ -4,7 +4,7 @@
 configfile: "config/config.yaml"
 
 
-include: "workflow/rules/common.smk"
+include: "workflow/common.smk"
 
 
 pathvars:

@@ -39,7 +39,7 @@ LINTS = (
     ("ruff", "check", "."),
     ("ruff", "format", "--check", "."),
     ("mypy",),
-    ("snakefmt", "--check", "Snakefile", "workflow/rules"),
+    ("snakefmt", "--check", "Snakefile", "workflow"),
 )
 CONDA = "Specify a conda environment or container for each rule."  # the lock file is what fixes the software
 HASHED = (

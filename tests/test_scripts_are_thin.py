@@ -48,5 +48,10 @@ def test_rules_are_short_and_fingerprinted(file):
         assert f'code=code("{name}.py"),' in rule or name == "fetch_measured_heart", name
 
 
+@pytest.mark.parametrize("file", RULES, ids=lambda file: file.stem)
+def test_what_rules_share_is_defined_in_one_place(file):
+    assert not re.search(r"^def ", file.read_text(), flags=re.MULTILINE), "it belongs into workflow/common"
+
+
 def test_the_snakefile_is_a_table_of_contents():
     assert (ROOT / "Snakefile").read_text().count("\n") <= 40
