@@ -46,6 +46,8 @@ FOOTER = """
 - **The same again.** The same inputs give the same bytes, meshes included
   ([decision 21](decisions/021-same-mesh-twice.md)), see [reproducible](reproducible.md).
 
+A dry run (`-n`) puts things in order, too: Snakemake does not tell the two apart before it reads the workflow.
+
 Not covered: a byte that changes in numba's compiled kernels (their files have no sum; delete
 `src/heartfit/__pycache__`), a result that changes while a run that needs it is at work, and inputs of yours that are
 dated in the future (Snakemake says so; `touch` them).
