@@ -110,3 +110,11 @@ def test_where_the_helix_does_not_turn_the_orientation_is_that_of_the_fibre(
     rule = FibreRule.of(ventricle, 0.5, 0.5)
     along = np.einsum("ei,ej->eij", rule.fibres(), rule.fibres())[:, ROW, COLUMN]
     assert np.median(abs(rule.orientation() - along)[free_wall(ventricle)]) < 0.01
+
+
+def test_no_fibre_is_what_rounding_leaves(ventricle):
+    """Every point moved by its last digit: what a gradient that vanishes, or two that are parallel, would show."""
+    nudged = ventricle.with_points(np.nextafter(ventricle.points, 9.0))
+    here, there = FibreRule.of(ventricle), FibreRule.of(nudged)
+    np.testing.assert_allclose(there.fibres(), here.fibres(), atol=1e-9)
+    np.testing.assert_allclose(there.orientation(), here.orientation(), atol=1e-9)

@@ -38,6 +38,14 @@ def test_the_same_seed_gives_the_same_mesh_and_another_one_another(
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.skipif(not SEEDABLE, reason="the random device can be set on Linux with x86-64 only")
+def test_the_last_digit_of_another_processor_changes_nothing(pebble: LabelledSurface) -> None:
+    nudged = LabelledSurface(np.nextafter(pebble.points, 9.0), pebble.triangles, pebble.labels)
+    one, other = (tetrahedralise(surface, 1.5, 0.3, 0) for surface in (pebble, nudged))
+    for made, repeated in zip(one, other, strict=True):
+        np.testing.assert_array_equal(made, repeated)
+
+
 def test_a_mesher_that_dies_is_told_with_what_it_said(
     pebble: LabelledSurface, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -17,6 +17,9 @@ Within one tetrahedron of a coarse mesh the helix turns by 80 degrees and more, 
 never longitudinal: a wall of one or two tetrahedra would have no longitudinal fibres at all. So a tetrahedron
 also has the mean of f f' over its volume, its orientation.
 
+At the rim of the apical patch three nodes of some tetrahedra lie on a level of both fields: grad psi is parallel to e_t
+and e_l would be what rounding leaves. There grad psi is the mean over the neighbours.
+
 References
 ----------
 Bayer JD et al. 2012, doi 10.1007/s10439-012-0593-5.
@@ -35,6 +38,8 @@ from heartfit.geometry.mesh import VentricularMesh
 
 APICAL_PATCH = 0.05
 CENTROID = np.full(4, 0.25)
+PARALLEL = 1e-6
+"""Sine of the angle between two gradients below which they span no plane."""
 DEGREE = 7
 """Of the polynomials that the mean over a tetrahedron integrates exactly; 24 points."""
 
@@ -43,14 +48,14 @@ DEGREE = 7
 class FibreRule:
     """The rule on a mesh.
 
-    phi (3,n): phi_lv, phi_rv, phi_epi at the nodes; across: the gradient (m,3) of each; along (m,3): grad psi;
-    endo, epi: helix angles in rad, positive if right-handed.
+    phi (3,n): phi_lv, phi_rv, phi_epi at the nodes; across: the gradient (m,3) of each; along: grad psi (m,3) beside
+    each; endo, epi: helix angles in rad, positive if right-handed.
     """
 
     mesh: VentricularMesh
     phi: Floats
     across: tuple[Floats, ...]
-    along: Floats
+    along: tuple[Floats, ...]
     endo: float
     epi: float
 
@@ -61,7 +66,9 @@ class FibreRule:
         """The rule of the helix angles `endo` and `epi` on a mesh."""
         phi = np.array([_field_of(mesh, name) for name in ("lv_endo", "rv_endo", "epi")])
         across = tuple(_transmural(mesh, field) for field in phi)
-        return cls(mesh, phi, across, _longitudinal_direction(mesh), endo, epi)
+        longitudinal = _longitudinal_direction(mesh)
+        along = tuple(_not_parallel(mesh, longitudinal, each) for each in across)
+        return cls(mesh, phi, across, along, endo, epi)
 
     def fibres(self) -> Floats:
         """Unit fibre directions (m,3) at the centroids."""
@@ -83,10 +90,11 @@ class FibreRule:
         d = rv / np.maximum(lv + rv, np.finfo(float).eps)
         alpha = self.endo * (1.0 - w) + self.epi * w
         across_lv, across_rv, across_epi = self.across
+        along_lv, along_rv, along_epi = self.along
         parts = [
-            ((1.0 - w) * (1.0 - d), _fibre(self.along, -across_lv, (1.0 - 2.0 * d) * alpha)),
-            ((1.0 - w) * d, _fibre(self.along, across_rv, (1.0 - 2.0 * d) * alpha)),
-            (w, _fibre(self.along, across_epi, alpha)),
+            ((1.0 - w) * (1.0 - d), _fibre(along_lv, -across_lv, (1.0 - 2.0 * d) * alpha)),
+            ((1.0 - w) * d, _fibre(along_rv, across_rv, (1.0 - 2.0 * d) * alpha)),
+            (w, _fibre(along_epi, across_epi, alpha)),
         ]
         return _principal(sum(weight[:, None, None] * f[:, :, None] * f[:, None, :] for weight, f in parts))
 
@@ -104,10 +112,16 @@ def _transmural(mesh: VentricularMesh, field: Floats) -> Floats:
     volume = mesh.element_volumes()
     for _ in range(3):
         missing = np.linalg.norm(gradient, axis=1) < 1e-6 / np.cbrt(volume)
-        nodal = np.zeros_like(mesh.points)
-        np.add.at(nodal, mesh.tets, (gradient * volume[:, None])[:, None])
-        gradient[missing] = nodal[mesh.tets[missing]].mean(axis=1) / volume[missing, None]
+        gradient[missing] = _among_neighbours(mesh, gradient)[missing]
     return gradient
+
+
+def _among_neighbours(mesh: VentricularMesh, gradient: Floats) -> Floats:
+    """In the direction of the mean (m,3) of a gradient over all tetrahedra that share a node with each."""
+    volume, nodal = mesh.element_volumes(), np.zeros_like(mesh.points)
+    np.add.at(nodal, mesh.tets, (gradient * volume[:, None])[:, None])
+    mean: Floats = nodal[mesh.tets].mean(axis=1) / volume[:, None]
+    return mean
 
 
 def _longitudinal_direction(mesh: VentricularMesh) -> Floats:
@@ -115,6 +129,12 @@ def _longitudinal_direction(mesh: VentricularMesh) -> Floats:
     apex = np.flatnonzero(LeftVentricularAxes.of(mesh).longitudinal(mesh.points) < APICAL_PATCH)
     field = between(mesh.points, mesh.tets, one=np.unique(mesh.surfaces["base"]), zero=apex)
     return _transmural(mesh, field)
+
+
+def _not_parallel(mesh: VentricularMesh, along: Floats, across: Floats) -> Floats:
+    """The direction `along` (m,3), or that of the neighbours where it is parallel to `across` (m,3)."""
+    sine = np.linalg.norm(np.cross(_unit(along), _unit(across)), axis=1)
+    return np.where((sine < PARALLEL)[:, None], _among_neighbours(mesh, along), along)
 
 
 def _fibre(along: Floats, across: Floats, angle: Floats) -> Floats:
@@ -129,4 +149,7 @@ def _unit(vectors: Floats) -> Floats:
 
 
 def _principal(tensors: Floats) -> Floats:
-    return np.linalg.eigh(tensors)[1][:, :, 2]
+    """Of both directions along the axis that whose largest component is positive."""
+    axis: Floats = np.linalg.eigh(tensors)[1][:, :, 2]
+    largest = np.take_along_axis(axis, np.abs(axis).argmax(axis=1)[:, None], axis=1)
+    return axis * np.sign(largest)

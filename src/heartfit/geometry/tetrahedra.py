@@ -3,7 +3,8 @@
 The mesher is fTetWild (Hu et al. 2020, doi 10.1145/3386569.3392385). It inserts the triangles in an order that it
 shuffles with a number from the C++ library's random device, and offers no way to seed it; see
 docs/decisions/021-same-mesh-twice.md. Its second generator starts from a constant, once in a process. So each mesh is
-made in a process of its own, in which the random device gives the seed: `python -m heartfit.geometry.tetrahedra`.
+made in a process of its own, in which the random device gives the seed: `python -m heartfit.geometry.tetrahedra`. What
+it is given is rounded: two processors agree on a surface to the last digit but one, and the mesher tells them apart.
 """
 
 import io
@@ -21,6 +22,8 @@ from heartfit.geometry.surface import LabelledSurface
 
 Array = Floats | Integers
 MODULE = "heartfit.geometry.tetrahedra"
+DIGITS = 8
+"""Decimals of a coordinate whose unit is about the size of the surface: 2 nm of a heart."""
 
 
 def tetrahedralise(
@@ -31,11 +34,16 @@ def tetrahedralise(
     edge_length: wished edge length in m; tolerance: how far in m the boundary may leave the surface; seed: another one
     gives another mesh of the same quality. Raises ChildProcessError if the mesher fails.
     """
-    scale = surface.diagonal()
-    numbers = np.array([edge_length / scale, tolerance / scale, seed])
-    done = _in_its_own_process(_packed(surface.points / scale, surface.triangles, numbers))
-    points, tets = _unpacked(done, 2)
+    size = surface.diagonal()
+    scale = 2.0 ** np.ceil(np.log2(size))  # a power of two: no digit is lost
+    numbers = np.array([edge_length / size, tolerance / size, seed])
+    asked = (_rounded(surface.points / scale), surface.triangles, _rounded(numbers))
+    points, tets = _unpacked(_in_its_own_process(_packed(*asked)), 2)
     return points * scale, _positively_oriented(points, tets)
+
+
+def _rounded(values: Floats) -> Floats:
+    return np.round(values, DIGITS) + 0.0  # and no -0.0
 
 
 def _in_its_own_process(asked: bytes) -> bytes:
