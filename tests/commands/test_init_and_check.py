@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from heartfit.cli import main
-from heartfit.io.configuration import read_configuration
+from heartfit.io.cases import read_cases
+from heartfit.io.configuration import read_configuration, read_study
 
 ROOT = Path(__file__).parents[2]
 
@@ -97,6 +98,20 @@ def test_every_mistake_is_said_at_once(project, capsys):
     said = lines(capsys)
     assert any("nowhere/control_points: missing" in line for line in said)
     assert any("column lv_pressure has no unit" in line for line in said), "the data are read all the same"
+
+
+@pytest.mark.parametrize(("pressure", "said"), [(12.0, 12.0 * 133.322368), (-2.0, None)])
+def test_the_pressure_at_the_trigger_is_the_filling_pressure(project, pressure, said):
+    times = np.arange(0.0, 0.8, 0.005)
+    systole = np.where(times < 0.4, 100.0 * np.sin(np.pi * times / 0.4) ** 2, 0.0)
+    file = record(project, time_s=times, lv_pressure_mmhg=pressure + systole)
+    options = ["--rr", "0.8", "--conduction", "healthy", "--pressure", file]
+    assert main(["init", "heart1", "--fit", "nowhere", *options]) == 0
+    [case] = read_cases(project / "config" / "heart1.tsv")
+    study = read_study([Path("config/config.yaml")])
+    usual = study.end_diastolic_pressure
+    assert study.filling(case).rv == usual.rv
+    assert study.filling(case).lv == pytest.approx(usual.lv if said is None else said, rel=2e-2)
 
 
 @pytest.mark.measured

@@ -16,6 +16,12 @@ def with_(name: str, old: str, new: str, says: str) -> Malformed:
     return table(name, CASES.replace(old, new, 1), says)
 
 
+def filled(name: str, column: str, pressure: str) -> Malformed:
+    """With a filling pressure of the virtual heart in such a column."""
+    row = CASES.replace("5\thealthy\t\t\t", f"5\thealthy\t\t{pressure}\t")
+    return table(name, row.replace("\tcatheter", f"\t{column}"), "edp")
+
+
 MALFORMED = [
     table("empty", "", "empty; expected a table of cases"),
     table("no rows", CASES.splitlines()[0] + "\n", "no case"),
@@ -47,6 +53,10 @@ MALFORMED = [
     with_("digits with underscores", "150", "1_50", "edv = '1_50'"),
     with_("a negative volume", "150", "-150", "edv"),
     with_("litres for millilitres", "150", "0.15", "edv"),
+    filled("a filling pressure without unit", "edp", "12"),
+    filled("mmHg for kPa", "edp_kpa", "12"),
+    filled("kPa for Pa", "edp_pa", "1.6"),
+    filled("a filling pressure below none", "edp_mmhg", "-3"),
     with_("a wall of metres", "8.2", "8200", "wall_thickness"),
     with_("a heart that is no length", "1.78", "0", "sphericity"),
     with_("a factor of zero", "1\t1\t1\t1\n", "0\t1\t1\t1\n", "sigma_0"),

@@ -24,6 +24,11 @@ def case_of(wildcards):
     return CASES[wildcards.case]
 
 
+def filling_of(wildcards):
+    """The pressures of a case at end diastole."""
+    return STUDY.filling(case_of(wildcards))
+
+
 def setting_of(wildcards):
     """The setting of a case, or as it is without pressures where a job concerns none."""
     return STUDY.setting(wildcards.setting, CASES.get(wildcards.get("case")))

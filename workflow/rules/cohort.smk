@@ -15,9 +15,9 @@ rule generate_volunteer:
     params:
         case=case_of,
         cohort=STUDY.cohort,
-        pressures=STUDY.end_diastolic_pressure,
+        pressures=filling_of,
         planted=planted_of,
-        stated=stated(case_of, STUDY.cohort, STUDY.end_diastolic_pressure),
+        stated=stated(case_of, STUDY.cohort, filling_of),
         code=code("generate_volunteer.py"),
     script:
         "../scripts/generate_volunteer.py"

@@ -19,10 +19,10 @@ GIVEN = {
     "case": case_of,
     "setting": setting_of,
     "mechanisms": mechanisms_of,
-    "pressures": STUDY.end_diastolic_pressure,
+    "pressures": filling_of,
     "scheme": STUDY.numerics,
     "most_steps": DISCOVERY.most_steps,
-    "stated": stated(case_of, setting_of, STUDY.numerics, STUDY.end_diastolic_pressure, DISCOVERY),
+    "stated": stated(case_of, setting_of, STUDY.numerics, filling_of, DISCOVERY),
 }
 ASKED = {
     "question": DISCOVERY.element,

@@ -32,7 +32,8 @@ use rule simulate_point as simulate_surrounding with:
     params:
         case=REFERENCE,
         setting=surroundings_of,
-        stated=stated(REFERENCE, surroundings_of, STUDY.numerics, STUDY.end_diastolic_pressure),
+        pressures=STUDY.filling(REFERENCE),
+        stated=stated(REFERENCE, surroundings_of, STUDY.numerics, STUDY.filling(REFERENCE)),
 
 
 rule analyse_sensitivity:

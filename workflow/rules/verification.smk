@@ -15,10 +15,10 @@ rule simulate_calibrated:
     params:
         case=case_of,
         setting=setting_of,
-        pressures=STUDY.end_diastolic_pressure,
+        pressures=filling_of,
         scheme=STUDY.numerics,
         mechanisms=mechanisms_of,
-        stated=stated(case_of, setting_of, STUDY.numerics, STUDY.end_diastolic_pressure),
+        stated=stated(case_of, setting_of, STUDY.numerics, filling_of),
         code=code("simulate_calibrated.py"),
     script:
         "../scripts/simulate_calibrated.py"

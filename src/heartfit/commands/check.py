@@ -55,7 +55,7 @@ def _say(found: "Inspection", where: str) -> None:
     print(f"configuration: {where} in order, settings {', '.join(plan.study.settings)}")
     print(f"cases: {', '.join(plan.cases)}")
     for subject in found.subjects:
-        for line in subject.said(plan.study.end_diastolic_pressure.lv):
+        for line in subject.said(plan.study.filling(subject.case).lv):
             print(f"{subject.case.case}: {line}")
     if plan.left_out:
         print(plan.left_out)

@@ -52,7 +52,7 @@ def init_arguments(command: argparse.ArgumentParser) -> None:
 
 def init(given: argparse.Namespace) -> int:
     """Write the configuration and the row of a measured heart; without options, to be filled in by hand."""
-    from heartfit.io.sources import stated_period
+    from heartfit.io.sources import stated_filling, stated_period
 
     if not NAME.fullmatch(given.case):
         raise InputError(
@@ -69,7 +69,8 @@ def init(given: argparse.Namespace) -> int:
     content = _source(given)
     source = validated(Source, content, "init") if content else None
     period = given.rr if given.rr is not None or source is None else stated_period(source)
-    write_text(row, row_text(given.case, period, given.conduction, given.qrs))
+    filling = None if source is None else stated_filling(source, period)
+    write_text(row, row_text(given.case, period, given.conduction, given.qrs, filling))
     write_text(study, study_text(given.case, content or None))
     print(f"wrote {study} and {row}\nnext: heartfit check {given.case}")
     return 0

@@ -24,6 +24,9 @@ class Case(Strict):
     conduction: Literal["healthy", "lbbb"] = Field("healthy", description="where depolarisation starts")
     qrs: float | None = Field(None, gt=0.05, lt=0.3, description="s, duration of the QRS complex")
     catheter: bool = Field(False, description="whether the pressure of the left ventricle is recorded")
+    edp: float | None = Field(
+        None, ge=0, lt=5e3, description="Pa, of the left ventricle at end diastole; the study's if not given"
+    )
     seed: Seed | None = None
     edv: float | None = Field(None, gt=5e-5, lt=4e-4, description="m^3")
     wall_thickness: float | None = Field(None, gt=4e-3, lt=25e-3, description="m")

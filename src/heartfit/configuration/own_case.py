@@ -45,16 +45,19 @@ def study_text(case: str, source: Mapping[str, Any] | None) -> str:
     return f"{HEAD.format(case=case)}sources:\n  {case}:\n{wall}{pressure}"
 
 
-def row_text(case: str, period: float | None, conduction: str | None, qrs_ms: float | None) -> str:
-    """The table of cases with the one row."""
+def row_text(
+    case: str, period: float | None, conduction: str | None, qrs_ms: float | None, filling: float | None
+) -> str:
+    """The table of cases with the one row; period in s, filling pressure in Pa."""
     cells = (
         case,
         "measured",
         FILL_IN if period is None else f"{period:.4g}",
         conduction or FILL_IN,
         "" if qrs_ms is None else f"{qrs_ms:g}",
+        "" if filling is None else f"{1e-3 * filling:.4g}",
     )
-    return "case\tkind\tperiod_s\tconduction\tqrs_ms\n" + "\t".join(cells) + "\n"
+    return "case\tkind\tperiod_s\tconduction\tqrs_ms\tedp_kpa\n" + "\t".join(cells) + "\n"
 
 
 def _lines(source: Mapping[str, Any], indent: str = "    ") -> str:

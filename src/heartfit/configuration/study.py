@@ -152,6 +152,11 @@ class Study(Strict):
         other = type(getattr(usual, setting))(value)
         return Acquisition.model_validate(usual.model_dump() | {setting: other})
 
+    def filling(self, case: Case) -> Pressures:
+        """The pressures under which a heart stands at end diastole: the left one of its row, where that says it."""
+        usual = self.end_diastolic_pressure
+        return usual if case.edp is None else Pressures(lv=case.edp, rv=usual.rv)
+
     def varied_settings(self) -> dict[str, float]:
         """The baseline's value of each setting of the scanner that is varied."""
         return {name: getattr(self.cohort.scanner, name) for name in self.registration_error.varied}

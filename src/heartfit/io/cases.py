@@ -1,4 +1,4 @@
-"""Reads the table of cases, whose columns say their unit: period_s, edv_ml, wall_thickness_mm."""
+"""Reads the table of cases, whose columns say their unit: period_s, edv_ml, edp_mmhg."""
 
 from pathlib import Path
 from typing import Any
@@ -6,13 +6,14 @@ from typing import Any
 from heartfit.configuration.case import Case
 from heartfit.configuration.strict import validated
 from heartfit.errors import InputError, require_none
-from heartfit.io.cells import number, read_cells
+from heartfit.io.cells import PASCAL, number, read_cells
 
 TIMES, VOLUMES, LENGTHS = {"s": 1.0, "ms": 1e-3}, {"ml": 1e-6}, {"mm": 1e-3}
 UNITS = {
     **dict.fromkeys(("period", "qrs"), TIMES),
     **dict.fromkeys(("edv", "rv_edv"), VOLUMES),
     **dict.fromkeys(("wall_thickness", "rv_wall_thickness"), LENGTHS),
+    "edp": PASCAL,
 }
 COLUMNS = {
     f"{name}_{unit}": (name, factor) for name, units in UNITS.items() for unit, factor in units.items()

@@ -12,6 +12,8 @@ LARGEST = 64 * MEGABYTE
 """Ten minutes of four signals at 1 kHz take a third of it."""
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
+PASCAL = {"mmhg": 133.322368, "kpa": 1e3}
+"""By the unit that a column's name ends with, in small letters."""
 SEPARATORS = {",": "commas", "\t": "tabs"}
 
 

@@ -13,10 +13,9 @@ import numpy as np
 
 from heartfit.configuration.source import RecordedPressure
 from heartfit.errors import InputError
-from heartfit.io.cells import number_in, read_cells
+from heartfit.io.cells import PASCAL, number_in, read_cells
 from heartfit.observation.recorded_pressure import AveragedPressure, PressureTrace, average_beats
 
-PASCAL = {"mmhg": 133.322368, "kpa": 1e3}
 SECOND = {"s": 1.0, "ms": 1e-3}
 UNIT = re.compile(r"(?:^|[^A-Za-z])(mmHg|kPa|ms|s)[^A-Za-z]*$", re.IGNORECASE)
 

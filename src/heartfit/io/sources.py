@@ -51,8 +51,8 @@ class Subject:
             self.problems += [problem for problem in found if problem not in self.problems]
             return None
 
-    def said(self, filling_pressure: float) -> list[str]:
-        """What was read, a line each; filling_pressure: under which the study takes the left ventricle to stand, Pa."""
+    def said(self, filling: float) -> list[str]:
+        """What was read, a line each; filling: taken for the pressure of the left ventricle at end diastole, Pa."""
         lines = []
         if self.wall is not None:
             volumes = [
@@ -71,10 +71,11 @@ class Subject:
             )
         if self.pressure is not None:
             kept, values = self.pressure.kept, 1e-3 * self.pressure.curve.values
+            origin = "end_diastolic_pressure.lv" if self.case.edp is None else "edp in its row"
             lines.append(
                 f"pressure of {values.min():.1f} to {values.max():.1f} kPa, mean of {kept.sum()} of {kept.size} beats; "
-                f"{1e-3 * self.pressure.end_diastolic:.2f} kPa at the trigger, where the study says "
-                f"end_diastolic_pressure.lv = {filling_pressure:g} Pa"
+                f"{1e-3 * self.pressure.end_diastolic:.2f} kPa at the trigger, where the study takes "
+                f"{1e-3 * filling:.2f} kPa ({origin})"
             )
         return lines
 
@@ -132,7 +133,7 @@ def examine(case: Case, source: Source) -> Subject:
         subject.attempt(frames_of, source, subject.images)
         if subject.wall is not None:
             subject.attempt(require_match, subject.images, subject.wall, OUT_OF_IMAGES)
-    subject.pressure = subject.attempt(_read_pressure, case, source)
+    subject.pressure = subject.attempt(_read_pressure, source, case.period)
     return subject
 
 
@@ -154,6 +155,15 @@ def stated_period(source: Source) -> float | None:
         return None
 
 
+def stated_filling(source: Source, period: float | None) -> float | None:
+    """The end-diastolic pressure, Pa, if one is recorded that a heart can have, and the recording can be read."""
+    try:
+        recorded = None if period is None else _read_pressure(source, period)
+    except InputError:
+        return None
+    return None if recorded is None or recorded.end_diastolic < 0.0 else recorded.end_diastolic
+
+
 def source_files(source: Source) -> list[str]:
     """The files of the wall, for a workflow to watch."""
     if source.segmentation is not None:
@@ -164,10 +174,10 @@ def source_files(source: Source) -> list[str]:
     return sorted(str(file) for part in ("control_points", "template") for file in folder.glob(f"{part}/*"))
 
 
-def _read_pressure(case: Case, source: Source) -> AveragedPressure | None:
+def _read_pressure(source: Source, period: float) -> AveragedPressure | None:
     from heartfit.io.pressures import read_pressure
 
-    return None if source.pressure is None else read_pressure(source.pressure, case.period)
+    return None if source.pressure is None else read_pressure(source.pressure, period)
 
 
 def _require_period(case: Case, period: float, what: str) -> None:
