@@ -12,8 +12,8 @@ python3 study.py browser      set up, then open the report in a headless browser
 python3 study.py docs         set up, then make the site of docs/ and of the library in site/; any warning fails
 python3 study.py malformed    set up, then see every malformed input refused in one line; under a minute
 python3 study.py tutorial     set up, then run every command of docs/own_heart.md, the study coarsely; some minutes
-python3 study.py slurm        set up, then lead a small study through a SLURM that loses a job and its node; as root
-python3 study.py faults       set up, then kill and damage the smallest study, mend it and write docs/faults.md; as long
+python3 study.py slurm        set up, then lead a small study through a SLURM losing a job and its node; as root
+python3 study.py faults       set up, then kill and damage the smallest study, mend it and write docs/faults.md; 22 min
 python3 study.py lock         write requirements.lock and that of profiles/slurm anew from pyproject.toml
 """
 

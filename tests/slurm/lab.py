@@ -161,7 +161,9 @@ class Lab:
             "log-file": "log",
         }
         options = [f"--{option}={munge / name}" for option, name in files.items()]
-        self.munged = subprocess.Popen(["munged", "--foreground", *options], user="munge", group="munge")
+        with (self.folder / "munged.log").open("wb") as said:  # what it tells in the foreground
+            command = ["munged", "--foreground", *options]
+            self.munged = subprocess.Popen(command, user="munge", group="munge", stderr=said)
         await_that((munge / "socket").exists, "munge's socket")
 
 

@@ -29,8 +29,8 @@ LONG = 3600.0
 class Study:
     """Snakemake with the project's profile, and what it has printed so far."""
 
-    def __init__(self, arguments: list[str], cpus: int) -> None:
-        profile = ["--workflow-profile", "profiles/slurm", "--cores", str(cpus)]
+    def __init__(self, arguments: list[str]) -> None:
+        profile = ["--workflow-profile", "profiles/slurm"]
         # the lab looks more often than one should on a cluster that others use
         often = ["--slurm-init-seconds-before-status-checks", "3", "--seconds-between-status-checks", "3"]
         command = [sys.executable, "-m", "snakemake", *profile, *often, *arguments]
@@ -75,7 +75,7 @@ def main(arguments: list[str]) -> int:
     try:
         install()
         with lab(given.cpus) as slurm:
-            trial(slurm, given.cpus, rest or list(TINY))
+            trial(slurm, rest or list(TINY))
         return len(differing(given.cpus)) if not rest else 0
     except LabError as problem:
         say(str(problem))
@@ -115,9 +115,9 @@ def lab(cpus: int) -> Iterator[Lab]:
             slurm.down()
 
 
-def trial(slurm: Lab, cpus: int, arguments: list[str]) -> None:
+def trial(slurm: Lab, arguments: list[str]) -> None:
     """Run the study, kill a job, cut the node's power, and see it through; raises LabError if it does not recover."""
-    begin, study = time.monotonic(), Study(arguments, cpus)
+    begin, study = time.monotonic(), Study(arguments)
     killed = running(slurm, study, KILLED_AT)
     slurm.kill_job(killed)
     say(f"killed all processes of job {killed}")
