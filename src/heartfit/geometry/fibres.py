@@ -17,9 +17,6 @@ Within one tetrahedron of a coarse mesh the helix turns by 80 degrees and more, 
 never longitudinal: a wall of one or two tetrahedra would have no longitudinal fibres at all. So a tetrahedron
 also has the mean of f f' over its volume, its orientation.
 
-At the rim of the apical patch three nodes of some tetrahedra lie on a level of both fields: grad psi is parallel to e_t
-and e_l would be what rounding leaves. There grad psi is the mean over the neighbours.
-
 References
 ----------
 Bayer JD et al. 2012, doi 10.1007/s10439-012-0593-5.
@@ -32,14 +29,11 @@ from skfem.quadrature import get_quadrature
 from skfem.refdom import RefTet
 
 from heartfit.geometry.arrays import COLUMN, ROW, Floats
-from heartfit.geometry.coordinates import LeftVentricularAxes
-from heartfit.geometry.laplace import between, element_gradients
+from heartfit.geometry.directions import apex_to_base, gradient, not_parallel, unit
+from heartfit.geometry.laplace import between
 from heartfit.geometry.mesh import VentricularMesh
 
-APICAL_PATCH = 0.05
 CENTROID = np.full(4, 0.25)
-PARALLEL = 1e-6
-"""Sine of the angle between two gradients below which they span no plane."""
 DEGREE = 7
 """Of the polynomials that the mean over a tetrahedron integrates exactly; 24 points."""
 
@@ -65,9 +59,9 @@ class FibreRule:
     ) -> "FibreRule":
         """The rule of the helix angles `endo` and `epi` on a mesh."""
         phi = np.array([_field_of(mesh, name) for name in ("lv_endo", "rv_endo", "epi")])
-        across = tuple(_transmural(mesh, field) for field in phi)
-        longitudinal = _longitudinal_direction(mesh)
-        along = tuple(_not_parallel(mesh, longitudinal, each) for each in across)
+        across = tuple(gradient(mesh, field) for field in phi)
+        upwards = apex_to_base(mesh)
+        along = tuple(not_parallel(mesh, upwards, each) for each in across)
         return cls(mesh, phi, across, along, endo, epi)
 
     def fibres(self) -> Floats:
@@ -106,46 +100,11 @@ def _field_of(mesh: VentricularMesh, name: str) -> Floats:
     )
 
 
-def _transmural(mesh: VentricularMesh, field: Floats) -> Floats:
-    """Gradient (m,3); where all four nodes lie on one surface it vanishes: the neighbours' mean."""
-    gradient = element_gradients(mesh.points, mesh.tets, field)
-    volume = mesh.element_volumes()
-    for _ in range(3):
-        missing = np.linalg.norm(gradient, axis=1) < 1e-6 / np.cbrt(volume)
-        gradient[missing] = _among_neighbours(mesh, gradient)[missing]
-    return gradient
-
-
-def _among_neighbours(mesh: VentricularMesh, gradient: Floats) -> Floats:
-    """In the direction of the mean (m,3) of a gradient over all tetrahedra that share a node with each."""
-    volume, nodal = mesh.element_volumes(), np.zeros_like(mesh.points)
-    np.add.at(nodal, mesh.tets, (gradient * volume[:, None])[:, None])
-    mean: Floats = nodal[mesh.tets].mean(axis=1) / volume[:, None]
-    return mean
-
-
-def _longitudinal_direction(mesh: VentricularMesh) -> Floats:
-    """Gradient (m,3) of the harmonic field from a patch at the apex to the base."""
-    apex = np.flatnonzero(LeftVentricularAxes.of(mesh).longitudinal(mesh.points) < APICAL_PATCH)
-    field = between(mesh.points, mesh.tets, one=np.unique(mesh.surfaces["base"]), zero=apex)
-    return _transmural(mesh, field)
-
-
-def _not_parallel(mesh: VentricularMesh, along: Floats, across: Floats) -> Floats:
-    """The direction `along` (m,3), or that of the neighbours where it is parallel to `across` (m,3)."""
-    sine = np.linalg.norm(np.cross(_unit(along), _unit(across)), axis=1)
-    return np.where((sine < PARALLEL)[:, None], _among_neighbours(mesh, along), along)
-
-
 def _fibre(along: Floats, across: Floats, angle: Floats) -> Floats:
     """f (m,3) at the angle (m,) from circumferential to longitudinal in the plane normal to `across`."""
-    e_t = _unit(across)
-    e_l = _unit(along - (along * e_t).sum(axis=1, keepdims=True) * e_t)
+    e_t = unit(across)
+    e_l = unit(along - (along * e_t).sum(axis=1, keepdims=True) * e_t)
     return np.cos(angle)[:, None] * np.cross(e_l, e_t) + np.sin(angle)[:, None] * e_l
-
-
-def _unit(vectors: Floats) -> Floats:
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), np.finfo(float).tiny)
 
 
 def _principal(tensors: Floats) -> Floats:
