@@ -18,5 +18,6 @@ require_match(images, mesh, OUT_OF_IMAGES)
 given = snakemake.params
 tracking = track(followed(given.source, images), mesh, given.registration)
 write_motion(Path(snakemake.output.motion), tracking.motion)
-quality = {"mismatch": tracking.mismatch, "compression": tracking.compression}
-write_result(Path(snakemake.output.quality), quality, given.code, {"mismatch": "1", "compression": "1"})
+units = {"mismatch": "1", "compression": "1", "unfolded": "nodes"}
+quality = {"mismatch": tracking.mismatch, "compression": tracking.compression, "unfolded": tracking.unfolded}
+write_result(Path(snakemake.output.quality), quality, given.code, units)

@@ -15,7 +15,6 @@ images = read_images(Path(snakemake.input.images)).starting_at(snakemake.params.
 require_match(images, mesh)
 tracking = track(images, mesh, snakemake.params.registration)
 write_motion(Path(snakemake.output.motion), tracking.motion)
-quality = {"mismatch": tracking.mismatch, "compression": tracking.compression}
-write_result(
-    Path(snakemake.output.quality), quality, snakemake.params.code, {"mismatch": "1", "compression": "1"}
-)
+units = {"mismatch": "1", "compression": "1", "unfolded": "nodes"}
+quality = {"mismatch": tracking.mismatch, "compression": tracking.compression, "unfolded": tracking.unfolded}
+write_result(Path(snakemake.output.quality), quality, snakemake.params.code, units)

@@ -12,7 +12,7 @@ from scipy.ndimage import distance_transform_edt
 from threadpoolctl import threadpool_limits
 
 from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats
+from heartfit.geometry.arrays import Floats, Integers
 from heartfit.geometry.mesh import VentricularMesh, element_volumes
 from heartfit.geometry.motion import Motion
 from heartfit.imaging.resample import cropped, isotropic
@@ -24,6 +24,7 @@ from heartfit.registration.level import Level
 from heartfit.registration.matching import FreeForm as FreeForm
 from heartfit.registration.order import in_turn
 from heartfit.registration.terms import Bending, Brightness, FixedImage, WallVolume
+from heartfit.registration.unfold import unfolded
 
 STIFFER, ATTEMPTS = 10.0, 3
 """By how much the stiffness grows where a frame folds the wall, and how often that is tried."""
@@ -43,12 +44,14 @@ class Tracking:
     """A mesh carried by registration.
 
     motion: of the mesh; mismatch (p,): root mean square difference of brightness where it is compared, over the
-    range of brightness at end diastole; compression (p,): least volume of a tetrahedron over that at end diastole.
+    range of brightness at end diastole; compression (p,): least volume of a tetrahedron over that at end diastole;
+    unfolded (p,): how many nodes do not follow the images, because they would have folded the wall.
     """
 
     motion: Motion
     mismatch: Floats
     compression: Floats
+    unfolded: Integers
 
 
 def track(sequence: ImageSequence, mesh: VentricularMesh, settings: FreeForm) -> Tracking:
@@ -69,10 +72,14 @@ def _track(sequence: ImageSequence, mesh: VentricularMesh, settings: FreeForm) -
     for frame, neighbour in in_turn(count):
         found[frame] = tracker.follow(frame, found[neighbour][0])
     coefficients, mismatch = zip(*(found[frame] for frame in range(count)), strict=True)
-    positions = np.array([tracker.nodes(each) for each in coefficients])
+    positions = np.array([tracker.places(each) for each in coefficients])
+    otherwise = [
+        (tracker.nodes(c) != p).any(axis=1).sum() for c, p in zip(coefficients, positions, strict=True)
+    ]
     compression = np.array([tracker.compression(each) for each in positions])
     _require_unfolded(compression)
-    return Tracking(Motion(sequence.times, sequence.period, positions), np.array(mismatch), compression)
+    motion = Motion(sequence.times, sequence.period, positions)
+    return Tracking(motion, np.array(mismatch), compression, np.array(otherwise))
 
 
 class _Tracker:
@@ -97,14 +104,14 @@ class _Tracker:
         self._places = self._grid.index(mesh.points)[:, ::-1]
 
     def follow(self, frame: int, start: Floats) -> tuple[Floats, float]:
-        """Coefficients of a frame and its mismatch; stiffer ones where they would fold the wall."""
+        """Coefficients of a frame and its mismatch; stiffer ones where they fold the wall and that is not undone."""
         for attempt in range(ATTEMPTS):
             bending = Bending(self.lattice, self._stiffness * STIFFER**attempt)
             coefficients = start
             for fixed, steps in self._levels:
                 brightness = Brightness(fixed, self._frames[frame])
                 coefficients = minimise([brightness, self._volume, bending], coefficients, steps)
-            if self.compression(self.nodes(coefficients)) > 0.0:
+            if self.compression(self.places(coefficients)) > 0.0:
                 break
         return coefficients, brightness.mismatch(coefficients)
 
@@ -112,6 +119,10 @@ class _Tracker:
         """Where the mesh's nodes (n,3) are, m."""
         steps = self.lattice.at(coefficients, self._places)
         return self._mesh.points + self._grid.vectors(steps[:, ::-1])
+
+    def places(self, coefficients: Floats) -> Floats:
+        """The same without folds, m."""
+        return unfolded(self._mesh, self.nodes(coefficients))
 
     def compression(self, positions: Floats) -> float:
         """Least volume of a tetrahedron over that at end diastole."""

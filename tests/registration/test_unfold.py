@@ -1,0 +1,47 @@
+"""A tetrahedron that is turned inside out gets some volume back, and nothing else moves."""
+
+import numpy as np
+import pytest
+
+from heartfit.geometry.mesh import VentricularMesh, element_volumes
+from heartfit.registration.unfold import LEAST, MOST, unfolded
+from heartfit.verification.block import cube
+
+EDGE = 8e-3
+
+
+@pytest.fixture(scope="module")
+def block() -> VentricularMesh:
+    return cube(8, EDGE)
+
+
+def pushed(block: VentricularMesh, nodes: int) -> np.ndarray:
+    """All moved alike, and those about the middle pushed through their neighbours."""
+    places = block.points + np.array([3e-3, 0.0, -1e-3])
+    near = np.argsort(np.linalg.norm(block.points - 0.5 * EDGE, axis=1))[:nodes]
+    places[near] += np.array([1.7e-3, 0.4e-3, 0.0])
+    return places
+
+
+def compression(block: VentricularMesh, places: np.ndarray) -> float:
+    return float((element_volumes(places, block.tets) / block.element_volumes()).min())
+
+
+def test_one_node_that_folds_the_wall_is_taken_back(block: VentricularMesh) -> None:
+    places = pushed(block, 1)
+    assert compression(block, places) < 0.0
+    found = unfolded(block, places)
+    assert compression(block, found) >= LEAST
+    otherwise = (found != places).any(axis=1)
+    assert 0 < otherwise.sum() < MOST * len(places)
+    assert abs(found - block.points - np.array([3e-3, 0.0, -1e-3])).max() < 1.7e-3, "towards the others"
+
+
+def test_what_is_not_folded_stays_to_the_last_digit(block: VentricularMesh) -> None:
+    places = block.points @ np.diag([1.1, 0.8, 1.0])
+    np.testing.assert_array_equal(unfolded(block, places), places)
+
+
+def test_a_displacement_that_folds_much_of_the_wall_is_left_as_it_is(block: VentricularMesh) -> None:
+    places = pushed(block, 200)
+    np.testing.assert_array_equal(unfolded(block, places), places)
