@@ -52,6 +52,13 @@ def test_a_diagonal_quadratic_takes_one_step() -> None:
     assert found == pytest.approx(np.array([1.0, -2.0, 3.0, 4.0]), rel=1e-5)
 
 
+def test_what_no_term_sees_stays() -> None:
+    """A knot of the lattice beyond the images."""
+    seen = np.diag([1.0, 0.0, 2.0])
+    found = minimise([line(seen, np.array([3.0, 0.0, 4.0]))], np.full((3,), 7.0, np.float32), 5)
+    assert found == pytest.approx(np.array([3.0, 7.0, 2.0]), rel=1e-5)
+
+
 @pytest.mark.parametrize("start", [0.5, 1.5, 3.0, 10.0, 100.0])
 def test_it_never_goes_uphill(start: float) -> None:
     """On atan(x)^2, whose whole steps leap over the minimum and away from it beyond x = 1.39."""

@@ -44,13 +44,14 @@ def _gauss_newton(terms: Sequence[Linearised]) -> Floats:
     """The step (shape of the coefficients) to the minimum of the linearised terms."""
     force, diagonal = total(term.force for term in terms), total(term.diagonal for term in terms)
     shape, size = force.shape, force.size
+    weights = np.where(diagonal > 0.0, diagonal, 1.0).ravel()  # a knot that no voxel sees has no force: it stays
 
     def curvature(flat: Floats) -> Floats:
         step = flat.reshape(shape)
         return total(term.curvature(step) for term in terms).ravel()
 
     system = LinearOperator((size, size), matvec=curvature, dtype=np.float32)
-    scale = LinearOperator((size, size), matvec=lambda flat: flat / diagonal.ravel(), dtype=np.float32)
+    scale = LinearOperator((size, size), matvec=lambda flat: flat / weights, dtype=np.float32)
     flat, _ = cg(system, force.ravel(), rtol=INNER_TOLERANCE, maxiter=INNER_STEPS, M=scale)
     step: Floats = flat.reshape(shape).astype(np.float32)
     return step
