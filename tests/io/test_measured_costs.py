@@ -35,6 +35,17 @@ def test_files_are_counted_by_case_and_setting(tmp_path):
     assert found == {("case", "measured"): 1.0, ("setting", "measured"): 1.0}
 
 
+def test_sums_are_files_of_what_they_are_sums_of(tmp_path):
+    results = study(tmp_path, heart1__build_mesh=5.0, heart1__paper__compare_case=1.0)
+    for beat in ("0.json", "1.json"):
+        for folder in (results, results / ".sums"):
+            file = folder / "heart1" / "paper" / "calibration" / "beats" / beat
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text("{}")
+    found = {(each.per, each.kind): each.files for each in measured_footprints(results)}
+    assert found["point", "measured"] == 2.0
+
+
 def test_a_table_is_read_as_it_was_written(tmp_path):
     rows = [Need("build_mesh", "case", "virtual", 9, 1.0, 2.33, 3.78, 208.7)]
     (tmp_path / "costs.tsv").write_text(as_table(Need, rows))

@@ -5,7 +5,8 @@ from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-BEAT = r"/calibration/beats/\d+\.json$"
+BEAT = r"[^.].*/calibration/beats/\d+\.json$"
+"""One of a point's files; not the sum of it, whose folder's name begins with a dot."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ def footprints(
         files[place] += 1
         held[place] += size
     cases = Counter(kinds.values())
-    points = Counter(kinds[name.split("/")[0]] for name, _ in sizes if re.search(BEAT, name))
+    points = Counter(kinds[name.split("/")[0]] for name, _ in sizes if re.match(BEAT, name))
     found = []
     for per, kind in sorted(files):
         number = {
