@@ -10,11 +10,14 @@ from heartfit.io.shards import read_joined, write_shards
 from heartfit.tables.joined import summary
 
 CASES = "case\tkind\tperiod_s\n" + "".join(f"heart{n}\tmeasured\t0.8\n" for n in range(5))
-COLUMNS = ["table", "setting", "case", "quantity", "value", "unit", "fingerprint"]
+COLUMNS = ["table", "setting", "case", "quantity", "value", "unit", "fingerprint", "seed", "parameters"]
 
 
 def numbers(folder, **values):
-    rows = [("table1", "paper", case, "V_min", value, "%", "abc") for case, value in values.items()]
+    rows = [
+        ("table1", "paper", case, "V_min", value, "%", "abc", "", "mu=1 Pa.s")
+        for case, value in values.items()
+    ]
     (folder / "tables").mkdir(parents=True)
     table = pd.DataFrame(rows, columns=COLUMNS)
     (folder / "tables" / "numbers.csv").write_text("# made by a test\n" + table.to_csv(index=False))
@@ -55,6 +58,55 @@ def test_numbers_of_shards_are_joined_the_reference_once(tmp_path):
     row = summary(found).iloc[0]
     assert (row["cases"], row["least"], row["largest"]) == (3, 2.0, 5.5)
     assert row["mean"] == pytest.approx(11.5 / 3)
+
+
+def test_ratios_are_to_the_healthy_of_all_shards(tmp_path):
+    """A measured heart and a patient over the mean of three volunteers, of which each shard knows two."""
+
+    def shard(name, volunteers, mean, others):
+        rows = [
+            row
+            for case, (estimate, seed) in ({**volunteers, **others}).items()
+            for row in (
+                ("table2", "paper", case, "mu", estimate, "kPa.s", "abc", seed, "mu=1 Pa.s"),
+                ("table2", "paper", case, "mu over mean", estimate / mean, "", "abc", seed, "mu=1 Pa.s"),
+            )
+        ]
+        rows.append(("table2", "paper", "prior", "mu", 12.0, "kPa.s", "abc", "", ""))
+        rows.append(("table1", "paper", "mean of 2", "V_min", mean, "%", "abc", "", ""))
+        rows.append(
+            ("table3_parameters", "paper", "lbbb1", "mu value", 10.0, "kPa.s", "abc", "8", "mu=1 Pa.s")
+        )
+        rows.append(
+            (
+                "table3_parameters",
+                "paper",
+                "lbbb1",
+                "mu over healthy mean",
+                10.0 / mean,
+                "",
+                "abc",
+                "8",
+                "mu=1 Pa.s",
+            )
+        )
+        rows.append(("table2", "the paper's", "volunteer 1", "mu over mean", 0.7, "", "", "", ""))
+        folder = tmp_path / name / "tables"
+        folder.mkdir(parents=True)
+        pd.DataFrame(rows, columns=COLUMNS).to_csv(folder / "numbers.csv", index=False)
+        return folder.parent
+
+    shards = [
+        shard("0", {"volunteer1": (10.0, "1"), "volunteer2": (20.0, "2")}, 15.0, {"heart1": (40.0, "")}),
+        shard("1", {"volunteer1": (10.0, "1"), "volunteer3": (30.0, "3")}, 20.0, {}),
+    ]
+    found = read_joined(shards).set_index(["case", "quantity"])["value"]
+    expected = {"volunteer1": 0.5, "volunteer2": 1.0, "volunteer3": 1.5, "heart1": 2.0}
+    assert {case: found[case, "mu over mean"] for case in expected} == expected
+    assert found["lbbb1", "mu over healthy mean"] == 0.5
+    assert float(found["volunteer 1", "mu over mean"]) == 0.7
+    assert found.index.is_unique
+    assert not {("mean of 2", "V_min"), ("prior", "mu over mean")} & {*found.index}
 
 
 def test_shards_that_disagree_on_the_reference_are_refused(tmp_path):

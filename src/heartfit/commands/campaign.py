@@ -93,11 +93,11 @@ def join(given: argparse.Namespace) -> int:
     """Write the numbers of all shards as those of one study, and their means; fails where shards disagree."""
     from heartfit.io.shards import read_joined
     from heartfit.io.tables import write_tables
-    from heartfit.tables.joined import summary
+    from heartfit.tables.joined import calibrated, summary
 
     numbers = read_joined(given.results)
     write_tables(given.output, {"numbers": numbers, "summary": summary(numbers)})
-    print(f"{numbers['case'].nunique()} cases of {len(given.results)} shards in {given.output}")
+    print(f"{len(calibrated(numbers))} cases of {len(given.results)} shards in {given.output}")
     return 0
 
 
