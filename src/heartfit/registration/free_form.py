@@ -44,7 +44,8 @@ def _gauss_newton(terms: Sequence[Linearised]) -> Floats:
     """The step (shape of the coefficients) to the minimum of the linearised terms."""
     force, diagonal = total(term.force for term in terms), total(term.diagonal for term in terms)
     shape, size = force.shape, force.size
-    weights = np.where(diagonal > 0.0, diagonal, 1.0).ravel()  # a knot that no voxel sees has no force: it stays
+    # a knot that no voxel sees has no force: whatever divides it, it stays
+    weights = np.where(diagonal > 0.0, diagonal, 1.0).ravel()
 
     def curvature(flat: Floats) -> Floats:
         step = flat.reshape(shape)
