@@ -1,0 +1,140 @@
+"""Fifty coarse virtual hearts in two shards, beside what was planned for them; writes docs/campaign.md in half an hour.
+
+The plan rests on five others that are run before, and all is done by the commands that a user has: costs, shards, join.
+"""
+
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import psutil
+import yaml
+
+from benchmarks.campaign_page import Ran, campaign_page
+from benchmarks.ventricles import ROOT
+from heartfit.cli import main as heartfit
+from heartfit.cohort.draw_shape import draw_anatomy
+from heartfit.io.atomic import write_text
+from heartfit.io.benchmarks import read_benchmarks
+from heartfit.io.cases import read_cases
+from heartfit.io.configuration import read_study
+from heartfit.io.measured_costs import FOOTPRINTS, NEEDS, read_table
+from heartfit.io.plain_yaml import read_yaml
+from heartfit.io.tables import read_numbers
+from heartfit.planning.footprint import Footprint
+from heartfit.planning.forecast import Part, Subjects, forecast, whole
+from heartfit.planning.need import Need
+from heartfit.tables.joined import calibrated
+
+FEW, MANY, IN_A_SHARD, CPUS = 5, 50, 25, 2
+FOLDER = Path("results", "campaign")
+CONFIGURATION = (Path("config", "config.yaml"), Path("config", "tiny.yaml"))
+SETTING = "physical"
+BRISK = ("--scheduler", "greedy", "--scheduler-subsample", "8")
+DRAWN = ("sigma_0", "mu", "c_1", "R_p")
+
+
+def main() -> int:
+    """Run few, plan many, run many, and write the page."""
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    few = ran(configured("few", FEW))
+    print(f"{FEW} subjects took {few.wall:.0f} s", flush=True)
+    asked("costs", few.results, "--output", FOLDER / "costs")
+    many = configured("many", MANY)
+    asked("shards", "--config", *CONFIGURATION, many, "--size", IN_A_SHARD, "--output", FOLDER / "shards")
+    shards = sorted((FOLDER / "shards").glob("*.yaml"))
+    planned = [whole(forecast(*costs(), subjects(shard))) for shard in shards]
+    runs = [ran(shard) for shard in shards]
+    asked("join", *(run.results for run in runs), "--output", FOLDER / "joined")
+    joined = len(calibrated(read_numbers(FOLDER / "joined" / "numbers.csv")))
+    write_text(ROOT / "docs" / "campaign.md", campaign_page(few, planned, runs, joined, CPUS))
+    return 0
+
+
+def configured(name: str, number: int) -> Path:
+    """The configuration of a study of so many virtual hearts, the first of which is its reference."""
+    rows = [subject(seed) for seed in range(1, number + 1)]
+    cases = FOLDER / f"{name}.tsv"
+    write_text(cases, pd.DataFrame(rows).to_csv(sep="\t", index=False, float_format="%.4g"))
+    over = read_yaml(CONFIGURATION[1]) | {"cases": cases.as_posix(), "results": f"{FOLDER}/{name}"}
+    write_text(cases.with_suffix(".yaml"), yaml.safe_dump(over, sort_keys=False))
+    return cases.with_suffix(".yaml")
+
+
+def subject(seed: int) -> dict[str, object]:
+    """The row of a healthy heart: its anatomy, and parameters about the average heart's."""
+    anatomy = draw_anatomy(seed)
+    shape, drawn = anatomy.shape, np.random.default_rng(seed).uniform(0.9, 1.1, len(DRAWN))
+    return {
+        **{"case": f"volunteer{seed}", "kind": "virtual", "seed": seed, "conduction": "healthy"},
+        **{"period_s": anatomy.period, "sphericity": shape.sphericity},
+        **{"edv_ml": 1e6 * shape.edv, "rv_edv_ml": 1e6 * shape.rv_edv},
+        **{"wall_thickness_mm": 1e3 * shape.wall_thickness, "rv_wall_thickness_mm": 1e3 * shape.rv_wall_thickness},
+        **dict(zip(DRAWN, drawn, strict=True)),
+    }  # fmt: skip
+
+
+def costs() -> tuple[list[Need], list[Footprint]]:
+    """What the few took and left."""
+    folder = FOLDER / "costs"
+    return read_table(Need, folder / NEEDS), read_table(Footprint, folder / FOOTPRINTS)
+
+
+def subjects(shard: Path) -> Subjects:
+    """Those of a shard."""
+    study = read_study([*CONFIGURATION, shard])
+    cases = read_cases(Path(study.cases))
+    return Subjects(len(cases), "virtual", 1, len(study.sigma_points(SETTING, cases[0])))
+
+
+def asked(*arguments: object) -> None:
+    """Carry out a command of heartfit; raises RuntimeError if it refuses."""
+    if heartfit([*map(str, arguments)]):
+        raise RuntimeError(f"heartfit {' '.join(map(str, arguments))} failed; what it said stands above")
+
+
+def ran(file: Path) -> Ran:
+    """Run a study to its table of numbers, on idle CPUs."""
+    results = Path(read_yaml(file)["results"])
+    command = [
+        sys.executable,
+        "-m",
+        "snakemake",
+        "--cores",
+        str(CPUS),
+        *BRISK,
+        "--quiet",
+        "rules",
+        "progress",
+        "reason",
+    ]
+    begin, own = time.monotonic(), 0.0
+    with subprocess.Popen(
+        [*command, "--configfile", str(file), "--", f"{results}/tables/numbers.csv"]
+    ) as process:
+        while process.poll() is None:
+            own = own_time(process.pid, own)
+            time.sleep(0.5)
+    if process.returncode:
+        raise RuntimeError(f"{file}: Snakemake ended with {process.returncode}")
+    jobs = read_benchmarks(results / "benchmarks")
+    files = [each.stat().st_size for each in results.rglob("*") if each.is_file()]
+    part = Part("all", len(jobs), sum(job.wall for job in jobs), len(files), sum(files) / 1e6)
+    return Ran(results, part, time.monotonic() - begin, own)
+
+
+def own_time(process: int, before: float) -> float:
+    """CPU seconds of a process alone, or those of before if it has gone."""
+    try:
+        used = psutil.Process(process).cpu_times()
+    except psutil.NoSuchProcess:
+        return before
+    return used.user + used.system
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,29 @@
+"""The page of fifty subjects: its ratios; and the rows of its subjects, which are cases."""
+
+from pathlib import Path
+
+from benchmarks.campaign import configured, subject
+from benchmarks.campaign_page import Ran, campaign_page
+
+from heartfit.io.cases import read_cases
+from heartfit.planning.forecast import Part
+
+
+def test_the_page_holds_the_run_beside_the_plan():
+    planned = [Part("all", 100, 3600.0, 200, 10.0)] * 2
+    runs = [Ran(Path(name), Part("all", 110, 1800.0, 200, 10.0), 600.0, 12.0) for name in ("000", "001")]
+    page = campaign_page(runs[0], planned, runs, 50, 2)
+    assert "| jobs | 200 | 220 | 1.100 |" in page
+    assert "| CPU h of jobs | 2 | 1 | 0.500 |" in page
+    assert page.count("| 110 | 10.0 | 12.0 | 2.0 % | 1.0 % |") == 3
+
+
+def test_its_subjects_are_cases(monkeypatch, tmp_path):
+    (tmp_path / "config").mkdir()
+    tiny = Path(__file__).parents[2] / "config" / "tiny.yaml"
+    (tmp_path / "config" / "tiny.yaml").write_text(tiny.read_text())
+    monkeypatch.chdir(tmp_path)
+    file = configured("many", 50)
+    cases = read_cases(file.with_suffix(".tsv"))
+    assert [case.case for case in cases] == [f"volunteer{number}" for number in range(1, 51)]
+    assert subject(7) == subject(7) != subject(8)
