@@ -42,7 +42,7 @@ LINTS = (
     ("snakefmt", "--check", "Snakefile", "workflow"),
 )
 # at every choice, each second, Snakemake looks up the sizes of all inputs of as many jobs as are ready
-BRISK = ("--scheduler", "greedy", "--scheduler-subsample", "8")
+BRISK = ("--scheduler", "greedy", "--scheduler-subsample", "50")
 CONDA = "Specify a conda environment or container for each rule."  # the lock file is what fixes the software
 HASHED = (
     *("--universal", "--python-version", "3.11", "--generate-hashes", "--upgrade", "--quiet"),

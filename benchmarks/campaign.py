@@ -34,7 +34,7 @@ FEW, MANY, IN_A_SHARD, CPUS = 5, 50, 25, 2
 FOLDER = Path("results", "campaign")
 CONFIGURATION = (Path("config", "config.yaml"), Path("config", "tiny.yaml"))
 SETTING = "physical"
-BRISK = ("--scheduler", "greedy", "--scheduler-subsample", "8")
+BRISK = ("--scheduler", "greedy", "--scheduler-subsample", "50")
 DRAWN = ("sigma_0", "mu", "c_1", "R_p")
 
 
