@@ -65,12 +65,14 @@ def spoilt(content, **change):
 
 
 def test_what_is_no_sequence_is_refused_with_the_frame_named(content):
-    hole, flat = content["voxels"].copy(), content["voxels"].copy()
-    hole[5, 1, 2, 3], flat[3] = np.nan, 7.0
+    hole, flat, glare = (content["voxels"].copy() for _ in range(3))
+    hole[5, 1, 2, 3], flat[3], glare[2, 0, 0, 0], glare[2, 0, 0, 1] = np.nan, 7.0, 3e38, -3e38
     late = content["times"].copy()
     late[4] = late[3]
-    with pytest.raises(InputError, match=r"frame 5 holds 1 voxels that are not finite, first \(3, 2, 1\)"):
+    with pytest.raises(InputError, match=r"frame 5 holds 1 voxels that are not finite .*, first \(3, 2, 1\)"):
         spoilt(content, voxels=hole)
+    with pytest.raises(InputError, match=r"frame 2 .* beyond 1e\+12, first \(0, 0, 0\) with 3e\+38"):
+        spoilt(content, voxels=glare)
     with pytest.raises(InputError, match="frame 3 is 7 everywhere"):
         spoilt(content, voxels=flat)
     with pytest.raises(InputError, match="frame 4 is at"):

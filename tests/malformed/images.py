@@ -172,9 +172,9 @@ MALFORMED = [
     images("a hole of a terabyte", "x.nii", hole, "cannot be read"),
     images("a NIfTI cut off", "x.nii", cut("cine.nii", 0.7), "cut off"),
     images("a packed NIfTI cut off", "x.nii.gz", cut("cine.nii.gz", 0.7), "cut off|cannot be read"),
-    images(
-        "a packed NIfTI damaged", "x.nii.gz", damaged("cine.nii.gz"), "damaged|cannot be read|not finite|Dice"
-    ),
+    images("a packed NIfTI damaged", "x.nii.gz", damaged("cine.nii.gz"), "damaged"),
+    images("a packed NRRD damaged", "x.nrrd", damaged("cine.nrrd"), "damaged"),
+    images("a packed MetaImage damaged", "x.mha", damaged("cine.mha"), "damaged"),
     images("an NRRD cut off", "x.nrrd", cut("cine.nrrd", 0.7), "cannot be read"),
     images("a MetaImage cut off", "x.mha", cut("cine.mha", 0.7), "cannot be read"),
     images("a NIfTI that unfolds to gigabytes", "x.nii.gz", bomb, "follows the voxels"),
@@ -205,6 +205,7 @@ MALFORMED = [
     ),
     images("voxels of NaN", "x.nrrd", put((3, 2, 2, 2), np.nan), "not finite"),
     images("voxels of infinity", "x.nrrd", put((3, 2, 2, 2), np.inf), "not finite"),
+    images("a voxel brighter than any scanner's", "x.nrrd", put((3, 2, 2, 2), 1e30), "beyond 1e"),
     images("an empty frame", "x.nrrd", put(5, 7.0), "frame 5 is 7 everywhere"),
     images("another heart's place", "x.nrrd", changed(shifted), "beyond the first voxels"),
     images("voxels of another size", "x.nrrd", changed(other_spacing), "beyond|Dice"),

@@ -9,6 +9,9 @@ from heartfit.geometry.arrays import Floats
 from heartfit.geometry.motion import require_phases
 from heartfit.imaging.grid import Grid
 
+BRIGHTEST = 1e12
+"""Beyond what scanners write, 32 bits at most, and far below what single precision can square."""
+
 
 @dataclass(frozen=True, eq=False)
 class ImageSequence:
@@ -16,8 +19,8 @@ class ImageSequence:
 
     grid: where the voxels lie; voxels (p, k, j, i) float32, any unit of brightness; times (p,) s after the trigger of
     the ECG, increasing, within one period; period s.
-    Raises InputError for fewer than 8 frames, shapes that do not agree, voxels that are not finite, a frame that is
-    empty (one brightness everywhere) or times that do not increase or leave the period.
+    Raises InputError for fewer than 8 frames, shapes that do not agree, voxels that are not finite or brighter than any
+    scanner's, a frame that is empty (one brightness everywhere) or times that do not increase or leave the period.
     """
 
     grid: Grid
@@ -62,12 +65,12 @@ class ImageSequence:
 
 
 def _require_sound(frame: int, voxels: Floats) -> None:
-    bad = np.argwhere(~np.isfinite(voxels))
+    bad = np.argwhere(~(np.abs(voxels) < BRIGHTEST))
     if len(bad):
         k, j, i = bad[0]
         raise InputError(
-            f"image sequence: frame {frame} holds {len(bad)} voxels that are not finite, first ({i}, {j}, {k}); "
-            "expected numbers: export the frame again"
+            f"image sequence: frame {frame} holds {len(bad)} voxels that are not finite or beyond {BRIGHTEST:g}, first "
+            f"({i}, {j}, {k}) with {voxels[k, j, i]:g}; expected a scanner's brightness: export the frame again"
         )
-    if not np.ptp(voxels) > 0.0:
+    if not voxels.max() > voxels.min():
         raise InputError(f"image sequence: frame {frame} is {voxels.flat[0]:g} everywhere; expected an image")

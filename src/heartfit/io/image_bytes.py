@@ -26,15 +26,23 @@ def require_own_voxels(path: Path) -> None:
 
     SimpleITK would follow it to any file, and wait for a pipe or a device without end.
     """
-    with path.open("rb") as file:
-        found = ELSEWHERE.search(file.read(LONGEST_HEADER)) if path.suffix not in (".nii", ".gz") else None
-    if found is None or found[1].upper() == HERE:
-        return
-    name = found[1].decode("utf-8", "replace")
-    if Path(name).name != name or not path.with_name(name).is_file():
+    name = elsewhere(header_of(path)) if path.suffix not in (".nii", ".gz") else ""
+    if name and (Path(name).name != name or not path.with_name(name).is_file()):
         raise InputError(
             f"{path}: takes its voxels of {name}; expected a file beside it: write both into one, as .nrrd or .nii.gz"
         )
+
+
+def header_of(path: Path) -> bytes:
+    """What a file begins with, which holds its header."""
+    with path.open("rb") as file:
+        return file.read(LONGEST_HEADER)
+
+
+def elsewhere(header: bytes) -> str:
+    """The name of the file that a header says its voxels are in, nothing where they follow it."""
+    found = ELSEWHERE.search(header)
+    return "" if found is None or found[1].upper() == HERE else found[1].decode("utf-8", "replace")
 
 
 def require_whole(path: Path, image: sitk.Image) -> None:

@@ -13,6 +13,7 @@ from heartfit.errors import InputError
 from heartfit.geometry.arrays import Floats
 from heartfit.imaging.grid import Grid
 from heartfit.io.image_bytes import require_own_voxels, require_whole
+from heartfit.io.image_packing import require_undamaged
 from heartfit.io.sums import require_as_written
 from heartfit.io.text import require_file
 
@@ -47,6 +48,7 @@ def load(path: Path) -> sitk.Image:
         raise InputError(
             f"{path}: cannot be read: {reason(failure)}; cut off, damaged or no image: export it again"
         ) from None
+    require_undamaged(path, image)
     if path.name.endswith((".nii", ".nii.gz")):
         require_whole(path, image)
         if {image.GetMetaData("qform_code"), image.GetMetaData("sform_code")} == {"0"}:

@@ -1,0 +1,67 @@
+"""Compressed voxels that are damaged are refused, wherever the byte lies, and sound ones are read from every kind of file."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import SimpleITK as sitk
+
+from heartfit.errors import InputError
+from heartfit.io.image_file import load, numbers
+
+BESIDE = {".mha": "x.mha", ".mhd": "x.zraw", ".nrrd": "x.nrrd", ".nhdr": "x.raw.gz", ".nii.gz": "x.nii.gz"}
+"""Where the voxels are, by the suffix of the header."""
+
+HEADERS = 700
+"""Bytes, at most, that a header takes of a file that holds both."""
+
+
+@pytest.fixture
+def voxels() -> np.ndarray:
+    """Half of them noise, half of them few values, which are packed otherwise."""
+    noise = np.random.default_rng(0).normal(100.0, 20.0, (6, 20, 12)).astype(np.float32)
+    noise[:3] = np.round(noise[:3] / 50.0)
+    return noise
+
+
+@pytest.fixture(params=BESIDE)
+def image(request: pytest.FixtureRequest, voxels: np.ndarray, tmp_path: Path) -> Path:
+    path = tmp_path / f"x{request.param}"
+    sitk.WriteImage(sitk.GetImageFromArray(voxels), str(path), useCompression=True)
+    return path
+
+
+def holder(image: Path) -> Path:
+    return image.with_name(BESIDE[image.name[1:]])
+
+
+def test_sound_voxels_are_read(image: Path, voxels: np.ndarray) -> None:
+    np.testing.assert_array_equal(numbers(load(image)), voxels)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_byte_that_is_another_is_seen(image: Path, seed: int) -> None:
+    content = bytearray(holder(image).read_bytes())
+    begin = HEADERS if holder(image) == image else 10  # the ten of gzip's own head may differ
+    rng = np.random.default_rng(seed)
+    content[rng.integers(begin, len(content) - 8)] ^= int(rng.integers(1, 256))
+    holder(image).write_bytes(content)
+    with pytest.raises(InputError, match="damaged"):
+        load(image)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.9, 0.999])
+def test_voxels_that_break_off_are_refused(image: Path, share: float) -> None:
+    content = holder(image).read_bytes()
+    holder(image).write_bytes(content[: int(share * len(content))])
+    with pytest.raises(InputError, match="cut off"):
+        load(image)
+
+
+def test_a_length_that_leaves_voxels_out_is_refused(voxels: np.ndarray, tmp_path: Path) -> None:
+    path = tmp_path / "x.mha"
+    sitk.WriteImage(sitk.GetImageFromArray(voxels), str(path), useCompression=True)
+    name, length = next(line.split(b" = ") for line in path.read_bytes().splitlines() if b"DataSize" in line)
+    path.write_bytes(path.read_bytes().replace(name + b" = " + length, name + b" = 1" + length[1:]))
+    with pytest.raises(InputError, match="damaged"):
+        load(path)
