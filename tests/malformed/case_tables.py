@@ -50,7 +50,7 @@ MALFORMED = [
     with_("an empty period", "0.88", "", "period is missing"),
     with_("a decimal comma", "0.88", "0,88", "period = '0,88': input should be a valid number"),
     with_("a unit in a cell", "150", "150 ml", "edv = '150 ml': input should be a valid number"),
-    with_("digits with underscores", "150", "1_50", "edv = '1_50'"),
+    with_("digits with underscores", "150", "1_50", "edv: 1_50 is no number"),
     with_("a negative volume", "150", "-150", "edv"),
     with_("litres for millilitres", "150", "0.15", "edv"),
     filled("a filling pressure without unit", "edp", "12"),

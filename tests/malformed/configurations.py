@@ -106,6 +106,13 @@ MALFORMED = [
     over("text for a list", "measured_heart: heart\n", "measured_heart"),
     over("a fraction for a count", "numerics: {max_beats: 2.5}\n", "max_beats"),
     over("a truth for a number", "cohort: {heart: {sigma_0: yes}}\n", "sigma_0"),
+    over("a truth among numbers", "sphere_study: {noise: {q_min: yes}}\n", "q_min: True says yes or no"),
+    over("half a count", "observation: {frames: 25.5}\n", "frames = 25.5"),
+    over("an octal number", "sphere_study: {seed: 010}\n", "010, line 1, is read as 8"),
+    over("minutes and seconds", "numerics: {time_step: 1:30}\n", "1:30, line 1, is read as 90"),
+    over("digits apart", "sphere_study: {seed: 1_0}\n", "1_0, line 1, is read as 10"),
+    over("digits apart, as a text", "sphere_study: {seed: '1_0'}\n", "1_0 is no number; expected digits"),
+    over("digits apart in a table", "cohort: {heart: {mu: '1_0.0'}}\n", "mu: 1_0.0 is no number"),
     over("a truth for a count", "numerics: {max_beats: true}\n", "max_beats"),
     over("a number for a truth", "unscented: {noise: 7}\n", "noise"),
     # numbers

@@ -29,7 +29,7 @@ WORDS = [
 """What stands in cells where a finite number belongs; the empty one where it is needed."""
 
 WRONG: dict[type, list[Any]] = {
-    int: ["many", "1,5", [], {}, True, float("nan"), float("inf"), 1.5, [3], {"a": 3}],
+    int: ["many", "1,5", [], {}, True, float("nan"), float("inf"), [3], {"a": 3}],
     float: ["many", "0,5", [], {}, True, float("nan"), float("-inf"), [0.1], {"a": 0.1}],
     str: [3, 0.5, [], {}, True, None, ["a"], {"a": "b"}],
     list: [3, "many", {"a": 1}, True, [[1]], [None]],

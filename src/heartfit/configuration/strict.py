@@ -1,6 +1,7 @@
 """Tables that take the keys they declare and no other, and errors that fit on a line."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 from reprlib import Repr
 from typing import Any, TypeVar, get_args
@@ -12,9 +13,12 @@ from heartfit.errors import InputErrors
 SHORT = Repr()
 SHORT.maxstring = SHORT.maxother = 60
 
+APART = re.compile(r"\s*[+-]?[\d.]+_[\d_.]*(e[+-]?\d+)?\s*", re.IGNORECASE)
+"""A number whose digits an underscore keeps apart."""
+
 
 class Strict(BaseModel):
-    """A frozen table of finite numbers; an unknown key is an error, and so is a truth where a number belongs."""
+    """A frozen table of finite numbers; an unknown key is an error, and so is what only a program takes for a number."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
@@ -23,8 +27,22 @@ class Strict(BaseModel):
     def _a_truth_is_no_number(cls, value: Any, field: ValidationInfo) -> Any:
         """YAML takes yes, no, on and off for truths, and pydantic these for 1 and 0."""
         wanted = cls.model_fields[field.field_name or ""].annotation
-        if _table_in(wanted) is None and not _holds(wanted, bool) and _is_true_or_false(value):
-            raise ValueError(f"{SHORT.repr(value)} says yes or no; expected a number or a text: correct it")
+        if _table_in(wanted) is None and not _holds(wanted, bool):
+            for key, each in _entries(value):
+                if isinstance(each, bool):
+                    raise ValueError(f"{key}{each} says yes or no; expected a number or a text: correct it")
+        return value
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _digits_stand_together(cls, value: Any, field: ValidationInfo) -> Any:
+        """Pydantic reads 1_0 as ten."""
+        wanted = cls.model_fields[field.field_name or ""].annotation
+        may_be_text = isinstance(value, str) and _holds(wanted, str)
+        if (_holds(wanted, int) or _holds(wanted, float)) and not may_be_text:
+            for key, each in _entries(value):
+                if isinstance(each, str) and APART.fullmatch(each):
+                    raise ValueError(f"{key}{_short(each)} is no number; expected digits: correct it")
         return value
 
 
@@ -57,15 +75,12 @@ def _short(key: str) -> str:
     return key if len(key) <= SHORT.maxstring else f"{key[: SHORT.maxstring]}..."
 
 
-def _is_true_or_false(value: Any) -> bool:
-    inner = (
-        value.values()
-        if isinstance(value, Mapping)
-        else value
-        if isinstance(value, list | tuple)
-        else [value]
-    )
-    return any(isinstance(each, bool) for each in inner)
+def _entries(value: Any) -> Iterator[tuple[str, Any]]:
+    """What a value is or holds, and the key of each that has one, with a colon."""
+    if isinstance(value, Mapping):
+        yield from ((f"{_short(str(key))}: ", each) for key, each in value.items())
+    else:
+        yield from (("", each) for each in (value if isinstance(value, list | tuple) else [value]))
 
 
 def _holds(annotation: Any, kind: type) -> bool:

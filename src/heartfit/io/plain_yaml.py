@@ -3,6 +3,7 @@
 Tags ask for objects, and an alias may stand for a list of lists of aliases that fills the memory.
 """
 
+import re
 from collections.abc import Hashable, Iterable
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,9 @@ EXPECTED = "a configuration in YAML"
 DEEPEST = 20
 """Tables within tables; a study has four."""
 
+OTHERWISE = re.compile(r".*[_:].*|[-+]?0[0-9bx].*")
+"""Numbers that are read otherwise than they look: 010 as 8, 1:30 as 90, 1_0 as 10."""
+
 
 class PlainLoader(yaml.SafeLoader):  # type: ignore[misc]
     """Reads plain tables whose keys stand once."""
@@ -27,6 +31,19 @@ class PlainLoader(yaml.SafeLoader):  # type: ignore[misc]
             if isinstance(key, str) and key in keys[:number]:
                 raise yaml.YAMLError(f"key {key} stands in one table twice, line {node.start_mark.line + 1}")
         return super().construct_mapping(node, deep)
+
+    def construct_number(self, node: yaml.ScalarNode) -> float:
+        """The number; raises YAMLError for one that is read otherwise than it looks."""
+        number: float = getattr(self, f"construct_yaml_{node.tag.rpartition(':')[2]}")(node)
+        if OTHERWISE.fullmatch(node.value):
+            raise yaml.YAMLError(
+                f"{node.value}, line {node.start_mark.line + 1}, is read as {number}: write plain digits"
+            )
+        return number
+
+
+PlainLoader.add_constructor("tag:yaml.org,2002:int", PlainLoader.construct_number)
+PlainLoader.add_constructor("tag:yaml.org,2002:float", PlainLoader.construct_number)
 
 
 def read_yaml(path: Path) -> Any:
