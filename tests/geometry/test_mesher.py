@@ -37,12 +37,24 @@ def test_the_wall_is_filled_with_good_tetrahedra_in_silence(
     assert not list(tmp_path.iterdir())
 
 
-def test_a_tolerance_wider_than_the_wall_is_refused_with_its_reason(
+def test_a_tolerance_wider_than_the_wall_is_refused_with_its_reason(surface: LabelledSurface) -> None:
+    with pytest.raises(MeshingError, match=r"tolerance 9 mm: 1 bad meshes: .*(hole|volume|angle|openings)"):
+        fill_wall(surface, edge_length=0.05, tolerance=0.009, attempts=1)
+
+
+def test_a_crash_of_the_mesher_is_told_and_no_other_seed_is_tried(
     surface: LabelledSurface, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(mesher, "ATTEMPTS", 1)
-    with pytest.raises(MeshingError, match=r"tolerance 9 mm.*(hole|volume|angle|openings)"):
-        fill_wall(surface, edge_length=0.05, tolerance=0.009)
+    tried = []
+
+    def crash(*asked: object) -> None:
+        tried.append(asked)
+        raise ChildProcessError("the mesher ended with -6: double free")
+
+    monkeypatch.setattr(mesher, "tetrahedralise", crash)
+    with pytest.raises(MeshingError, match=r"^edge length 10 mm, tolerance 1 mm: .* double free; use a shorter"):
+        fill_wall(surface, edge_length=0.01, tolerance=0.001)
+    assert len(tried) == 1
 
 
 def test_the_angle_of_regular_and_flat_tetrahedra() -> None:

@@ -28,20 +28,26 @@ def fill_wall(
 
     edge_length: wished edge length in m; tolerance: how far in m the boundary may leave the surface;
     smallest_angle: between two faces, rad. Raises MeshingError when in all attempts the wall volume is off by
-    more than 2 %, an angle is smaller, or a valve ring is pinched.
+    more than 2 %, an angle is smaller, or a valve ring is pinched, and where the mesher itself ends in a crash, as with
+    a tolerance as wide as the wall: no other seed is tried then, which a machine that lacks memory would take.
     """
+    asked, advice = _in_mm(edge_length, tolerance), "use a shorter edge length or a smaller tolerance"
     defects = []
     for seed in range(attempts):
-        points, tets = tetrahedralise(surface, edge_length, tolerance, seed)
+        try:
+            points, tets = tetrahedralise(surface, edge_length, tolerance, seed)
+        except ChildProcessError as crash:
+            raise MeshingError(f"{asked}: {crash}; {advice}") from None
         mesh = VentricularMesh(points, tets, _name_surfaces(surface, points, boundary_faces(tets)))
         defect = defect_of(mesh, surface, smallest_angle)
         if not defect:
             return mesh
         defects.append(defect)
-    raise MeshingError(
-        f"edge length {edge_length * 1e3:g} mm, tolerance {tolerance * 1e3:g} mm: {attempts} bad meshes: "
-        f"{'; '.join(dict.fromkeys(defects))}; use a shorter edge length or a smaller tolerance"
-    )
+    raise MeshingError(f"{asked}: {attempts} bad meshes: {'; '.join(dict.fromkeys(defects))}; {advice}")
+
+
+def _in_mm(edge_length: float, tolerance: float) -> str:
+    return f"edge length {edge_length * 1e3:g} mm, tolerance {tolerance * 1e3:g} mm"
 
 
 def _name_surfaces(surface: LabelledSurface, points: Floats, faces: Integers) -> dict[str, Integers]:
