@@ -29,12 +29,12 @@ def built(*size: float) -> Template:
 
 @pytest.fixture(scope="module")
 def template() -> Template:
-    return built(0.02, 1.5e-3)
+    return built(0.02, 1.4e-3)
 
 
 @pytest.fixture(scope="module")
 def other() -> Template:
-    return built(0.02, 1.2e-3)
+    return built(0.02, 1.3e-3)
 
 
 def test_in_the_average_wall_the_template_stays_where_it_is(template: Template) -> None:

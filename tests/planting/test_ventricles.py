@@ -30,7 +30,7 @@ REGISTRATION = FreeForm(knots=16e-3, levels=((1, 3),))
 
 @pytest.fixture(scope="module")
 def hidden():
-    template = Template.build(0.02, 0.0015)
+    template = Template.build(0.02, 0.0014)
     seen_by = Imaging(SCANNER, REGISTRATION, template, template.mesh)
     return Ventricles(template, {"sigma_0": 257e3}, Protocol(COARSE, (1300.0, 520.0)), seen_by)
 

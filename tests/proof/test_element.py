@@ -26,7 +26,7 @@ NONE, ELEMENT, LEAK = rivals_of(LOCKING, "mixed", "MitralRegurgitation")
 
 @pytest.fixture(scope="module")
 def rivals(ventricle: VentricularMesh) -> Mapping[str, Rival]:
-    scheme = TimeScheme(time_step=0.02, max_beats=2, drift=0.02)
+    scheme = TimeScheme(time_step=0.02, max_beats=1, drift=0.99)
     model = Model(ventricle, 0.8, Pressures(lv=1000.0, rv=500.0), scheme)
     extensions = rivals_of(LOCKING, "mixed", "MitralRegurgitation")
     case = _measured(model(extensions[ELEMENT], PARAMETERS))
