@@ -52,7 +52,9 @@ def test_a_crash_of_the_mesher_is_told_and_no_other_seed_is_tried(
         raise ChildProcessError("the mesher ended with -6: double free")
 
     monkeypatch.setattr(mesher, "tetrahedralise", crash)
-    with pytest.raises(MeshingError, match=r"^edge length 10 mm, tolerance 1 mm: .* double free; use a shorter"):
+    with pytest.raises(
+        MeshingError, match=r"^edge length 10 mm, tolerance 1 mm: .* double free; use a shorter"
+    ):
         fill_wall(surface, edge_length=0.01, tolerance=0.001)
     assert len(tried) == 1
 

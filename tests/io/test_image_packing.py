@@ -1,4 +1,4 @@
-"""Compressed voxels that are damaged are refused, wherever the byte lies, and sound ones are read from every kind of file."""
+"""Compressed voxels that are damaged are refused, wherever the byte lies; sound ones are read from any kind of file."""
 
 from pathlib import Path
 

@@ -4,6 +4,8 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -55,10 +57,27 @@ class Workflow:
         with (self.folder / file).open("a") as opened:
             opened.write(text)
 
+    @contextmanager
+    def edited(self, file: str, text: str) -> Iterator[None]:
+        """Append to a file, for a while."""
+        before = (self.folder / file).read_text(encoding="utf-8")
+        self.edit(file, text)
+        yield
+        (self.folder / file).write_text(before, encoding="utf-8")
+
 
 @pytest.fixture
 def workflow(tmp_path):
     return Workflow(tmp_path / "project")
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    """A workflow that has drawn the sigma points of one case, and those."""
+    workflow = Workflow(tmp_path_factory.mktemp("drawn") / "project")
+    points = "results/volunteer1/physical/calibration/points.json"
+    assert workflow.snakemake("--cores", "1", points).returncode == 0
+    return workflow, points
 
 
 @pytest.fixture(scope="module")

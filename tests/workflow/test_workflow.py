@@ -4,7 +4,6 @@ import re
 
 import pytest
 
-POINTS = "results/volunteer1/physical/calibration/points.json"
 VOLUNTEERS, PATIENTS, SETTINGS = 7, 2, 2
 POINTS_OF_COHORT = SETTINGS * (VOLUNTEERS * 9 + PATIENTS * 15)
 
@@ -102,21 +101,21 @@ def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(p
     assert "fetch_measured_heart" in said[0]
 
 
-def test_an_edit_of_the_library_repeats_what_rests_on_it_and_nothing_else(workflow):
-    assert workflow.snakemake("--cores", "1", POINTS).returncode == 0
-    assert "Nothing to be done" in workflow.snakemake("-n", POINTS).stdout
-    workflow.edit("src/heartfit/registration/carry.py", "# elsewhere\n")
-    assert "Nothing to be done" in workflow.snakemake("-n", POINTS).stdout
-    workflow.edit("src/heartfit/calibration/gaussian.py", "# below\n")
-    assert job_counts(workflow.snakemake("-n", POINTS).stdout)["draw_sigma_points"] == 1
+def test_an_edit_of_the_library_repeats_what_rests_on_it_and_nothing_else(drawn):
+    workflow, points = drawn
+    assert "Nothing to be done" in workflow.snakemake("-n", points).stdout
+    with workflow.edited("src/heartfit/registration/carry.py", "# elsewhere\n"):
+        assert "Nothing to be done" in workflow.snakemake("-n", points).stdout
+    with workflow.edited("src/heartfit/calibration/gaussian.py", "# below\n"):
+        assert job_counts(workflow.snakemake("-n", points).stdout)["draw_sigma_points"] == 1
 
 
-def test_an_edit_of_the_configuration_repeats_what_it_concerns_and_nothing_else(workflow):
-    assert workflow.snakemake("--cores", "1", POINTS).returncode == 0
+def test_an_edit_of_the_configuration_repeats_what_it_concerns_and_nothing_else(drawn):
+    workflow, points = drawn
     elsewhere, here = "observation: {window: 5}\n", "prior: {sigma_0: {mean: 2.9e+5}}\n"
     for text, expected in ((elsewhere, "Nothing to be done"), (here, "draw_sigma_points")):
         (workflow.folder / "config" / "other.yaml").write_text(text)
-        assert expected in workflow.snakemake("-n", "--configfile", "config/other.yaml", "--", POINTS).stdout
+        assert expected in workflow.snakemake("-n", "--configfile", "config/other.yaml", "--", points).stdout
 
 
 def test_no_input_is_ancient(workflow):

@@ -18,7 +18,7 @@ APART = re.compile(r"\s*[+-]?[\d.]+_[\d_.]*(e[+-]?\d+)?\s*", re.IGNORECASE)
 
 
 class Strict(BaseModel):
-    """A frozen table of finite numbers; an unknown key is an error, and so is what only a program takes for a number."""
+    """A frozen table of finite numbers; unknown keys are errors, and so is what only a program takes for a number."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
