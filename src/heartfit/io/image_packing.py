@@ -43,7 +43,8 @@ def _meta_image(path: Path, header: bytes, most: int) -> int:
     length = LENGTH.search(header)
     stream = zlib.decompressobj()
     with _voxels(path, header, VOXELS_FOLLOW) as file:
-        count = len(stream.decompress(file.read(int(length[1]) if length else -1), most))
+        packed = file.read()  # all of it: a damaged length may be any
+    count = len(stream.decompress(packed[: int(length[1])] if length else packed, most))
     return count if stream.eof else 0
 
 
