@@ -8,7 +8,10 @@ import yaml
 from hypothesis import strategies as st
 from tests.malformed.sound import CASES, CONFIGURATION, recording
 
+from heartfit.configuration.study import Study
+
 SOUND = yaml.safe_load(CONFIGURATION)
+SCHEMA = Study.model_json_schema()
 WORDS = [
     "",
     "many",
@@ -65,11 +68,25 @@ def over(place: Place, value: Any) -> str:
 KEYS = [place for place in places(SOUND) if type(value_at(place)) in WRONG]
 
 
+def is_whole(place: Place) -> bool:
+    """Whether an integer is declared there, and not a number that happens to be written as one."""
+    declared = SCHEMA
+    for key in place:
+        name = declared.get("$ref", "").rpartition("/")[2]
+        declared = SCHEMA["$defs"].get(name, declared).get("properties", {}).get(key, {})
+    return declared.get("type") == "integer"
+
+
+def wrong_at(place: Place) -> list[Any]:
+    """Values of another kind than what is declared there."""
+    return [*WRONG[type(value_at(place))], *([1.5] if is_whole(place) else [])]
+
+
 @st.composite
 def of_another_kind(draw: st.DrawFn) -> tuple[str, str]:
     """The last key of a place, and a configuration with a value of another kind there."""
     place = draw(st.sampled_from(KEYS))
-    value = draw(st.sampled_from(WRONG[type(value_at(place))]))
+    value = draw(st.sampled_from(wrong_at(place)))
     return place[-1], over(place, value)
 
 

@@ -62,8 +62,10 @@ class Workflow:
         """Append to a file, for a while."""
         before = (self.folder / file).read_text(encoding="utf-8")
         self.edit(file, text)
-        yield
-        (self.folder / file).write_text(before, encoding="utf-8")
+        try:
+            yield
+        finally:
+            (self.folder / file).write_text(before, encoding="utf-8")
 
 
 @pytest.fixture

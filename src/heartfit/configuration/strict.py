@@ -38,8 +38,7 @@ class Strict(BaseModel):
     def _digits_stand_together(cls, value: Any, field: ValidationInfo) -> Any:
         """Pydantic reads 1_0 as ten."""
         wanted = cls.model_fields[field.field_name or ""].annotation
-        may_be_text = isinstance(value, str) and _holds(wanted, str)
-        if (_holds(wanted, int) or _holds(wanted, float)) and not may_be_text:
+        if _holds(wanted, int) or _holds(wanted, float):
             for key, each in _entries(value):
                 if isinstance(each, str) and APART.fullmatch(each):
                     raise ValueError(f"{key}{_short(each)} is no number; expected digits: correct it")

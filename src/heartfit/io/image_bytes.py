@@ -58,15 +58,18 @@ def require_whole(path: Path, image: sitk.Image) -> None:
     try:
         found = _length(path, expected + BLOCK)
     except DAMAGED:
-        raise InputError(
-            f"{path}: the compressed data are cut off or damaged; export or copy it again"
-        ) from None
+        raise damage(path) from None
     behind = found - expected
     if not 0 <= behind < BLOCK:
         fault = "it is cut off" if behind < 0 else "something follows the voxels"
         raise InputError(
             f"{path}: {found} bytes or more, expected {expected}; {fault}: export or copy it again"
         )
+
+
+def damage(path: Path) -> InputError:
+    """What is raised for a stream that does not unpack to its check sum."""
+    return InputError(f"{path}: the compressed data are cut off or damaged; export or copy it again")
 
 
 def _require_spacing(path: Path) -> None:

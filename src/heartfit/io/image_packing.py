@@ -8,8 +8,7 @@ from pathlib import Path
 
 import SimpleITK as sitk
 
-from heartfit.errors import InputError
-from heartfit.io.image_bytes import DAMAGED, elsewhere, header_of
+from heartfit.io.image_bytes import DAMAGED, damage, elsewhere, header_of
 
 META_IMAGE = re.compile(rb"^CompressedData\s*=\s*True\s*$", re.IGNORECASE | re.MULTILINE)
 LENGTH = re.compile(rb"^CompressedDataSize\s*=\s*(\d+)", re.IGNORECASE | re.MULTILINE)
@@ -35,7 +34,7 @@ def require_undamaged(path: Path, image: sitk.Image) -> None:
     except DAMAGED:
         found = 0
     if found != expected:
-        raise InputError(f"{path}: the compressed data are cut off or damaged; export or copy it again")
+        raise damage(path)
 
 
 def _meta_image(path: Path, header: bytes, most: int) -> int:

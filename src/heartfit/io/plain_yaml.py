@@ -34,7 +34,7 @@ class PlainLoader(yaml.SafeLoader):  # type: ignore[misc]
 
     def construct_number(self, node: yaml.ScalarNode) -> float:
         """The number; raises YAMLError for one that is read otherwise than it looks."""
-        number: float = getattr(self, f"construct_yaml_{node.tag.rpartition(':')[2]}")(node)
+        number: float = yaml.SafeLoader.yaml_constructors[node.tag](self, node)
         if OTHERWISE.fullmatch(node.value):
             raise yaml.YAMLError(
                 f"{node.value}, line {node.start_mark.line + 1}, is read as {number}: write plain digits"
