@@ -6,10 +6,12 @@ python3 study.py run ARGS     the same with further arguments of Snakemake, as -
 python3 study.py test ARGS    set up, then pass the tests; ARGS go to pytest
 python3 study.py lint         set up, then style, types and the workflow's own lint
 python3 study.py benchmark    set up, then measure what a beat costs and write docs/performance.md; half an hour
+python3 study.py verification set up, then compare the simulator with answers from elsewhere; a minute or two
 python3 study.py convergence  set up, then see what mesh and time step change and write docs/convergence.md; as long
 python3 study.py mutations    set up, then spoil kernels one by one and write which test noticed into docs/mutations.md
 python3 study.py browser      set up, then open the report in a headless browser: no error, no network, it beats
 python3 study.py docs         set up, then make the site of docs/ and of the library in site/; any warning fails
+python3 study.py numbers      set up, then write the pages whose numbers are in docs/measured, of a NUMBERS.csv first
 python3 study.py malformed    set up, then see every malformed input refused in one line; under a minute
 python3 study.py tutorial     set up, then run every command of docs/own_heart.md, the study coarsely; some minutes
 python3 study.py slurm        set up, then lead a small study through a SLURM losing a job and its node; as root
@@ -33,7 +35,7 @@ BIN = ENVIRONMENT / ("Scripts" if os.name == "nt" else "bin")
 OLDEST, NEWEST = (3, 11), (3, 13)
 LOCK = ROOT / "requirements.lock"
 STAMP = ENVIRONMENT / "installed.sha256"
-ABOUT = "15 to 25 minutes on two cores when nothing is there yet"
+MEASURED = ROOT / "docs" / "measured" / "study.tsv"
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 LINTS = (
     ("ruff", "check", "."),
@@ -113,7 +115,10 @@ def tool(name: str, *arguments: str) -> list[str]:
 
 def run(arguments: list[str]) -> int:
     """Run the workflow, adding the time that remains to Snakemake's count of steps."""
-    print(f"The study takes {ABOUT}; what is up to date is left alone.", flush=True)
+    print(
+        f"The study takes about {duration()} minutes on two cores; what is up to date is left alone.",
+        flush=True,
+    )
     command = tool("snakemake", "--cores", "2", *BRISK, *arguments)
     begin = time.monotonic()
     with subprocess.Popen(command, stderr=subprocess.STDOUT, stdout=subprocess.PIPE, text=True) as process:
@@ -122,13 +127,19 @@ def run(arguments: list[str]) -> int:
     return process.returncode
 
 
+def duration() -> str:
+    """Minutes that a study from a fresh clone took, as the README and docs/study.md print them."""
+    rows = (line.split("\t") for line in MEASURED.read_text(encoding="utf-8").splitlines())
+    return next(row[1] for row in rows if row[0] == "duration")
+
+
 def remaining(line: str, elapsed: float) -> str:
-    """What to add to a line of Snakemake: the time that the steps left take at the mean pace so far."""
+    """Return the remaining time to append to a line of Snakemake: the steps left at the mean pace so far."""
     steps = re.match(r"(\d+) of (\d+) steps", line)
     if not steps:
         return ""
-    done, total = map(int, steps.groups())
-    return f", {elapsed / 60:.1f} min so far, about {elapsed * (total - done) / done / 60:.1f} min left"
+    completed, total = map(int, steps.groups())
+    return f", {elapsed / 60:.1f} min so far, about {elapsed * (total - completed) / completed / 60:.1f} min left"
 
 
 def test(arguments: list[str]) -> int:
@@ -149,12 +160,12 @@ def lint(_: list[str]) -> int:
 
 
 def workflow_advice() -> list[str]:
-    """What Snakemake's own lint finds, but for the advice to use conda; also printed."""
+    """Print and return the advice of Snakemake's own lint, except to use conda."""
     print("lint: snakemake --lint", flush=True)
-    found = subprocess.run(tool("snakemake", "--lint"), capture_output=True, text=True, check=False)
-    advice = [line.strip() for line in found.stderr.splitlines() if line.startswith("    * ")]
-    if found.returncode and not advice:
-        advice = [found.stderr]
+    report = subprocess.run(tool("snakemake", "--lint"), capture_output=True, text=True, check=False)
+    advice = [line.strip() for line in report.stderr.splitlines() if line.startswith("    * ")]
+    if report.returncode and not advice:
+        advice = [report.stderr]
     advice = [line for line in advice if CONDA not in line]
     print("\n".join(advice) or "All checks passed!", flush=True)
     return advice
@@ -163,6 +174,11 @@ def workflow_advice() -> list[str]:
 def benchmark(arguments: list[str]) -> int:
     """Measure what a beat costs and write docs/performance.md; `--small` leaves out the fine meshes."""
     return subprocess.run(tool("python", "-m", "benchmarks", *arguments), check=False).returncode
+
+
+def verification(arguments: list[str]) -> int:
+    """Print the page of verification, or what ARGS of `python -m verification` name."""
+    return subprocess.run(tool("python", "-m", "verification", *arguments), check=False).returncode
 
 
 def convergence(_: list[str]) -> int:
@@ -191,10 +207,15 @@ def docs(_: list[str]) -> int:
     return code
 
 
+def numbers(arguments: list[str]) -> int:
+    """Write the pages of measured numbers anew; `--check` compares them only."""
+    return subprocess.run(tool("python", "docs/measured_pages.py", *arguments), check=False).returncode
+
+
 def malformed(arguments: list[str]) -> int:
     """Refuse every malformed input, of which the tests try a part."""
-    every = ("--numprocesses", "2", "-m", "long or not long", "tests/malformed")
-    return subprocess.run(tool("pytest", *every, *arguments), check=False).returncode
+    selection = ("--numprocesses", "2", "-m", "long or not long", "tests/malformed")
+    return subprocess.run(tool("pytest", *selection, *arguments), check=False).returncode
 
 
 def tutorial(arguments: list[str]) -> int:
@@ -228,10 +249,12 @@ COMMANDS = {
     "test": test,
     "lint": lint,
     "benchmark": benchmark,
+    "verification": verification,
     "convergence": convergence,
     "mutations": mutations,
     "browser": browser,
     "docs": docs,
+    "numbers": numbers,
     "malformed": malformed,
     "tutorial": tutorial,
     "slurm": slurm,

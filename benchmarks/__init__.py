@@ -1,1 +1,1 @@
-"""What a beat costs, and what others take for the same: a command, `python3 study.py benchmark`, not a test."""
+"""Cost of a beat, here and in other codes: a command, `python3 study.py benchmark`, not a test."""

@@ -12,9 +12,9 @@ from benchmarks.page import ELEMENTS, Measured, page
 from benchmarks.process import install_peers
 from benchmarks.targets import figures
 from benchmarks.ventricles import ROOT, mesh_file
-from heartfit.io.atomic import write_text
 from heartfit.io.configuration import read_study
-from heartfit.kernels import compile_kernels
+from heartfit.io.files import write_text
+from heartfit.synthetic.kernels import compile_kernels
 
 SMALL, ALL = ("3k", "10k"), ("3k", "10k", "30k", "100k")
 T = TypeVar("T")
@@ -22,28 +22,28 @@ T = TypeVar("T")
 
 def main(arguments: list[str]) -> None:
     meshes = SMALL if "--small" in arguments else ALL
-    said("installing the other programs", install_peers)
-    said("compiling the kernels", compile_kernels)
+    announced("installing the other programs", install_peers)
+    announced("compiling the kernels", compile_kernels)
     for mesh in meshes:
-        said(f"mesh of {mesh} tetrahedra", lambda mesh=mesh: mesh_file(mesh))
+        announced(f"mesh of {mesh} tetrahedra", lambda mesh=mesh: mesh_file(mesh))
     beats = {
-        (mesh, setting): said(f"beat of {mesh}, {setting}", lambda m=mesh, s=setting: cost(m, s))
+        (mesh, setting): announced(f"beat of {mesh}, {setting}", lambda m=mesh, s=setting: cost(m, s))
         for mesh in meshes
         for setting in ELEMENTS
     }
     steps = [
-        said(f"Newton steps on {mesh}, {element}", lambda m=mesh, e=element: newton_steps(m, e))
+        announced(f"Newton steps on {mesh}, {element}", lambda m=mesh, e=element: newton_steps(m, e))
         for mesh in SMALL
         for element in ELEMENTS.values()
     ]
-    one = said("one job", lambda: job("3k", "physical"))
-    spheres = said("spheres", sphere.costs)
+    one = announced("one job", lambda: job("3k", "physical"))
+    spheres = announced("spheres", sphere.costs)
     time_step = read_study([ROOT / "config" / "config.yaml"]).numerics.time_step
     measured = Measured(beats, steps, one, spheres, time_step)
     write_text(ROOT / "docs" / "performance.md", page(measured, figures(measured)))
 
 
-def said(what: str, work: Callable[[], T]) -> T:
+def announced(what: str, work: Callable[[], T]) -> T:
     """Say what is measured, measure it and say what came out."""
     sys.stdout.write(f"{what} ... ")
     sys.stdout.flush()

@@ -12,32 +12,29 @@ from itertools import chain
 import numpy as np
 import pandas as pd
 
-from benchmarks.alternatives_page import page
+from benchmarks.alternatives_page import SOLID, page
 from benchmarks.ventricles import FOLDER, ROOT, SIZES
-from heartfit.calibration.forward import Forward, Outcome, Remembered
-from heartfit.cohort.generate import generate
-from heartfit.cohort.hidden_heart import hide_heart
-from heartfit.configuration.case import Case
-from heartfit.configuration.setting import Setting
-from heartfit.configuration.study import Study
-from heartfit.electrophysiology.onset import assign_activation
+from heartfit.calibration.unscented import CachedForward, Forward, Outcome
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.mesher import fill_wall
-from heartfit.io.atomic import write_text
-from heartfit.io.cases import read_cases
-from heartfit.io.configuration import read_study
+from heartfit.heart.activation.conduction import assign_activation
+from heartfit.io.configuration import read_cases, read_study
+from heartfit.io.files import write_text
 from heartfit.io.tables import read_published, write_figure
 from heartfit.observation.beat import observe_beats
 from heartfit.observation.operator import CurveFeatures
-from heartfit.protocol import run_beat
-from heartfit.tables.race_table import plot_race, race_table
-from heartfit.twins.race import Mark, Problem, methods, race
+from heartfit.personalise.run import run_beat
+from heartfit.personalise.setting import Setting
+from heartfit.results.race import plot_race, race_table
+from heartfit.study.case import Case
+from heartfit.study.study import Study
+from heartfit.synthetic.race import CalibrationProblem, MethodScore, compare_methods, methods
+from heartfit.synthetic.volunteer import generate, hide_heart
 
 HEARTS, SETTING, SIZE = ("volunteer1", "volunteer3"), "physical", "3k"
 TABLES = "alternatives", "coverage_sphere"
 SIMULATIONS, STEPS = 32, 2
-"""Of a heart in 3-D, where a beat takes seconds."""
-SOLID = "volume, in 3-D"
+"""Simulations of a heart in 3-D, where a beat takes seconds."""
 
 
 def main(arguments: list[str]) -> None:
@@ -47,26 +44,26 @@ def main(arguments: list[str]) -> None:
     marks = (
         [] if "--small" in arguments else [kept(study, cases[name], "--kept" in arguments) for name in HEARTS]
     )
-    race = pd.concat([spheres, race_table({SOLID: list(chain(*marks))})], ignore_index=True)
-    write_figure(ROOT / "docs" / "figures" / "alternatives.png", plot_race(race))
-    write_text(ROOT / "docs" / "alternatives.md", page(race, shares, study.sphere_study))
+    table = pd.concat([spheres, race_table({SOLID: list(chain(*marks))})], ignore_index=True)
+    write_figure(ROOT / "docs" / "figures" / "alternatives.png", plot_race(table))
+    write_text(ROOT / "docs" / "alternatives.md", page(table, shares, study.sphere_study))
 
 
-def kept(study: Study, case: Case, again: bool) -> list[Mark]:
+def kept(study: Study, case: Case, again: bool) -> list[MethodScore]:
     """The marks of a heart, from disk if they may be and are there."""
     file = FOLDER / "alternatives" / f"{case.case}.json"
     if not (again and file.exists()):
         write_text(file, json.dumps([asdict(mark) for mark in raced(study, case)]))
-    return [Mark(**mark) for mark in json.loads(file.read_text())]
+    return [MethodScore(**mark) for mark in json.loads(file.read_text())]
 
 
-def raced(study: Study, case: Case) -> list[Mark]:
+def raced(study: Study, case: Case) -> list[MethodScore]:
     """The race on one volunteer, whose volume is measured without images but with the noise of theirs."""
     problem = problem_of(study, case)
-    return race(problem, methods(SIMULATIONS, STEPS), SIMULATIONS, HEARTS.index(case.case))
+    return compare_methods(problem, methods(SIMULATIONS, STEPS), SIMULATIONS, HEARTS.index(case.case))
 
 
-def problem_of(study: Study, case: Case) -> Problem:
+def problem_of(study: Study, case: Case) -> CalibrationProblem:
     """The hidden heart of a case beats in the same mesh as the calibrator's, with other valves and a finer step."""
     setting, pressures = study.setting(SETTING), study.end_diastolic_pressure
     hidden = hide_heart(study.cohort.heart, case.hidden, case.period, case.seed or 0)
@@ -78,15 +75,15 @@ def problem_of(study: Study, case: Case) -> Problem:
     if isinstance(true, str):
         raise RuntimeError(f"{case.case}: {true}")
     sd = np.array([study.sphere_study.noise[name] for name in true])
-    seen = np.array(list(true.values())) * (
+    observed_values = np.array(list(true.values())) * (
         1.0 + sd * np.random.default_rng(case.seed).standard_normal(len(sd))
     )
     prior = setting.gaussian()
-    return Problem(
-        Remembered(solid(study, setting, case, assign_activation(volunteer.mesh), features)),
+    return CalibrationProblem(
+        CachedForward(solid(study, setting, case, assign_activation(volunteer.mesh), features)),
         prior,
-        dict(zip(true, seen.tolist(), strict=True)),
-        np.diag(np.square(sd * seen)),
+        dict(zip(true, observed_values.tolist(), strict=True)),
+        np.diag(np.square(sd * observed_values)),
         np.log([volunteer.truth[name] for name in prior.names]),
     )
 
@@ -104,8 +101,8 @@ def solid(
         sys.stdout.write("." * len(parameters))
         sys.stdout.flush()
         beats = (
-            run_beat(mesh, setting, case.period, each, study.end_diastolic_pressure, study.numerics)
-            for each in parameters
+            run_beat(mesh, setting, case.period, entry, study.end_diastolic_pressure, study.numerics)
+            for entry in parameters
         )
         return list(observe_beats(beats, features))
 

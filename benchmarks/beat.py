@@ -18,19 +18,19 @@ import numpy as np
 from benchmarks.process import ask
 from benchmarks.ventricles import ROOT, mesh_file
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.heart import Heart
+from heartfit.heart.finite_elements.unloading import unload
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics, simulate
 from heartfit.io.configuration import read_study
 from heartfit.io.meshes import read_mesh
-from heartfit.mechanics.unloading import unload
-from heartfit.simulation import Numerics, simulate
-from heartfit.ventricles import ventricles
+from heartfit.personalise.run import ventricles
 
 PERIOD = 0.86  # s
-REPEATS, ENOUGH = 3, 30.0  # beats; s of CPU time after which there is no further one
+REPEATS, LONGEST = 3, 30.0  # beats; s of CPU time after which there is no further one
 
 
 def cost(name: str, setting: str, *reference: str) -> dict[str, float]:
-    """What :func:`main` says of a mesh, by name, in a process of its own."""
+    """Output of :func:`main` for a mesh by name, run in a process of its own."""
     return ask("-m", "benchmarks.beat", mesh_file(name), setting, *reference)
 
 
@@ -43,7 +43,7 @@ def main(mesh: str, setting: str, reference: str = "unloaded") -> None:
     free = unload(loaded, heart.tissue, loads) if reference == "unloaded" else loaded
     unloading, numerics = time.process_time() - begin, replace(study.numerics.numerics(), max_beats=1)
     beats = _repeated(lambda: _beat(heart, free, numerics))
-    median = beats[int(np.argsort([each["cpu_s"] for each in beats])[len(beats) // 2])]
+    median = beats[int(np.argsort([measured_beat["cpu_s"] for measured_beat in beats])[len(beats) // 2])]
     size = {"tetrahedra": len(free.tets), "nodes": len(free.points), "unloading_s": unloading}
     print(json.dumps(size | median | {"peak_mb": _peak_memory()}))
 
@@ -57,13 +57,13 @@ def _beat(heart: Heart, reference: VentricularMesh, numerics: Numerics) -> dict[
 
 def _repeated(work: Callable[[], dict[str, float]]) -> list[dict[str, float]]:
     results = [work()]
-    while len(results) < REPEATS and sum(each["cpu_s"] for each in results) < ENOUGH:
+    while len(results) < REPEATS and sum(measured_beat["cpu_s"] for measured_beat in results) < LONGEST:
         results.append(work())
     return results
 
 
 def _peak_memory() -> float:
-    """Of this process so far, MB; ru_maxrss, in bytes on macOS, counts on Linux what the parent had."""
+    """Peak memory of this process so far [MB]; ru_maxrss, in bytes on macOS, includes the parent's on Linux."""
     status = Path("/proc/self/status")
     if status.exists():
         (line,) = [line for line in status.read_text().splitlines() if line.startswith("VmHWM")]

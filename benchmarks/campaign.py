@@ -13,25 +13,21 @@ import numpy as np
 import pandas as pd
 import psutil
 import yaml
-from study import BRISK
 
 from benchmarks.campaign_page import Ran, campaign_page
 from benchmarks.ventricles import ROOT
-from heartfit.cli import main as heartfit
-from heartfit.cohort.draw_shape import draw_anatomy
-from heartfit.io.atomic import write_text
-from heartfit.io.benchmarks import read_benchmarks
-from heartfit.io.cases import read_cases
-from heartfit.io.configuration import read_study
-from heartfit.io.measured_costs import FOOTPRINTS, NEEDS, read_table
-from heartfit.io.plain_yaml import read_yaml
+from heartfit.cli.main import main as heartfit
+from heartfit.io.configuration import read_cases, read_study, read_yaml
+from heartfit.io.costs import FOOTPRINTS, NEEDS, read_benchmarks, read_table
+from heartfit.io.files import write_text
 from heartfit.io.tables import read_numbers
-from heartfit.planning.footprint import Footprint
-from heartfit.planning.forecast import Part, Subjects, forecast, whole
-from heartfit.planning.need import Need
-from heartfit.tables.joined import calibrated
+from heartfit.results.provenance import calibrated_cases
+from heartfit.study.forecast import Footprint, Part, Subjects, forecast, total_of
+from heartfit.study.need import Need
+from heartfit.synthetic.volunteer import draw_anatomy
+from study import BRISK
 
-FEW, MANY, IN_A_SHARD, CPUS = 5, 50, 25, 2
+SMALL, MANY, IN_A_SHARD, CPUS = 5, 50, 25, 2
 FOLDER = Path("results", "campaign")
 CONFIGURATION = (Path("config", "config.yaml"), Path("config", "tiny.yaml"))
 SETTING = "physical"
@@ -41,17 +37,19 @@ DRAWN = ("sigma_0", "mu", "c_1", "R_p")
 def main() -> int:
     """Run few, plan many, run many, and write the page."""
     shutil.rmtree(FOLDER, ignore_errors=True)
-    few = ran(configured("few", FEW))
-    print(f"{FEW} subjects took {few.wall:.0f} s", flush=True)
-    asked("costs", few.results, "--output", FOLDER / "costs")
+    few = ran(configured("few", SMALL))
+    print(f"{SMALL} subjects took {few.wall:.0f} s", flush=True)
+    run_heartfit("costs", few.results, "--output", FOLDER / "costs")
     many = configured("many", MANY)
-    asked("shards", "--config", *CONFIGURATION, many, "--size", IN_A_SHARD, "--output", FOLDER / "shards")
+    run_heartfit(
+        "shards", "--config", *CONFIGURATION, many, "--size", IN_A_SHARD, "--output", FOLDER / "shards"
+    )
     shards = sorted((FOLDER / "shards").glob("*.yaml"))
-    planned = [whole(forecast(*costs(), subjects(shard))) for shard in shards]
+    planned = [total_of(forecast(*costs(), subjects(shard))) for shard in shards]
     runs = [ran(shard) for shard in shards]
-    asked("join", *(run.results for run in runs), "--output", FOLDER / "joined")
-    joined = len(calibrated(read_numbers(FOLDER / "joined" / "numbers.csv")))
-    write_text(ROOT / "docs" / "campaign.md", campaign_page(few, planned, runs, joined, CPUS))
+    run_heartfit("join", *(run.results for run in runs), "--output", FOLDER / "joined")
+    merged = len(calibrated_cases(read_numbers(FOLDER / "joined" / "numbers.csv")))
+    write_text(ROOT / "docs" / "campaign.md", campaign_page(few, planned, runs, merged, CPUS))
     return 0
 
 
@@ -79,7 +77,7 @@ def subject(seed: int) -> dict[str, object]:
 
 
 def costs() -> tuple[list[Need], list[Footprint]]:
-    """What the few took and left."""
+    """Costs and files of the few subjects."""
     folder = FOLDER / "costs"
     return read_table(Need, folder / NEEDS), read_table(Footprint, folder / FOOTPRINTS)
 
@@ -91,7 +89,7 @@ def subjects(shard: Path) -> Subjects:
     return Subjects(len(cases), "virtual", 1, len(study.sigma_points(SETTING, cases[0])))
 
 
-def asked(*arguments: object) -> None:
+def run_heartfit(*arguments: object) -> None:
     """Carry out a command of heartfit; raises RuntimeError if it refuses."""
     if heartfit([*map(str, arguments)]):
         raise RuntimeError(f"heartfit {' '.join(map(str, arguments))} failed; what it said stands above")
@@ -122,7 +120,7 @@ def ran(file: Path) -> Ran:
     if process.returncode:
         raise RuntimeError(f"{file}: Snakemake ended with {process.returncode}")
     jobs = read_benchmarks(results / "benchmarks")
-    files = [each.stat().st_size for each in results.rglob("*") if each.is_file()]
+    files = [path.stat().st_size for path in results.rglob("*") if path.is_file()]
     part = Part("all", len(jobs), sum(job.wall for job in jobs), len(files), sum(files) / 1e6)
     return Ran(results, part, time.monotonic() - begin, own)
 

@@ -4,28 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from heartfit.planning.forecast import Part, whole
+from heartfit.core.pages import render_page
+from heartfit.study.forecast import Part, total_of
 
-HEADER = """# Fifty subjects, planned and run
-
-Written by `python -m benchmarks.campaign`. A study of a few coarse virtual hearts (`config/tiny.yaml`, anatomies drawn
-from normal values) is run, `heartfit costs` measures what its jobs took, `heartfit shards` splits many into {shards}
-studies of their own, the reference case in each, each is run on {cpus} CPUs, and `heartfit join` puts their numbers
-together: {joined} cases in one table. The forecast, which is that of `heartfit plan`, was made before the run.
-
-| of all shards | planned | run | run / planned |
-|---|---|---|---|
-"""
-OWN = """
-## Snakemake's own time
-
-| graph | jobs | min | Snakemake's CPU s | of the time on the wall | of the CPUs' time |
-|---|---|---|---|---|---|
-"""
-FOOTER = """
-Jobs of such coarse hearts take {mean:.1f} s, those of the study's meshes 10 s: there the same graph would take
-{share:.1f} % of the CPUs' time. [On a cluster](cluster.md) has the plan for thousands.
-"""
 STUDY_S = 10.0
 """Seconds of a mean job of the whole study, docs/cluster.md."""
 
@@ -40,21 +21,27 @@ class Ran:
     own: float
 
 
-def campaign_page(few: Ran, planned: Sequence[Part], runs: Sequence[Ran], joined: int, cpus: int) -> str:
-    """What was planned beside what was run, and what Snakemake took for itself."""
-    wanted, found = whole(planned), whole([run.part for run in runs])
+def campaign_page(few: Ran, planned: Sequence[Part], runs: Sequence[Ran], merged: int, cpus: int) -> str:
+    """Planned beside measured figures, and the time that Snakemake took for itself."""
+    wanted, measured = total_of(planned), total_of([run.part for run in runs])
     rows = [
-        ("jobs", wanted.jobs, found.jobs),
-        ("CPU h of jobs", wanted.seconds / 3600.0, found.seconds / 3600.0),
-        ("files", wanted.files, found.files),
-        ("MB", wanted.megabytes, found.megabytes),
+        ("jobs", wanted.jobs, measured.jobs),
+        ("CPU h of jobs", wanted.seconds / 3600.0, measured.seconds / 3600.0),
+        ("files", wanted.files, measured.files),
+        ("MB", wanted.megabytes, measured.megabytes),
     ]
     table = "".join(f"| {name} | {a:.4g} | {b:.4g} | {b / a:.3f} |\n" for name, a, b in rows)
     own = "".join(_own(run, cpus) for run in (few, *runs))
-    header = HEADER.format(shards=len(runs), cpus=cpus, joined=joined)
-    mean = found.seconds / found.jobs
-    share = 100.0 * sum(run.own for run in runs) / found.jobs / STUDY_S
-    return header + table + OWN + own + FOOTER.format(mean=mean, share=share)
+    return render_page(
+        "campaign",
+        shards=len(runs),
+        cpus=cpus,
+        joined=merged,
+        table=table,
+        own=own,
+        mean=measured.seconds / measured.jobs,
+        share=100.0 * sum(run.own for run in runs) / measured.jobs / STUDY_S,
+    )
 
 
 def _own(run: Ran, cpus: int) -> str:

@@ -7,11 +7,10 @@ import numpy as np
 
 from benchmarks.beat import PERIOD
 from benchmarks.ventricles import ROOT, mesh_file
-from heartfit.io.atomic import write_text
 from heartfit.io.configuration import read_study
+from heartfit.io.files import write_text
 from heartfit.io.meshes import read_mesh
-from heartfit.verification.convergence_of_beat import Row, rows_of
-from heartfit.verification.convergence_of_beat_page import convergence_page
+from verification.convergence_of_beat import Row, convergence_page, rows_of
 
 MESHES = ("3k", "6k", "10k", "30k")
 
@@ -20,11 +19,11 @@ def main() -> None:
     study = read_study([ROOT / "config" / "config.yaml"])
     heart = study.setting("physical").base_heart(PERIOD)
     loads = np.array([study.end_diastolic_pressure.lv, study.end_diastolic_pressure.rv])
-    rows = said(rows_of(heart, (read_mesh(mesh_file(name)) for name in MESHES), loads))
+    rows = announced(rows_of(heart, (read_mesh(mesh_file(name)) for name in MESHES), loads))
     write_text(ROOT / "docs" / "convergence.md", convergence_page(list(rows)))
 
 
-def said(rows: Iterator[Row]) -> Iterator[Row]:
+def announced(rows: Iterator[Row]) -> Iterator[Row]:
     """The rows, each said as it comes."""
     for row in rows:
         sys.stdout.write(f"{row.size.tetrahedra} tetrahedra, {row.scheme}, {1e3 * row.time_step:g} ms\n")

@@ -16,7 +16,7 @@ class Figure:
 
     @property
     def met(self) -> bool:
-        """Whether it is; a number that is none is not."""
+        """Return True if the target is met; NaN is not."""
         return self.measured >= self.target if self.at_least else self.measured <= self.target
 
     def row(self) -> str:

@@ -1,4 +1,4 @@
-"""How a cost grows with the size of the mesh."""
+"""Growth of a cost with the size of the mesh."""
 
 import numpy as np
 from numpy.typing import ArrayLike

@@ -1,4 +1,4 @@
-"""What one job of `heartfit simulate` takes beside the beat: start of the process, imports, kernels, files."""
+"""Cost of one job of `heartfit simulate` beside the beat: start of the process, imports, kernels, files."""
 
 import json
 import sys
@@ -14,7 +14,7 @@ from benchmarks.ventricles import ROOT, mesh_file
 
 REPEATS = 5
 ONE_BEAT = "numerics: {max_beats: 1}\n"
-COMMAND = "import sys; from heartfit.cli import main; sys.exit(main())"
+COMMAND = "import sys; from heartfit.cli.main import main; sys.exit(main())"
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Job:
 
 
 def job(name: str, setting: str) -> Job:
-    """Of one beat on a mesh that is taken as stress-free; the kernels have been compiled."""
+    """Cost of one beat on a mesh that is taken as stress-free; the kernels have been compiled."""
     with TemporaryDirectory() as folder:
         one_beat = Path(folder, "one_beat.yaml")
         one_beat.write_text(ONE_BEAT)
@@ -41,12 +41,14 @@ def job(name: str, setting: str) -> Job:
         how = ("--setting", setting, "--period", str(PERIOD), "--unloaded")
         command = (sys.executable, "-c", COMMAND, "simulate", mesh_file(name), *how, *files)
         runs = [run(*command) for _ in range(REPEATS + 1)][1:]
-    cpu, wall = (float(np.median([getattr(each, what) for each in runs])) for what in ("cpu", "wall"))
+    cpu, wall = (
+        float(np.median([getattr(measured_run, what) for measured_run in runs])) for what in ("cpu", "wall")
+    )
     return Job(cpu, wall, cost(name, setting, "as it is")["cpu_s"], _snakemake_preamble())
 
 
 def _snakemake_preamble() -> float:
-    """What Snakemake adds to a script, CPU s: the module its first line imports."""
+    """Time that Snakemake adds to a script [CPU s]: the module that its first line imports."""
     costs = [
         np.median([run(sys.executable, "-c", line).cpu for _ in range(REPEATS)])
         for line in ("pass", "from snakemake import script")

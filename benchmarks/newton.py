@@ -12,7 +12,7 @@ from benchmarks.ventricles import FOLDER, ROOT, mesh_file
 from heartfit.io.meshes import read_mesh
 
 PEERS = ("scikit_fem", "ngsolve")
-SAME = {"residual": 1e-9, "tangent": 1e-6}
+TOLERANCES = {"residual": 1e-9, "tangent": 1e-6}
 """Largest relative differences; ours of the tangent comes from differences of forces."""
 
 
@@ -40,19 +40,21 @@ def newton_steps(mesh: str, element: str) -> list[Newton]:
     wall = read_mesh(mesh_file(mesh))
     write_problem(problem, wall, element)
     unknowns = len(wall.points) * (4 if element == "mixed" else 3)
-    said = [ask("-m", "benchmarks.newton", mesh_file(mesh), element)]
-    said += [ask(ROOT / "benchmarks/peers" / f"{peer}_newton.py", problem, python=PYTHON) for peer in PEERS]
-    steps = [Newton(mesh, element, unknowns=unknowns, **each) for each in said]
+    answers = [ask("-m", "benchmarks.newton", mesh_file(mesh), element)]
+    answers += [
+        ask(ROOT / "benchmarks/peers" / f"{peer}_newton.py", problem, python=PYTHON) for peer in PEERS
+    ]
+    steps = [Newton(mesh, element, unknowns=unknowns, **answer) for answer in answers]
     for step in steps[1:]:
         _require_same(step)
     return steps
 
 
 def _require_same(step: Newton) -> None:
-    if not all(step.defects[name] < largest for name, largest in SAME.items()):
+    if not all(step.defects[name] < largest for name, largest in TOLERANCES.items()):
         raise RuntimeError(
             f"{step.solver}, {step.mesh}, {step.element}: differs by {step.defects} relative to ours; "
-            f"expected below {SAME}: not the same problem"
+            f"expected below {TOLERANCES}: not the same problem"
         )
 
 

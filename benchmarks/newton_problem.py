@@ -5,7 +5,7 @@ energy
 
 .. math:: W = c_1 (\bar I_1 - 3) + c_2 (\bar I_2 - 3) + \tfrac\sigma2 (f \cdot C f - 1) + U(J)
 
-with U of the element (see heartfit.mechanics.elements), tangent, factors and solution, at a deformed state with
+with U of the element (see elements.py), tangent, factors and solution, at a deformed state with
 strains of some 10 % that is not an equilibrium.
 """
 
@@ -15,10 +15,10 @@ from pathlib import Path
 import numpy as np
 
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.mechanics.body import FiniteElementBody, Step, Tissue
-from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
-from heartfit.mechanics.support import Support
-from heartfit.verification.block import ConstantTension
+from heartfit.heart.finite_elements.body import FiniteElementBody, Step, Tissue
+from heartfit.heart.muscle.passive import MooneyRivlin
+from heartfit.heart.muscle.tissue import Support
+from verification.block import ConstantTension
 
 TENSION = 30e3  # Pa
 HOLD = 1e7
@@ -62,7 +62,7 @@ def step_of(mesh: VentricularMesh, element: str) -> tuple[Step, np.ndarray]:
     active = ConstantTension(tension_of_fibres=TENSION)
     mesh = replace(mesh, orientation=None)
     body = FiniteElementBody(mesh, Tissue(MooneyRivlin(), active, support=HeldBase(), element=element))
-    return body.endless_step(body.rest()), state(mesh, body.element.dofs)
+    return body.static_step(body.rest()), state(mesh, body.element.dofs)
 
 
 def write_problem(path: Path, mesh: VentricularMesh, element: str) -> None:

@@ -30,14 +30,14 @@ def run(*command: str | Path) -> Run:
     """Run a program in the project's folder; raises CalledProcessError if it fails."""
     environment = os.environ | {f"{library}_NUM_THREADS": "1" for library in THREADS}
     before, begin = _children(), time.monotonic()
-    done = subprocess.run(
+    process = subprocess.run(
         list(map(str, command)), cwd=ROOT, env=environment, check=True, capture_output=True, text=True
     )
-    return Run(_children() - before, time.monotonic() - begin, done.stdout)
+    return Run(_children() - before, time.monotonic() - begin, process.stdout)
 
 
 def ask(*arguments: str | Path, python: Path | str = sys.executable) -> dict[str, Any]:
-    """What a Python program says as JSON in its last line."""
+    """JSON in the last line that a Python program prints."""
     return json.loads(run(python, *arguments).printed.splitlines()[-1])
 
 

@@ -9,32 +9,32 @@ import numpy as np
 from benchmarks.figure import Figure
 from benchmarks.process import PYTHON, ask, install_peers
 from benchmarks.ventricles import ROOT
-from heartfit.beat import Beat
-from heartfit.geometry.arrays import Floats
-from heartfit.heart import Heart
-from heartfit.mechanics.sphere import ACTIVATION, Sphere
-from heartfit.simulation import Numerics
-from heartfit.sphere.simulation import simulate_spheres
-from heartfit.verification.physioblocks import departure, reference_beat
+from heartfit.core.arrays import Floats
+from heartfit.heart.beat import Beat
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics
+from heartfit.heart.sphere.body import HEALTHY_ACTIVATION, Sphere
+from heartfit.heart.sphere.simulation import simulate_spheres
+from verification.physioblocks import departure, reference_beat
 
-LEFT, RIGHT = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
+LEFT, RIGHT = Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6)
 CASES = {
     "left ventricle, 1 fibre class": ([LEFT], np.array([0.03])),
-    "left ventricle, 8 fibre classes": ([LEFT], ACTIVATION),
-    "both ventricles, 8 fibre classes each": ([LEFT, RIGHT], ACTIVATION),
+    "left ventricle, 8 fibre classes": ([LEFT], HEALTHY_ACTIVATION),
+    "both ventricles, 8 fibre classes each": ([LEFT, RIGHT], HEALTHY_ACTIVATION),
 }
-REPEATS, FEW, MANY = 100, 5, 25
+REPEATS, SMALL, MANY = 100, 5, 25
 THEIRS = "PhysioBlocks, reference case of 1000 steps a beat"
 OURS = "ours, the same case"
-SAME = 0.02
+TOLERANCE = 0.02
 """Largest relative L2 departure of volume and pressure; the tests hold their rates to it too."""
 
 
 def cost(run: Callable[[int], Beat]) -> tuple[float, float]:
     """CPU s of a beat more in a run, and of what a run takes beside its beats: medians, kernels compiled."""
-    few, many = (_median(lambda n=n: run(n)) for n in (FEW, MANY))
-    beat = (many - few) / (MANY - FEW)
-    return beat, few - FEW * beat
+    few, many = (_median(lambda n=n: run(n)) for n in (SMALL, MANY))
+    beat = (many - few) / (MANY - SMALL)
+    return beat, few - SMALL * beat
 
 
 def _median(work: Callable[[], Beat]) -> float:
@@ -57,9 +57,9 @@ def costs() -> dict[str, tuple[float, float]]:
     """CPU s of a beat and beside the beats, by case; PhysioBlocks has one number."""
     ours = {name: cost(lambda n, case=case: standard(*case, n)) for name, case in CASES.items()}
     theirs = physioblocks()
-    apart = departures(theirs, reference_beat())
-    if max(apart.values()) > SAME:
-        raise RuntimeError(f"ours and theirs are not the same case: they depart by {apart}")
+    differences = departures(theirs, reference_beat())
+    if max(differences.values()) > TOLERANCE:
+        raise RuntimeError(f"ours and theirs are not the same case: they depart by {differences}")
     return ours | {
         OURS: cost(lambda n: reference_beat(beats=n, drift=0.0)),
         THEIRS: (theirs["cpu_s_a_beat"], 0.0),
@@ -93,9 +93,9 @@ def rows(measured: dict[str, tuple[float, float]]) -> list[tuple[str, str, str]]
 
 if __name__ == "__main__":
     install_peers()
-    found = costs()
+    figures_of_cost = costs()
     for row in (
-        *rows(found),
-        *((each.name, f"{each.measured:.3g} {each.unit}", "") for each in figures(found)),
+        *rows(figures_of_cost),
+        *((figure.name, f"{figure.measured:.3g} {figure.unit}", "") for figure in figures(figures_of_cost)),
     ):
         print("{:<55} {:>14} {:>8}".format(*row))

@@ -1,4 +1,4 @@
-"""What is asked of the figures, and what was tried where they miss it."""
+"""Targets of the figures, and attempts where a target is missed."""
 
 from collections.abc import Sequence
 

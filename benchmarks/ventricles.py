@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from heartfit.electrophysiology.onset import assign_activation
+from heartfit.geometry.fibres import prepare
 from heartfit.geometry.mesher import fill_wall
 from heartfit.geometry.parametric import ParametricVentricles
-from heartfit.geometry.prepare import prepare
+from heartfit.heart.activation.conduction import assign_activation
 from heartfit.io.meshes import read_mesh, write_mesh
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -32,5 +32,5 @@ def mesh_file(name: str) -> Path:
 
 
 def tetrahedra(name: str) -> int:
-    """How many there are in a mesh."""
+    """Number of tetrahedra in a mesh."""
     return len(read_mesh(mesh_file(name)).tets)

@@ -30,5 +30,8 @@ autodoc_preserve_defaults = True
 
 # types of other libraries have no pages here, and none is fetched; type variables, private names and
 # aliases have no page at all
-nitpick_ignore_regex = [("py:.*", r"(?!heartfit\b).*"), ("py:class", r"heartfit\..*\.(_\w+|[A-Z]|Value|Row)")]
+nitpick_ignore_regex = [
+    ("py:.*", r"(?!heartfit\b).*"),
+    ("py:class", r"heartfit\..*\.(_\w+|[A-Z]|Place|Value|Row)"),
+]
 suppress_warnings = ["ref.python"]  # "slice" is a type, and the name of two fields

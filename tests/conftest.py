@@ -1,4 +1,4 @@
-"""What tests of more than one folder share."""
+"""Fixtures and markers that tests of several folders share."""
 
 from pathlib import Path
 
@@ -7,11 +7,11 @@ import pytest
 from hypothesis import settings
 
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.heart import Heart
-from heartfit.mechanics.body import FiniteElementBody, Tissue
-from heartfit.mechanics.sphere import Sphere, SphericalBody
-from heartfit.mechanics.unloading import unload
-from heartfit.verification.specimen import COARSE, specimen
+from heartfit.heart.finite_elements.body import FiniteElementBody, Tissue
+from heartfit.heart.finite_elements.unloading import unload
+from heartfit.heart.heart import Heart
+from heartfit.heart.sphere.body import Sphere, SphericalBody
+from verification.specimen import COARSE, specimen
 
 settings.register_profile(
     "shared machine", deadline=None
@@ -51,30 +51,30 @@ def spherical_heart() -> Heart:
 @pytest.fixture(scope="session")
 def spheres(spherical_heart: Heart) -> SphericalBody:
     """Ventricles of two spheres, which beat in a second."""
-    left, right = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
+    left, right = Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6)
     return SphericalBody(left, right, spherical_heart.tissue)
 
 
-def _folder(places: tuple[str, ...], holds: str) -> Path | None:
-    """The first of the places that holds a file or folder; a fetched licence alone is not enough."""
+def _first_folder(places: tuple[str, ...], content: str) -> Path | None:
+    """Return the first of the places with that content; a fetched licence alone is not enough."""
     root = Path(__file__).parents[1]
-    return next((root / place for place in places if (root / place / holds).exists()), None)
+    return next((root / place for place in places if (root / place / content).exists()), None)
 
 
-NEEDED = {"measured": (MEASURED_HEART, "template"), "physioblocks": (PHYSIOBLOCKS, LAST_CYCLE)}
-"""What tests with a marker need, by marker: places where it may lie, and what lies there."""
+REQUIRED_DATA = {"measured": (MEASURED_HEART, "template"), "physioblocks": (PHYSIOBLOCKS, LAST_CYCLE)}
+"""Data that tests with a marker need, by marker: possible folders, and a file in them."""
 
 
 @pytest.fixture(scope="session")
 def measured_heart_folder() -> Path:
-    folder = _folder(*NEEDED["measured"])
+    folder = _first_folder(*REQUIRED_DATA["measured"])
     assert folder is not None, "a test that needs the measured heart must carry the marker `measured`"
     return folder
 
 
 @pytest.fixture(scope="session")
 def physioblocks_cycle() -> Path:
-    folder = _folder(*NEEDED["physioblocks"])
+    folder = _first_folder(*REQUIRED_DATA["physioblocks"])
     assert folder is not None, (
         "a test that needs the cycle of PhysioBlocks must carry the marker `physioblocks`"
     )
@@ -82,9 +82,9 @@ def physioblocks_cycle() -> Path:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Without the data, what needs it is deselected, and the summary says why."""
+    """Deselect tests whose data is missing; the summary gives the reason."""
     config.stash[DESELECTED] = {}
-    for marker in (marker for marker, needed in NEEDED.items() if _folder(*needed) is None):
+    for marker in (marker for marker, data in REQUIRED_DATA.items() if _first_folder(*data) is None):
         needing = [item for item in items if item.get_closest_marker(marker)]
         items[:] = [item for item in items if item not in needing]
         config.hook.pytest_deselected(items=needing)
@@ -94,7 +94,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
     for marker, count in config.stash.get(DESELECTED, {}).items():
         if count:
-            places = ", ".join(NEEDED[marker][0])
+            places = ", ".join(REQUIRED_DATA[marker][0])
             terminalreporter.write_line(
                 f"{count} tests `{marker}` deselected: their data is in none of {places}"
             )

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.mechanism import registry
+from heartfit.roles import registry
 
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", ROOT / "config" / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -31,12 +31,22 @@ def anchors(page):
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_links_lead_somewhere(page):
+def dead_links(page):
+    """Relative links of a page whose file or heading does not exist."""
     for link, anchor in re.findall(r"\]\((?!https?:)([^)#]*)#?([^)]*)\)", page.read_text()):
         target = page.parent / link if link else page
-        assert target.exists(), link
-        assert not anchor or anchor in anchors(target), anchor
+        if not target.exists() or (anchor and anchor not in anchors(target)):
+            yield f"{page.name}: {link}#{anchor}"
+
+
+def test_every_link_leads_to_a_file_and_a_heading():
+    assert [link for page in PAGES for link in dead_links(page)] == []
+
+
+def test_dead_links_are_listed(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text("# One\n\n[a](page.md#one) [b](page.md#two) [c](nowhere.md) [d](#one) [e](#three)\n")
+    assert list(dead_links(page)) == ["page.md: page.md#two", "page.md: nowhere.md#", "page.md: #three"]
 
 
 def test_every_page_stands_in_the_index_once():
@@ -46,7 +56,15 @@ def test_every_page_stands_in_the_index_once():
     assert sorted(listed) == sorted(pages | {"decisions/README.md"})
 
 
-def test_the_readme_gives_the_commands_that_ci_runs():
-    readme, ci = (ROOT / "README.md").read_text(), (ROOT / ".ci" / "run").read_text()
-    assert "\npython3 study.py\npython3 study.py test\n" in readme
-    assert "step python3 study.py test\n" in ci
+def commands_of_study(text):
+    """Commands of study.py that start a line of a text, with `run` where none is named."""
+    return {
+        command or "run" for command in re.findall(r"^(?:step )?python3 study\.py ?(\w*)", text, re.MULTILINE)
+    }
+
+
+def test_the_readme_and_ci_give_commands_that_exist_and_both_run_the_tests():
+    known = set(re.findall(r'^    "(\w+)": \w+,$', (ROOT / "study.py").read_text(), re.MULTILINE))
+    readme, ci = (commands_of_study((ROOT / name).read_text()) for name in ("README.md", ".ci/run"))
+    assert {"run", "test"} <= readme & ci
+    assert (readme | ci) - known == set()

@@ -17,8 +17,10 @@ TREES = [
 ]
 CONFIGURATION = [
     ast.parse(file.read_text(encoding="utf-8"))
-    for file in sorted((ROOT / "src" / "heartfit" / "configuration").rglob("*.py"))
+    for room in ("study", "personalise")
+    for file in sorted((ROOT / "src" / "heartfit" / room).rglob("*.py"))
 ]
+"""The rooms whose pydantic validators raise ValueError, which the user reads as InputError."""
 
 
 def written(node: ast.AST) -> str:

@@ -1,4 +1,4 @@
-"""What every mechanism of the folder promises: one switch that turns it off, and its role kept."""
+"""Contracts of all mechanisms of the folder: one switch that turns it off, and the rules of its role."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -6,13 +6,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
+from heartfit.core.parameter import parameter, parameters_of
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.heart import Heart
-from heartfit.mechanics.body import FiniteElementBody
-from heartfit.mechanics.sphere import Sphere, SphericalBody
-from heartfit.mechanics.time_step import TimeStep
-from heartfit.mechanism import (
+from heartfit.heart.finite_elements.body import FiniteElementBody
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics, simulate
+from heartfit.heart.sphere.body import Sphere, SphericalBody
+from heartfit.heart.sphere.simulation import simulate_spheres
+from heartfit.heart.time_step import TimeStep
+from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+from heartfit.mechanisms.scar import Scar
+from heartfit.roles import (
     Amendment,
     Availability,
     Delay,
@@ -27,16 +32,11 @@ from heartfit.mechanism import (
     mechanism,
     registered,
 )
-from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
-from heartfit.mechanisms.scar import Scar
-from heartfit.parameter import parameter, parameters_of
-from heartfit.simulation import Numerics, simulate
-from heartfit.sphere.simulation import simulate_spheres
 
 PERIOD = 0.829
 SANGUINE = (Flow, Narrowing, Pressure, External)
 MUSCULAR = (Amendment, Availability, Delay, Relaxation, Stress)
-LEFT = Sphere.of(80e-6, 130e-6)
+LEFT = Sphere.from_volumes(80e-6, 130e-6)
 ONE_BEAT = Numerics(time_step=0.01, max_beats=1)
 KINDS = registered()
 IN_THE_BLOOD = {name: kind for name, kind in KINDS.items() if issubclass(kind, SANGUINE)}
@@ -44,7 +44,7 @@ MUSCLES = {name: kind for name, kind in KINDS.items() if issubclass(kind, MUSCUL
 SENSORS = {name: kind for name, kind in KINDS.items() if issubclass(kind, Sensor)}
 
 
-def each(kinds: dict[str, type[Mechanism]]) -> pytest.MarkDecorator:
+def parametrize_kinds(kinds: dict[str, type[Mechanism]]) -> pytest.MarkDecorator:
     return pytest.mark.parametrize("kind", kinds.values(), ids=kinds.keys())
 
 
@@ -53,7 +53,7 @@ def test_the_folder_is_the_registry() -> None:
     assert KINDS.keys() == IN_THE_BLOOD.keys() | MUSCLES.keys() | SENSORS.keys()
 
 
-@each(KINDS)
+@parametrize_kinds(KINDS)
 def test_one_switch_turns_it_off(kind: type[Mechanism]) -> None:
     assert sum(declared.off is not None for declared in parameters_of(kind)) == 1
     off = {declared.name: declared.value for declared in parameters_of(kind().turned_off())}
@@ -61,7 +61,7 @@ def test_one_switch_turns_it_off(kind: type[Mechanism]) -> None:
     assert kind().turned_off() != kind()
 
 
-@each(KINDS)
+@parametrize_kinds(KINDS)
 def test_a_search_knows_its_size(kind: type[Mechanism]) -> None:
     """One to two scales are an admissible mechanism."""
     switch = kind.switch()
@@ -72,22 +72,22 @@ def test_a_search_knows_its_size(kind: type[Mechanism]) -> None:
 
 
 def forces(body: FiniteElementBody | SphericalBody, x: np.ndarray) -> np.ndarray:
-    """Internal forces of a body that is moved to and fro by ``x`` once in a period, in 20 steps."""
+    """Internal forces of a body that oscillates by ``x`` once in a period, in 20 steps."""
     state, result = body.rest(), []
     for n in range(20):
         step = body.step(
             state, TimeStep(n * PERIOD / 20, PERIOD / 20, PERIOD, True, PERIOD / 20 if n else None)
         )
-        moved = np.sin(2.0 * np.pi * (n + 1) / 20) * x
-        result.append(step.forces(moved))
-        state = step.commit(moved)
+        displaced = np.sin(2.0 * np.pi * (n + 1) / 20) * x
+        result.append(step.forces(displaced))
+        state = step.commit(displaced)
     return np.array(result)
 
 
 def bodies_of(
     hearts: list[Heart], mesh: VentricularMesh
 ) -> Iterator[tuple[list[FiniteElementBody] | list[SphericalBody], np.ndarray]]:
-    """Meshes and spheres made of the muscle of the hearts, and how they are moved."""
+    """Meshes and spheres made of the muscle of the hearts, and the displacements imposed on them."""
     turn = np.array([[0.0, 0.1, 0.05], [0.05, 0.0, 0.1], [0.1, 0.05, 0.0]])
     x = np.zeros((len(mesh.points), 4))
     x[:, :3] = (mesh.points - mesh.points.mean(axis=0)) @ turn
@@ -95,7 +95,7 @@ def bodies_of(
     yield [SphericalBody(LEFT, LEFT, heart.muscle) for heart in hearts], np.full((2, 1), 4e-3)
 
 
-@each(MUSCLES)
+@parametrize_kinds(MUSCLES)
 def test_muscle_that_is_switched_off_is_the_same_muscle(
     kind: type[Mechanism], spherical_heart: Heart, ventricle: VentricularMesh
 ) -> None:
@@ -111,44 +111,44 @@ def test_muscle_that_is_switched_off_is_the_same_muscle(
     assert abs(curves[2] - curves[0]).max() > 1e-7
 
 
-@each({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Availability)})
+@parametrize_kinds({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Availability)})
 def test_lost_bridges_are_a_share_and_the_remote_region_keeps_its_own(kind: type[Availability]) -> None:
-    lost = kind().lost()
+    lost = kind().lost_share()
     assert lost.shape == (18,)
     assert ((lost >= 0.0) & (lost <= 1.0)).all()
     assert lost[0] == lost.min() == 0.0 < lost.max()
 
 
-@each({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Delay)})
+@parametrize_kinds({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Delay)})
 def test_a_delay_never_hastens_and_leaves_the_earliest_region(kind: type[Delay]) -> None:
     delay = kind().delay()
     assert delay.shape == (18,)
     assert delay[0] == delay.min() == 0.0 < delay.max()
 
 
-@each({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Relaxation)})
+@parametrize_kinds({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Relaxation)})
 def test_a_tail_slows_relaxation_and_never_reverses_it(kind: type[Relaxation]) -> None:
     time = np.linspace(0.0, 0.8, 1601)
-    share = np.diff(kind().missing(time)) / np.diff(time)
-    assert kind().missing(np.zeros(1)) == 0.0
+    share = np.diff(kind().missing_integral(time)) / np.diff(time)
+    assert kind().missing_integral(np.zeros(1)) == 0.0
     assert ((share >= 0.0) & (share < 1.0)).all()
     assert share.any()
 
 
-@each({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Amendment)})
+@parametrize_kinds({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Amendment)})
 def test_an_amendment_is_of_a_declared_constant(kind: type[Amendment], spherical_heart: Heart) -> None:
     value = spherical_heart.parameters()[f"tissue.{kind.amends}"]
-    assert kind().turned_off().amended(value, PERIOD) == value
+    assert kind().turned_off().amend(value, PERIOD) == value
     amended = (spherical_heart + kind()).muscle
     for name in kind.amends.split("."):
         amended = getattr(amended, name)
-    assert amended == kind().amended(value, PERIOD) != value
+    assert amended == kind().amend(value, PERIOD) != value
 
 
 def test_a_body_without_the_mechanisms_of_the_heart_is_refused(
     spherical_heart: Heart, spheres: SphericalBody
 ) -> None:
-    with pytest.raises(InputError, match="the ventricles lack mechanisms of the heart"):
+    with pytest.raises(InputError, match=r"body.*mechanisms"):
         simulate(spherical_heart + Scar(), spheres, ONE_BEAT)
 
 
@@ -158,8 +158,8 @@ def sampled() -> tuple[np.ndarray, np.ndarray]:
     return np.arange(166) * PERIOD / 166 - 0.1733, 1e4 * (1.0 + np.random.default_rng(5).random(166))
 
 
-@each(SENSORS)
-def test_a_sensor_that_is_off_shows_what_is_there(
+@parametrize_kinds(SENSORS)
+def test_a_sensor_that_is_off_changes_nothing(
     kind: type[Sensor], sampled: tuple[np.ndarray, np.ndarray]
 ) -> None:
     times, values = sampled
@@ -167,11 +167,11 @@ def test_a_sensor_that_is_off_shows_what_is_there(
     assert abs(kind().distort(times, values, PERIOD) - values).max() > 1e-2 * np.ptp(values)
 
 
-@each(SENSORS)
+@parametrize_kinds(SENSORS)
 def test_a_sensor_has_no_other_zero_than_its_curve(
     kind: type[Sensor], sampled: tuple[np.ndarray, np.ndarray]
 ) -> None:
-    """Instruments are linear but for a constant: what is added to the whole curve is added to what they show."""
+    """Instruments are linear but for a constant: an offset of the whole curve is an offset of the recorded one."""
     times, values = sampled
     shown, raised = (kind().distort(times, curve, PERIOD) for curve in (values, values + 3e3))
     assert raised - shown == pytest.approx(np.full(166, 3e3), rel=1e-9)
@@ -190,15 +190,13 @@ def test_the_heart_does_not_feel_its_sensors(spherical_heart: Heart, spheres: Sp
 
 
 def test_a_mechanism_without_role_or_with_a_taken_name_is_refused() -> None:
-    with pytest.raises(
-        TypeError, match=r"Stray plays no role: derive it from one of \['Amendment', .*'Flow', .*'Sensor'\]"
-    ):
+    with pytest.raises(TypeError, match=r"Stray.*\['Amendment', .*'Flow', .*'Sensor'\]"):
 
         @mechanism
         class Stray(Mechanism):
             pass
 
-    with pytest.raises(TypeError, match="MitralRegurgitation is registered twice"):
+    with pytest.raises(TypeError, match=r"MitralRegurgitation.*registered"):
         mechanism(type("MitralRegurgitation", (MitralRegurgitation,), {}))
 
 
@@ -207,6 +205,6 @@ def test_a_mechanism_without_switch_is_refused() -> None:
     class Constant(Pressure):
         height: float = parameter(1.0, unit="Pa", symbol="h", meaning="height")
 
-    with pytest.raises(TypeError, match="Constant declares 0 parameters with an off value: expected one"):
+    with pytest.raises(TypeError, match=r"Constant.*\b0\b"):
         mechanism(Constant)
     assert "Constant" not in registered()

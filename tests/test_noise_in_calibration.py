@@ -11,23 +11,20 @@ import pytest
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import Posterior, calibrate
-from heartfit.heart import Heart
-from heartfit.mechanics.sphere import Sphere
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics
+from heartfit.heart.sphere.body import Sphere
+from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.observation.beat import beat_curves
-from heartfit.observation.coverage import Share
 from heartfit.observation.curve import Curve
 from heartfit.observation.measurement import observe_measured
-from heartfit.observation.noise_model import NoiseModel
-from heartfit.observation.operator import VolumeFeatures
-from heartfit.observation.pair import Pair, Reading
-from heartfit.observation.vector import observe
-from heartfit.simulation import Numerics
-from heartfit.sphere.simulation import simulate_spheres
+from heartfit.observation.noise_model import NoiseModel, Share
+from heartfit.observation.operator import Pair, Reading, VolumeFeatures, observe
 
 FEATURES = {"lv_volume": VolumeFeatures(25)}
-SPHERES = (Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6))
+SPHERES = (Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6))
 NUMERICS = Numerics(time_step=5e-3, max_beats=12, drift=1e-4)
-PRIOR = Gaussian.of_relative(
+PRIOR = Gaussian.from_relative(
     {"sigma_0": 150e3, "mu": 7e3, "c_1": 2.5e3, "R_p": 1.14e8},
     {"sigma_0": 0.2, "mu": 0.2, "c_1": 0.25, "R_p": 0.2},
 )
@@ -44,7 +41,7 @@ def imaged(beat: Curve, rng: np.random.Generator) -> Pair:
     true = beat.resampled(25)
     seen = true.values[0] - (0.85 - 0.04 * rng.standard_normal()) * (true.values[0] - true.values)
     measured = Curve(true.times, seen + 0.7e-6 * rng.standard_normal(25), true.period)
-    return Pair(*(Reading.of({"lv_volume": curve}, FEATURES) for curve in (true, measured)))
+    return Pair(*(Reading.from_curves({"lv_volume": curve}, FEATURES) for curve in (true, measured)))
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +51,7 @@ def errors() -> Callable[[bool], tuple[np.ndarray, np.ndarray]]:
     truths = rng.multivariate_normal(PRIOR.mean, PRIOR.covariance, MADE_OF + TRIED)
     pairs = [imaged(volume(truth), rng) for truth in truths]
     outcomes = [observe({"lv_volume": volume(point.z)}, FEATURES) for point in sigma_points(PRIOR)]
-    model = NoiseModel.of(pairs[:MADE_OF], {})
+    model = NoiseModel.from_pairs(pairs[:MADE_OF], {})
 
     def posterior(pair: Pair, known: bool) -> Posterior:
         if not known:
@@ -80,6 +77,6 @@ def test_a_noise_model_keeps_missing_motion_from_being_taken_for_weak_muscle(err
 def test_with_a_noise_model_the_posterior_holds_the_truth(errors: Callable) -> None:
     """Of each parameter: 95 % is not refuted by 60 hearts; without the model it is, for the contractility."""
     inside = {known: (np.abs(errors(known)[1]) < 1.96).sum(axis=0) for known in (False, True)}
-    assert Share.of(inside[False][0], TRIED).high < 0.6
+    assert Share.from_count(inside[False][0], TRIED).high < 0.6
     for covered in inside[True]:
-        assert Share.of(covered, TRIED).high > 0.95
+        assert Share.from_count(covered, TRIED).high > 0.95

@@ -4,8 +4,6 @@ import ast
 from collections.abc import Iterator
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[1]
 FILES = [*sorted((ROOT / "src").rglob("*.py")), *sorted((ROOT / "workflow").rglob("*.py")), ROOT / "study.py"]
 
@@ -38,11 +36,11 @@ CALLS = {
     ),
     *("read_pickle", "unsafe_load", "full_load", "load_all", "safe_load"),
 }
-"""yaml.safe_load too: it follows aliases and takes a key twice; heartfit.io.plain_yaml does not."""
+"""yaml.safe_load too: it follows aliases and takes a key twice; heartfit.io.configuration does not."""
 
 HARMLESS = {"re.compile", "platform.system"}
 
-ASKED_FOR = {"mechanism_files.py": {"exec_module"}}
+ASKED_FOR = {"diagnose.py": {"exec_module"}}
 """A file of mechanisms is run, where somebody names it on the command line."""
 
 
@@ -85,22 +83,21 @@ def test_nothing_is_evaluated() -> None:
     assert not {str(file): said for file, tree in trees.items() if (said := [*dangers(tree, file.name)])}
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "import pickle",
-        "from tarfile import open",
-        "eval(text)",
-        "exec(text)",
-        "yaml.load(text)",
-        "yaml.safe_load(text)",
-        "np.load(path)",
-        "np.load(path, allow_pickle=True)",
-        "subprocess.run(text, shell=True)",
-        "os.system(text)",
-        "Environment()",
-        "spec.loader.exec_module(module)",
-    ],
+FORBIDDEN = (
+    "import pickle",
+    "from tarfile import open",
+    "eval(text)",
+    "exec(text)",
+    "yaml.load(text)",
+    "yaml.safe_load(text)",
+    "np.load(path)",
+    "np.load(path, allow_pickle=True)",
+    "subprocess.run(text, shell=True)",
+    "os.system(text)",
+    "Environment()",
+    "spec.loader.exec_module(module)",
 )
-def test_what_is_not_allowed_is_found(text: str) -> None:
-    assert [*dangers(ast.parse(text), "x.py")]
+
+
+def test_every_forbidden_call_is_reported() -> None:
+    assert [text for text in FORBIDDEN if not [*dangers(ast.parse(text), "x.py")]] == []

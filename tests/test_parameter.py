@@ -5,10 +5,10 @@ from dataclasses import FrozenInstanceError, dataclass
 import pytest
 
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.circulation.windkessel import Windkessel
-from heartfit.heart import Heart
-from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
-from heartfit.parameter import Parameter, parameter, parameters_of, require_admissible
+from heartfit.core.parameter import Parameter, parameter, parameters_of, require_admissible
+from heartfit.heart.circulation.elements import Windkessel
+from heartfit.heart.heart import Heart
+from heartfit.heart.muscle.passive import MooneyRivlin
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,7 @@ def test_a_declaration_is_read_from_the_class_and_its_value_from_the_instance() 
 
 @pytest.mark.parametrize("value", [-1.1, float("nan"), float("inf"), float("-inf")])
 def test_an_inadmissible_value_is_refused_with_name_unit_and_bound(value: float) -> None:
-    with pytest.raises(
-        ValueError, match=r"Part\.size = \S+ m: expected a finite value of at least -1 \(size"
-    ):
+    with pytest.raises(ValueError, match=r"Part\.size = \S+ m.*-1 \(size"):
         Part(size=value)
 
 
@@ -70,16 +68,16 @@ def test_a_search_takes_a_switch_about_off_and_another_parameter_about_its_value
     assert [switch.at(x) for x in (-1.0, 0.0, 2.0)] == [1.0, 1.0, 2.0]
     assert [signed.at(x) for x in (-1.0, 0.0, 2.0)] == [-0.5, 0.0, 1.0]
     assert [place.at(x) for x in (-1.0, 0.0, 2.0)] == [2.5, 3.0, 4.0]
-    assert [each.one_sided for each in (switch, signed, place)] == [True, False, False]
+    assert [declared.one_sided for declared in (switch, signed, place)] == [True, False, False]
 
 
 def test_a_search_takes_a_prior_as_a_calibration_does() -> None:
     modulus = Parameter("c", 3.0, "Pa", "c", "a modulus", sd=0.2)
-    belief = Gaussian.of_relative({"c": 3.0}, {"c": 0.2})
+    belief = Gaussian.from_relative({"c": 3.0}, {"c": 0.2})
     for x in (-1.0, 0.0, 1.5):
         assert modulus.at(x) == pytest.approx(belief.physical(belief.mean + x * belief.sd)["c"])
 
 
 def test_what_has_neither_scale_nor_prior_cannot_be_searched() -> None:
-    with pytest.raises(ValueError, match="parameter K cannot be searched: declare its scale or its sd"):
+    with pytest.raises(ValueError, match=r"\bK\b.*\bscale\b.*\bsd\b"):
         Parameter("K", 1.0, "Pa", "K", "a modulus").at(0.0)

@@ -1,9 +1,9 @@
-"""The bump that prescribed waves are made of."""
+"""The bump of prescribed waves."""
 
 import numpy as np
 import pytest
 
-from heartfit.periodic import bump
+from heartfit.core.periodic import bump
 
 PERIOD = 0.8
 

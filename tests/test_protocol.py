@@ -5,17 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat
-from heartfit.calibration.slopes import Slopes
+from heartfit.calibration.sensitivity import Slopes
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import Posterior
-from heartfit.configuration.setting import Prior, Setting
-from heartfit.configuration.transform import Operator, Transform
+from heartfit.heart.beat import Beat
 from heartfit.mechanisms.image_smoothing import ImageSmoothing
 from heartfit.observation.beat import beat_curves
-from heartfit.observation.measurement import Measurement, observe_measured
-from heartfit.observation.noise import Observation
-from heartfit.protocol import estimate
+from heartfit.observation.measurement import Measurement, Observation, observe_measured
+from heartfit.personalise.numerics import Operator, Transform
+from heartfit.personalise.run import estimate
+from heartfit.personalise.setting import Prior, Setting
 
 PERIOD, TRIGGER, FRAMES = 0.8, 0.18, 25
 SENSORS = {"smoothing": 0.02, "delay": 0.01, "shrinkage": 0.1}
@@ -60,7 +59,7 @@ def estimated(measurement: Measurement, noise: bool, slopes: Slopes | None = Non
     measured = {"lv_volume": beat_curves(beat())["lv_volume"].resampled(FRAMES)}
     points = sigma_points(setting.gaussian())
     given = points, [beat()] * len(points), measured, measurement, operator
-    transform = Transform().weighed() if noise else Transform()
+    transform = Transform().with_noise() if noise else Transform()
     return estimate(setting, setting.gaussian(), *given, transform, slopes)
 
 

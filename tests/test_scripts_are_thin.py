@@ -39,13 +39,10 @@ def test_a_script_belongs_to_a_rule_of_its_name(script):
 
 
 @pytest.mark.parametrize("file", RULES, ids=lambda file: file.stem)
-def test_rules_are_short_and_fingerprinted(file):
+def test_rules_are_short(file):
     for rule in re.split(r"^rule ", file.read_text(), flags=re.MULTILINE)[1:]:
-        lines = rule.rstrip().splitlines()
-        name = lines[0].rstrip(":")
-        assert len(lines) <= 25, name
-        assert "    log:" in lines, name
-        assert f'code=code("{name}.py"),' in rule or name == "fetch_measured_heart", name
+        lines = rule.split("\n\n")[0].splitlines()
+        assert len(lines) <= 25, lines[0]
 
 
 @pytest.mark.parametrize("file", RULES, ids=lambda file: file.stem)
@@ -53,5 +50,11 @@ def test_what_rules_share_is_defined_in_one_place(file):
     assert not re.search(r"^def ", file.read_text(), flags=re.MULTILINE), "it belongs into workflow/common"
 
 
-def test_the_snakefile_is_a_table_of_contents():
-    assert (ROOT / "Snakefile").read_text().count("\n") <= 40
+def test_the_snakefile_lists_targets_and_all_rule_files():
+    text = (ROOT / "Snakefile").read_text()
+    rules = "\n".join(file.read_text() for file in RULES)
+    targets = re.findall(r"^#   (\w+)", text, flags=re.MULTILINE)
+    assert targets
+    assert not [name for name in targets if f"rule {name}:" not in rules]
+    assert sorted(re.findall(r'"workflow/rules/(\w+)\.smk"', text)) == [file.stem for file in RULES]
+    assert text.count("\n") <= 60

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat
-from heartfit.circulation.coupling import Tolerances
-from heartfit.heart import Heart
-from heartfit.mechanics.sphere import Sphere, SphericalBody
-from heartfit.simulation import Numerics, simulate
+from heartfit.heart.beat import Beat
+from heartfit.heart.circulation.coupling import Tolerances
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics, simulate
+from heartfit.heart.sphere.body import Sphere, SphericalBody
 
 NUMERICS = Numerics(max_beats=12)
 KILO, MILLILITRE = 1e3, 1e-6
@@ -35,7 +35,7 @@ def test_the_limit_cycle_is_reached_and_stated(beat: Beat) -> None:
 
 
 def test_what_flows_in_flows_out(beat: Beat) -> None:
-    """Of both ventricles, but for what they gained over the beat."""
+    """The net flow through a ventricle is its change of volume over the beat."""
     strokes = {name: per_beat(beat, name) for name in beat.flow}
     for inlet, outlet, side in (("mitral", "aortic", "lv"), ("tricuspid", "pulmonary", "rv")):
         gained = beat.volume[side][-1] - beat.volume[side][0]
@@ -65,10 +65,10 @@ def test_pressures_are_those_of_a_human(beat: Beat) -> None:
 def test_the_beat_converges_with_the_time_step(
     spherical_heart: Heart, spheres: SphericalBody, second_order: bool, order: float
 ) -> None:
-    """In the smallest volume and in the last arterial pressure of the first beat.
+    """Observed order of the smallest volume and of the last arterial pressure of the first beat.
 
-    The valves open between time levels, here sooner, there later, so single ratios scatter about the order: the
-    slope over all of them is asserted.
+    The valves open between time levels, so that single ratios scatter about the order; the slope over all of them
+    is asserted.
     """
     steps = [spherical_heart.period / n for n in (100, 200, 400, 800)]
     tight = Tolerances(force=1e-6, volume=1e-13, pressure=1e-5, iterations=50)
@@ -86,14 +86,16 @@ def test_a_failing_heart_says_when_and_why(spherical_heart: Heart, spheres: Sphe
     beat = simulate(spherical_heart, spheres, hopeless)
     assert (beat.status, beat.completed) == ("failed", False)
     assert beat.reason.startswith("beat 1: at 0.")
-    assert "no equilibrium in 1 iterations, residual" in beat.reason
+    assert "1 iterations" in beat.reason
     assert beat.time.size == 0
     assert beat.diagnostics["beats"] == 0.0
 
 
 def test_a_heart_that_cannot_be_filled_fails_too(spherical_heart: Heart) -> None:
     balloon = spherical_heart.with_parameters({"c_1": 5.0, "c_2": 0.0})
-    body = SphericalBody(Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6), balloon.tissue)
+    body = SphericalBody(
+        Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6), balloon.tissue
+    )
     beat = simulate(balloon, body)
     assert beat.status == "failed"
     assert "stretched to" in beat.reason or "too soft" in beat.reason
@@ -107,8 +109,8 @@ def test_cut_steps_recover_the_beat(beat: Beat, spherical_heart: Heart, spheres:
 
 
 def test_progress_rises_to_one(spherical_heart: Heart, spheres: SphericalBody) -> None:
-    seen: list[float] = []
-    simulate(spherical_heart, spheres, Numerics(time_step=0.01, max_beats=2, drift=0.0), seen.append)
-    assert (np.diff(seen) > 0.0).all()
-    assert seen[0] > 0.0
-    assert seen[-1] == pytest.approx(1.0)
+    fractions: list[float] = []
+    simulate(spherical_heart, spheres, Numerics(time_step=0.01, max_beats=2, drift=0.0), fractions.append)
+    assert (np.diff(fractions) > 0.0).all()
+    assert fractions[0] > 0.0
+    assert fractions[-1] == pytest.approx(1.0)

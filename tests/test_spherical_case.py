@@ -3,17 +3,17 @@
 import pytest
 
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.heart import Heart
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics
 from heartfit.observation.operator import PressureFeatures, VolumeFeatures
-from heartfit.simulation import Numerics
-from heartfit.spherical_case import UNFILLED, SphericalCase
+from heartfit.synthetic.known_hearts import UNFILLED, SphericalCase
 
 FEATURES = {"lv_volume": VolumeFeatures(), "lv_pressure": PressureFeatures()}
 
 
 @pytest.fixture(scope="module")
 def subject(spherical_heart: Heart) -> SphericalCase:
-    return SphericalCase(160e-6, 150e-6, 1300.0, spherical_heart, FEATURES, Numerics(max_beats=1))
+    return SphericalCase(spherical_heart, 160e-6, 150e-6, 1300.0, FEATURES, Numerics(max_beats=1))
 
 
 def observed(subject: SphericalCase, **parameters: float) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""What every peer measures and says."""
+"""Measurements that every peer prints."""
 
 import json
 import sys

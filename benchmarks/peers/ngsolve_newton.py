@@ -33,7 +33,7 @@ def main() -> None:
     step = Step(problem)
     residual_s, residual = clock.median_cpu(step.residual)
     tangent_s, matrix = clock.median_cpu(step.tangent)
-    images = [step.image(matrix, each) for each in (problem.probe, problem.direction)]
+    images = [step.image(matrix, direction) for direction in (problem.probe, problem.direction)]
     factor_s, solve_s, solver = min(map(step.solved, SOLVERS))
     times = {"residual": residual_s, "tangent": tangent_s, "factors": factor_s, "solution": solve_s}
     name = f"NGSolve {ngsolve.__version__}, {solver}"
@@ -96,8 +96,8 @@ class Step:
         return self.form.mat
 
     def image(self, matrix, table: np.ndarray) -> np.ndarray:
-        given, result = self.vector(table), self.x.vec.CreateVector()
-        result.data = matrix * given
+        source, result = self.vector(table), self.x.vec.CreateVector()
+        result.data = matrix * source
         return self.table(result)
 
     def solved(self, solver: str) -> tuple[float, float, str]:

@@ -18,7 +18,7 @@ def main() -> None:
     factor_s, factors = clock.median_cpu(lambda: splu(inner))
     solve_s, _ = clock.median_cpu(lambda: factors.solve(residual[step.free]))
     times = {"residual": residual_s, "tangent": tangent_s, "factors": factor_s, "solution": solve_s}
-    images = [step.table(matrix @ step.vector(each)) for each in (problem.probe, problem.direction)]
+    images = [step.table(matrix @ step.vector(direction)) for direction in (problem.probe, problem.direction)]
     solver = f"scikit-fem {skfem.__version__}, SuperLU of scipy {scipy.__version__}"
     clock.say(problem, times, step.table(residual), images, solver)
 
@@ -53,8 +53,8 @@ class Step:
         return whole / self.K + (whole - mass.assemble(self.basis)) / G
 
     def _state(self) -> tuple[np.ndarray, np.ndarray | None]:
-        found = self.basis.interpolate(self.x)
-        u, p = found if self.mixed else (found, None)
+        interpolated = self.basis.interpolate(self.x)
+        u, p = interpolated if self.mixed else (interpolated, None)
         return np.asarray(u.grad) + np.eye(3)[:, :, None, None], None if p is None else np.asarray(p)
 
     def residual(self) -> np.ndarray:
@@ -97,9 +97,9 @@ class Step:
         A = np.empty((3, 3, *F.shape))
         for k in range(3):
             for m in range(3):
-                moved = F.astype(complex)
-                moved[k, m] += 1e-30j
-                A[:, :, k, m] = self._stress(moved, p).imag / 1e-30
+                perturbed = F.astype(complex)
+                perturbed[k, m] += 1e-30j
+                A[:, :, k, m] = self._stress(perturbed, p).imag / 1e-30
         return A
 
 

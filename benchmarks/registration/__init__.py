@@ -1,1 +1,1 @@
-"""Which registration follows a heart: the library's and ours on synthetic images of a known motion."""
+"""Comparison of registrations: the library's and ours on synthetic images of a known motion."""

@@ -14,9 +14,9 @@ from benchmarks.registration.phantom import HEARTS, Known, known_heart
 from benchmarks.registration.repeat import digest_on
 from benchmarks.registration.row import Row, measured
 from benchmarks.ventricles import FOLDER, ROOT
-from heartfit.cohort.cine import image_beat
 from heartfit.imaging.sequence import ImageSequence
-from heartfit.io.atomic import write_text
+from heartfit.io.files import write_text
+from heartfit.synthetic.cine import image_beat
 
 
 def main(arguments: list[str]) -> None:
@@ -40,9 +40,9 @@ def main(arguments: list[str]) -> None:
 
 
 def row(method: Method, number: int = 0, contrast: str = USUAL) -> Row:
-    """What a method makes of a heart under a contrast."""
+    """Errors of a method on a heart under a contrast."""
     heart, sequence = imaged(number, contrast)
-    return measured(heart.mesh, heart.motion.sampled(sequence.times), lambda: method(sequence, heart.mesh))
+    return measured(heart.mesh, heart.motion.resample(sequence.times), lambda: method(sequence, heart.mesh))
 
 
 @lru_cache(maxsize=1)

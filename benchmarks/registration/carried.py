@@ -9,26 +9,23 @@ from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
 from heartfit.geometry.cavity import Cavity
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.raster import paint_inside
-from heartfit.imaging.resample import cropped, isotropic
-from heartfit.imaging.sequence import ImageSequence
-from heartfit.imaging.wall import wall_voxels
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.imaging.raster import paint_inside, wall_voxels
+from heartfit.imaging.sampling import crop, resample_isotropic
+from heartfit.imaging.sequence import Grid, ImageSequence
 
 Mask = NDArray[np.bool_]
 
 SURROUNDINGS = 8e-3
-"""How far about the heart images are kept, m: as far as ours keeps them."""
+"""Margin of the images about the heart [m], as in our registration."""
 
 REACH = 4e-3
-"""What counts as near, m: as with ours."""
+"""Reach of the wall's neighbourhood [m], as in our registration."""
 
 
 @dataclass(frozen=True, eq=False)
 class Images:
-    """What a matching is given, in voxels: end diastole, a frame, the voxels near the wall at end diastole, and the
+    """Input of a matching, in voxels: end diastole, a frame, the voxels near the wall at end diastole, and the
     neighbour's transform, the identity at first."""
 
     fixed: sitk.Image
@@ -54,7 +51,7 @@ def carried(
     blank: brightness further than REACH from the wall and the cavities of end diastole is replaced by its mean.
     """
     sitk.ProcessObject.SetGlobalDefaultNumberOfThreads(1)
-    cubes = isotropic(cropped(sequence, mesh.points, SURROUNDINGS))
+    cubes = resample_isotropic(crop(sequence, mesh.points, SURROUNDINGS))
     wall = wall_voxels(cubes.grid, mesh)
     voxels = cubes.voxels / np.percentile(cubes.voxels[0], 99.0)
     if blank:
@@ -62,11 +59,11 @@ def carried(
         voxels[:, far] = voxels[0][far].mean()
     near = sitk.GetImageFromArray(_near(wall, cubes.grid).astype(np.uint8))
     frames = [sitk.GetImageFromArray(frame.astype(np.float32)) for frame in voxels]
-    found = {0: sitk.Transform(3, sitk.sitkIdentity)}
+    transforms = {0: sitk.Transform(3, sitk.sitkIdentity)}
     for frame, neighbour in _order(len(frames)):
-        found[frame] = matching(Images(frames[0], frames[frame], near, found[neighbour]))
+        transforms[frame] = matching(Images(frames[0], frames[frame], near, transforms[neighbour]))
     index = cubes.grid.index(mesh.points).tolist()
-    places = [[found[frame].TransformPoint(place) for place in index] for frame in range(len(frames))]
+    places = [[transforms[frame].TransformPoint(place) for place in index] for frame in range(len(frames))]
     return Motion(sequence.times, sequence.period, cubes.grid.points(np.array(places)))
 
 
@@ -78,7 +75,7 @@ def _near(what: Mask, grid: Grid) -> Mask:
 def _blood(grid: Grid, mesh: VentricularMesh) -> Mask:
     inside = np.zeros(grid.shape)
     for side in ("lv", "rv"):
-        cavity = Cavity.of(mesh, f"{side}_endo")
+        cavity = Cavity.from_endocardium(mesh, f"{side}_endo")
         corners = cavity.corners(mesh.points)
         triangles = cavity.triangles % len(corners)
         paint_inside(inside, grid.index(corners), triangles, 1.0, np.zeros((grid.size[2], 2)))

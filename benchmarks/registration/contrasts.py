@@ -1,8 +1,8 @@
-"""What the muscle's texture and the valve plane's features are worth: scanners that show less of them."""
+"""Value of the muscle's texture and of the valve plane's features: scanners that show less of them."""
 
 from dataclasses import replace
 
-from heartfit.cohort.scanner import Contrast, Scanner
+from heartfit.synthetic.scanner import Contrast, Scanner
 
 BARE = {"leaflets": Contrast().blood, "fat": Contrast().lung}
 """Leaflets as bright as blood, fat as lung: the ends of the ventricles show as edges of muscle alone."""

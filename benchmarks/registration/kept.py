@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from benchmarks.registration.row import Errors, Row
-from heartfit.io.atomic import write_text
+from heartfit.io.files import write_text
 
 
 class Kept:

@@ -1,4 +1,4 @@
-"""What SimpleITK offers: demons of two kinds, an affine map before them, and B-splines. Lengths are in voxels."""
+"""Registrations of SimpleITK: demons of two kinds, an affine map before them, and B-splines. Lengths are in voxels."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -16,7 +16,7 @@ STEP, AT_REST = 2.0, 1e-4
 """Longest update of demons in an iteration, and the mean one at which they end."""
 
 FLAT, SETTLED = 1e-9, 1e7
-"""Where the search for B-splines ends: gradient, and decrease in units of the machine's precision. The gradient by one
+"""End of the search for B-splines: gradient, and decrease in units of the machine's precision. The gradient by one
 control point is tiny: looser values end the search early, with V_min 25 % off."""
 
 

@@ -6,10 +6,9 @@ from typing import Any
 
 from benchmarks.registration.carried import Matching, carried, nothing
 from benchmarks.registration.library import affine_first, demons, splines
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.imaging.registration.track import FreeForm, track
 from heartfit.imaging.sequence import ImageSequence
-from heartfit.registration.track import FreeForm, track
 
 Method = Callable[[ImageSequence, VentricularMesh], Motion]
 

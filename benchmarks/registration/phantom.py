@@ -3,18 +3,14 @@
 from dataclasses import dataclass, replace
 
 from benchmarks.ventricles import FOLDER, ROOT, SHAPE
-from heartfit.cohort.draw_shape import Anatomy
-from heartfit.cohort.generate import generate
-from heartfit.cohort.hidden_heart import draw_heart
-from heartfit.cohort.template import Template
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
+from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.geometry.parametric import ParametricVentricles
 from heartfit.io.configuration import read_study
 from heartfit.io.meshes import read_mesh, read_motion, write_mesh, write_motion
+from heartfit.synthetic.volunteer import Anatomy, Template, draw_heart, generate
 
 EDGE, TOLERANCE = 9e-3, 0.3e-3
-"""Of the mesh, m: 5k to 6k tetrahedra."""
+"""Edge length of the mesh [m]: 5k to 6k tetrahedra."""
 
 HEARTS = (
     Anatomy(SHAPE, 0.86),
@@ -36,9 +32,9 @@ def known_heart(number: int) -> Known:
     """One of the hearts, made now if it is not on disk yet; its number scatters its parameters."""
     mesh, motion = (FOLDER / "registration" / f"heart{number}.{kind}" for kind in ("vtu", "npz"))
     if not motion.exists():
-        made = _made(HEARTS[number], seed=number + 1)
-        write_mesh(mesh, made.mesh)
-        write_motion(motion, made.motion)
+        phantom = _made(HEARTS[number], seed=number + 1)
+        write_mesh(mesh, phantom.mesh)
+        write_motion(motion, phantom.motion)
     return Known(read_mesh(mesh), read_motion(motion))
 
 
@@ -49,6 +45,6 @@ def _made(anatomy: Anatomy, seed: int) -> Known:
         study.cohort.protocol(study.end_diastolic_pressure),
         numerics=study.numerics.numerics(),
     )
-    bare = Template.build(EDGE, TOLERANCE).shaped(anatomy.shape)
+    bare = Template.build(EDGE, TOLERANCE).deformed_to(anatomy.shape)
     volunteer = generate(bare, draw_heart(study.cohort.heart, anatomy.period, seed), protocol)
     return Known(volunteer.mesh, volunteer.motion)

@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from heartfit.compiled import folder_of_kernels
+from heartfit.core.kernel_cache import kernel_folder
 
 # numba reads it as it is imported
-os.environ.setdefault("NUMBA_CACHE_DIR", str(folder_of_kernels(Path(__file__).parent)))
+os.environ.setdefault("NUMBA_CACHE_DIR", str(kernel_folder(Path(__file__).parent)))

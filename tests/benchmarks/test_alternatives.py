@@ -1,19 +1,16 @@
 """The page of other methods has every row of its tables; the hearts in 3-D are problems as those of the spheres are."""
 
 import numpy as np
+
 from benchmarks.alternatives import HEARTS, ROOT, SETTING
 from benchmarks.alternatives_page import page
-
-from heartfit.io.cases import read_cases
-from heartfit.io.configuration import read_study
-from heartfit.tables.race_table import race_table
-from heartfit.tables.sphere_coverage import sphere_coverage_table
-from heartfit.twins.coverage import Coverage
-from heartfit.twins.race import Mark
+from heartfit.io.configuration import read_cases, read_study
+from heartfit.results.race import race_table, sphere_coverage_table
+from heartfit.synthetic.race import Coverage, MethodScore
 
 
 def test_the_page_has_every_method_and_every_noise() -> None:
-    race = race_table({"volume": [Mark(0, "unscented, R = 0", 9, 2.5, 0.5)]})
+    race = race_table({"volume": [MethodScore(0, "unscented, R = 0", 9, 2.5, 0.5)]})
     shares = sphere_coverage_table({"volume": [Coverage("nothing", "R = 0", ("sigma_0",), np.zeros((8, 1)))]})
     study = read_study([ROOT / "config" / "config.yaml"]).sphere_study
     text = page(race, shares, study)

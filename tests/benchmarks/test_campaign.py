@@ -4,9 +4,8 @@ from pathlib import Path
 
 from benchmarks.campaign import configured, subject
 from benchmarks.campaign_page import Ran, campaign_page
-
-from heartfit.io.cases import read_cases
-from heartfit.planning.forecast import Part
+from heartfit.io.configuration import read_cases
+from heartfit.study.forecast import Part
 
 
 def test_the_page_holds_the_run_beside_the_plan():

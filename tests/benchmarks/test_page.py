@@ -3,14 +3,14 @@
 from itertools import product
 
 import pytest
+
+from benchmarks import sphere
 from benchmarks.figure import Figure
 from benchmarks.growth import growth
 from benchmarks.job import Job
 from benchmarks.newton import Newton
 from benchmarks.page import ELEMENTS, Measured, exponent, page
 from benchmarks.targets import figures
-
-from benchmarks import sphere
 
 SPHERES = {next(iter(sphere.CASES)): (1e-4, 1e-3), sphere.OURS: (1e-3, 0.0), sphere.THEIRS: (5.0, 0.0)}
 SIZES = {"3k": 3000.0, "10k": 10000.0}
@@ -51,6 +51,6 @@ def test_the_page_shows_every_figure_and_what_was_tried(measured):
     text = page(measured, figures(measured))
     assert text.count("**missed**") == 2, "the growth of both elements"
     assert "| 15.0 x | 3000 x |" in text, "1.5 s over 0.1 s, and over an iteration of 0.2 / 400 s"
-    assert "| 5e+03 | ≥ 1000 | times faster | met |" in text, "PhysioBlocks over ours"
+    (faster,) = [line for line in text.splitlines() if "| 5e+03 | ≥ 1000 |" in line]
+    assert faster.endswith("| met |"), "PhysioBlocks over ours"
     assert text.count("| 0.100 | 1.00 |") == 1, "a beat of a sphere, and what a call takes"
-    assert text.count("is in decision 6") == 1

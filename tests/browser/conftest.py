@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page, Request, sync_playwright
-from tests.browser.__main__ import found
-from tests.report.conftest import HOSTILE
-from tests.report.small_report import study
 
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.io.report import assets
-from heartfit.report.page import render
+from heartfit.results.report.page import render
+from tests.browser.__main__ import found
+from tests.report.conftest import HOSTILE
+from tests.report.small_report import study
 
 FLAGS = (
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 from playwright.sync_api import Locator
+
 from tests.browser.conftest import SCREEN, Opened
 
 pytestmark = pytest.mark.long

@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from heartfit.calibration.forward import Forward, Outcome
 from heartfit.calibration.gaussian import Gaussian
+from heartfit.calibration.unscented import Forward, Outcome
 
 NAMES = ("V_min", "q_max", "q_min")
 NOISE = np.diag([0.01, 0.02, 0.005])

@@ -4,13 +4,11 @@ from itertools import islice
 
 import numpy as np
 import pytest
-from tests.calibration.maps import NOISE, failing, forward_of, kalman, named, random_prior, slopes
 
-from heartfit.calibration.evolution import evolved, installed
-from heartfit.calibration.forward import Counted, Remembered
-from heartfit.calibration.smoother import smoothed
-from heartfit.calibration.unscented import CalibrationError
-from heartfit.errors import InputError
+from heartfit.calibration.alternatives import has_cma, minimise_by_cma_es, smooth_ensemble
+from heartfit.calibration.unscented import CachedForward, CalibrationError, CountedForward
+from heartfit.core.errors import InputError
+from tests.calibration.maps import NOISE, failing, forward_of, kalman, named, random_prior, slopes
 
 PRIOR, A = random_prior(4, 5), slopes(4, 5)
 OBSERVED = A @ PRIOR.mean + np.array([0.2, -0.1, 0.1])
@@ -19,8 +17,8 @@ MEAN, COVARIANCE = kalman(PRIOR, A, OBSERVED)
 
 
 def test_many_members_have_mean_and_covariance_of_the_posterior() -> None:
-    forward = Counted(LINEAR)
-    ensemble = smoothed(PRIOR, forward, named(OBSERVED), NOISE, 4000, seed=1)
+    forward = CountedForward(LINEAR)
+    ensemble = smooth_ensemble(PRIOR, forward, named(OBSERVED), NOISE, 4000, seed=1)
     assert forward.simulations == 16000
     assert (ensemble.mean(axis=0) - MEAN) / PRIOR.sd == pytest.approx(np.zeros(4), abs=0.03)
     scaled = (np.cov(ensemble.T) - COVARIANCE) / np.outer(PRIOR.sd, PRIOR.sd)
@@ -28,21 +26,26 @@ def test_many_members_have_mean_and_covariance_of_the_posterior() -> None:
 
 
 def test_members_that_fail_are_left_out_and_too_few_are_told() -> None:
-    assert smoothed(PRIOR, failing(LINEAR, [0, 21]), named(OBSERVED), NOISE, 20, seed=1).shape == (18, 4)
+    assert smooth_ensemble(PRIOR, failing(LINEAR, [0, 21]), named(OBSERVED), NOISE, 20, seed=1).shape == (
+        18,
+        4,
+    )
     with pytest.raises(CalibrationError, match="2 of 20 members"):
-        smoothed(PRIOR, failing(LINEAR, range(18)), named(OBSERVED), NOISE, 20, seed=1)
+        smooth_ensemble(PRIOR, failing(LINEAR, range(18)), named(OBSERVED), NOISE, 20, seed=1)
 
 
 def test_the_same_seed_is_the_same_ensemble() -> None:
-    first, again, other = (smoothed(PRIOR, LINEAR, named(OBSERVED), NOISE, 10, seed) for seed in (1, 1, 2))
+    first, again, other = (
+        smooth_ensemble(PRIOR, LINEAR, named(OBSERVED), NOISE, 10, seed) for seed in (1, 1, 2)
+    )
     assert (first == again).all()
     assert not (first == other).any()
 
 
-@pytest.mark.skipif(not installed(), reason="the extra `alternatives` is not installed")
+@pytest.mark.skipif(not has_cma(), reason="the extra `alternatives` is not installed")
 def test_cma_es_finds_the_maximum_a_posteriori_past_failures() -> None:
     found = [
-        list(islice(evolved(PRIOR, failing(LINEAR, [0, 9]), named(OBSERVED), NOISE, seed=1), 60))
+        list(islice(minimise_by_cma_es(PRIOR, failing(LINEAR, [0, 9]), named(OBSERVED), NOISE, seed=1), 60))
         for _ in range(2)
     ]
     assert (found[0][-1] - MEAN) / PRIOR.sd == pytest.approx(np.zeros(4), abs=1e-3)
@@ -50,14 +53,14 @@ def test_cma_es_finds_the_maximum_a_posteriori_past_failures() -> None:
 
 
 def test_without_the_package_cma_es_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("heartfit.calibration.evolution.installed", lambda: False)
+    monkeypatch.setattr("heartfit.calibration.alternatives.has_cma", lambda: False)
     with pytest.raises(InputError, match=r"pip install 'heartfit\[alternatives\]'"):
-        next(evolved(PRIOR, LINEAR, named(OBSERVED), NOISE, seed=1))
+        next(minimise_by_cma_es(PRIOR, LINEAR, named(OBSERVED), NOISE, seed=1))
 
 
 def test_what_was_run_is_not_run_again() -> None:
-    counted = Counted(LINEAR)
-    forward = Remembered(counted)
+    counted = CountedForward(LINEAR)
+    forward = CachedForward(counted)
     one, two = PRIOR.physical(), PRIOR.physical(PRIOR.mean + 1.0)
     assert forward([one, two, one]) == [*LINEAR([one, two]), *LINEAR([one])]
     assert forward([two]) == LINEAR([two])

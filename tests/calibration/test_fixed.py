@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from heartfit.calibration.fixed import covariance_of_fixed
+from heartfit.calibration.sensitivity import covariance_of_fixed
 
 
 def test_it_is_the_covariance_of_a_linear_map() -> None:

@@ -7,24 +7,29 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 from scipy.optimize import minimize
-from tests.calibration.maps import NOISE, failing, forward_of, kalman, named, random_prior, slopes
 
-from heartfit.calibration.forward import Counted
-from heartfit.calibration.iterated import iterated
-from heartfit.calibration.simplex import Simplex
-from heartfit.calibration.unscented import STANDARD, CalibrationError, Scaling, sigma_points
+from heartfit.calibration.alternatives import iterate
+from heartfit.calibration.design import Simplex
+from heartfit.calibration.unscented import (
+    STANDARD_DESIGN,
+    CalibrationError,
+    CountedForward,
+    Scaling,
+    sigma_points,
+)
 from heartfit.calibration.update import calibrate
+from tests.calibration.maps import NOISE, failing, forward_of, kalman, named, random_prior, slopes
 
 
 @pytest.mark.parametrize("noise", [None, NOISE])
-@pytest.mark.parametrize("design", [STANDARD, Simplex(), Scaling(0.5)])
+@pytest.mark.parametrize("design", [STANDARD_DESIGN, Simplex(), Scaling(0.5)])
 def test_the_first_step_is_the_unscented_one(noise, design) -> None:
     prior, a = random_prior(4, 3), slopes(4, 3)
     forward = forward_of(prior, lambda x: a @ x + 0.1 * (a @ x) ** 2)
     observed = named(np.array([0.3, -0.2, 0.4]))
     outcomes = forward([point.parameters for point in sigma_points(prior, design)])
     expected = calibrate(prior, outcomes, observed, noise, design).estimate
-    first = next(iterated(prior, forward, observed, noise, design)).estimate
+    first = next(iterate(prior, forward, observed, noise, design)).estimate
     assert first.mean == pytest.approx(expected.mean, rel=1e-9)
     assert first.covariance == pytest.approx(expected.covariance, rel=1e-9, abs=1e-12)
 
@@ -35,8 +40,8 @@ def test_on_a_linear_map_every_step_is_the_posterior(n: int, seed: int, simplex:
     prior, a = random_prior(n, seed), slopes(n, seed)
     observed = a @ prior.mean + 0.1
     mean, covariance = kalman(prior, a, observed)
-    design = Simplex() if simplex else STANDARD
-    steps = iterated(prior, forward_of(prior, lambda x: a @ x), named(observed), NOISE, design)
+    design = Simplex() if simplex else STANDARD_DESIGN
+    steps = iterate(prior, forward_of(prior, lambda x: a @ x), named(observed), NOISE, design)
     for posterior in islice(steps, 3):
         assert posterior.estimate.mean == pytest.approx(mean, abs=1e-6)
         assert posterior.estimate.covariance == pytest.approx(covariance, abs=1e-6)
@@ -56,7 +61,7 @@ def test_with_noise_it_converges_to_the_maximum_a_posteriori() -> None:
         return float(off @ inverse @ off + residual @ weight @ residual)
 
     best = minimize(cost, prior.mean, method="BFGS", options={"gtol": 1e-9}).x
-    found = islice(iterated(prior, forward_of(prior, lambda x: bent(a, x)), named(observed), NOISE), 12)
+    found = islice(iterate(prior, forward_of(prior, lambda x: bent(a, x)), named(observed), NOISE), 12)
     away = [np.linalg.norm(posterior.estimate.mean - best) for posterior in found]
     assert away[-1] < 1e-4 < away[0]
 
@@ -64,16 +69,16 @@ def test_with_noise_it_converges_to_the_maximum_a_posteriori() -> None:
 def test_without_noise_it_meets_the_observations_that_one_step_misses() -> None:
     prior, a = random_prior(4, 7), slopes(4, 7)
     observed = bent(a, prior.mean) * np.array([1.5, 0.8, 1.2])
-    found = islice(iterated(prior, forward_of(prior, lambda x: bent(a, x)), named(observed)), 10)
+    found = islice(iterate(prior, forward_of(prior, lambda x: bent(a, x)), named(observed)), 10)
     missed = [np.abs(bent(a, each.estimate.mean) / observed - 1.0).max() for each in found]
     assert missed[-1] < 1e-6 < 1e-2 < missed[0]
 
 
 def test_each_step_costs_the_points_of_its_design_and_survives_a_failure() -> None:
     prior, a = random_prior(4, 1), slopes(4, 1)
-    forward = Counted(failing(forward_of(prior, lambda x: a @ x), [2, 11]))
+    forward = CountedForward(failing(forward_of(prior, lambda x: a @ x), [2, 11]))
     observed = named(a @ prior.mean + 0.1)
-    found = list(islice(iterated(prior, forward, observed, NOISE), 2))
+    found = list(islice(iterate(prior, forward, observed, NOISE), 2))
     assert forward.simulations == 18
     assert [posterior.failed for posterior in found] == [("p1+ (no beat)",)] * 2
     assert found[1].estimate.mean == pytest.approx(kalman(prior, a, np.array([*observed.values()]))[0])
@@ -83,4 +88,4 @@ def test_points_that_all_fail_are_told() -> None:
     prior = random_prior(2, 0)
     forward = failing(forward_of(prior, lambda x: np.ones(3)), range(5))
     with pytest.raises(CalibrationError, match="both failed"):
-        next(iterated(prior, forward, named(np.ones(3)), NOISE))
+        next(iterate(prior, forward, named(np.ones(3)), NOISE))

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.calibration.slopes import Slopes
-from heartfit.errors import InputError
+from heartfit.calibration.sensitivity import Slopes
+from heartfit.core.errors import InputError
 
 SLOPES = Slopes(
     ("a", "b", "c"), ("V_min", "q_max", "q_min"), np.array([[1.0, 2.0, 0.5], [0.3, -0.4, 0.2], [0, 1, 0]])
@@ -21,8 +21,8 @@ def test_slopes_are_scaled_by_what_was_observed_and_leave_out_what_is_estimated(
 
 
 def test_what_the_slopes_do_not_know_is_named():
-    with pytest.raises(InputError, match="nothing of P_max"):
+    with pytest.raises(InputError, match="P_max"):
         SLOPES.covariance({"a"}, {"P_max": 1.0}, 0.1)
     lost = replace(SLOPES, relative=np.where(np.eye(3) > 0, np.nan, 1.0))
-    with pytest.raises(InputError, match="slopes: b not a number"):
+    with pytest.raises(InputError, match=r"slopes.*\bb\b"):
         lost.covariance({"a", "c"}, {"V_min": 1.0, "q_max": 1.0}, 0.1)

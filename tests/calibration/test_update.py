@@ -1,5 +1,6 @@
 """The update equals the Kalman filter's closed forms on linear maps."""
 
+import re
 from itertools import combinations
 
 import numpy as np
@@ -102,16 +103,16 @@ def test_collinear_observations_are_refused_unless_they_carry_noise() -> None:
 def test_an_observation_nothing_changes_is_refused() -> None:
     prior, _, z, observed = linear(4, 3, 2)
     z[:, 1] = 7.0
-    with pytest.raises(CalibrationError, match="no parameter changes q_max"):
+    with pytest.raises(CalibrationError, match=r"parameter.*\bq_max\b"):
         update(prior, transform(sigma_points(prior), z), named(observed))
 
 
 def test_more_observations_than_parameters_without_noise_are_said() -> None:
-    prior = Gaussian.of_relative({"mu": 7e3, "R_p": 1e8}, {"mu": 0.2, "R_p": 0.2})
+    prior = Gaussian.from_relative({"mu": 7e3, "R_p": 1e8}, {"mu": 0.2, "R_p": 0.2})
     z = np.exp([point.z - prior.mean for point in sigma_points(prior)])
     moments = transform(sigma_points(prior), np.column_stack([z, z[:, 0] ** 3 + z[:, 1]]))
     posterior = update(prior, moments, named(moments.mean))
-    assert "3 observations for 2 parameters without noise" in posterior.notes[0]
+    assert re.search(r"\b3 observations.*\b2 parameters", posterior.notes[0])
     assert not update(prior, moments, named(moments.mean), 0.01 * np.eye(3)).notes
 
 
@@ -120,7 +121,7 @@ def test_a_long_step_is_said() -> None:
     far = a @ (prior.mean + np.array([4.0, 0, 0]) * prior.sd) + 1.0
     posterior = update(prior, transform(sigma_points(prior), z), named(far))
     assert len(posterior.notes) == 1
-    assert "p0 moved by +4.0 prior standard deviations" in posterior.notes[0]
+    assert re.search(r"\bp0\b.*\+4\.0\b", posterior.notes[0])
 
 
 @pytest.mark.parametrize("lost", [lost for n in (4, 7) for lost in losses(n)], ids=str)
@@ -130,7 +131,7 @@ def test_whichever_beats_fail_the_closed_form_is_met_or_the_update_refuses(lost:
     prior, a, z, observed = linear(n, 3, sum(lost))
     outcomes = ["inverted" if i in failed else named(row) for i, row in enumerate(z)]
     if len(failed) == 2 and failed[0] > 0 and failed[1] == failed[0] + n:
-        with pytest.raises(CalibrationError, match=rf"p{failed[0] - 1}\+ \(inverted\) and .* both failed"):
+        with pytest.raises(CalibrationError, match=rf"p{failed[0] - 1}\+ \(inverted\).*p{failed[0] - 1}-"):
             calibrate(prior, outcomes, named(observed), NOISE)
         return
     posterior = calibrate(prior, outcomes, named(observed), NOISE)
@@ -156,7 +157,7 @@ def test_failed_beats_are_left_out_and_said() -> None:
 def test_no_beat_may_be_missing_nor_any_observation() -> None:
     prior, _, z, observed = linear(4, 3, 9)
     outcomes = [named(row) for row in z]
-    with pytest.raises(ValueError, match="8 outcomes; expected one for each of 9 points"):
+    with pytest.raises(ValueError, match=r"\b8 outcomes.*\b9 points"):
         calibrate(prior, outcomes[:-1], named(observed))
     with pytest.raises(KeyError, match="V_min"):
         calibrate(prior, [*outcomes[:-1], {}], named(observed))
@@ -165,7 +166,7 @@ def test_no_beat_may_be_missing_nor_any_observation() -> None:
 def test_an_observation_that_moves_by_rounding_only_is_refused() -> None:
     prior, _, z, observed = linear(4, 3, 2)
     z[:, 1] = 7e-5 * (1.0 + 1e-15 * np.arange(9))
-    with pytest.raises(CalibrationError, match="no parameter changes q_max"):
+    with pytest.raises(CalibrationError, match=r"parameter.*\bq_max\b"):
         update(prior, transform(sigma_points(prior), z), named(observed))
 
 
@@ -177,5 +178,5 @@ def test_a_negative_covariance_is_refused_never_clipped(seed: int) -> None:
     points = sigma_points(prior, julier)
     deviation = np.array([point.z for point in points]) - prior.mean
     z = deviation @ a.T + 40.0 * np.square(deviation / prior.sd).sum(axis=1, keepdims=True)
-    with pytest.raises(CalibrationError, match="is negative, as a negative weight of the centre"):
+    with pytest.raises(CalibrationError, match=r"negative.*centre"):
         update(prior, transform(points, z, julier), named(observed))

@@ -1,27 +1,27 @@
-"""Pressure on the outside of the ventricles: closed forms, and what must not change."""
+"""Pressure on the outside of the ventricles: closed forms and invariances."""
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from tests.shrinking import assert_derivative
 
-from heartfit.circulation.coupling import Coupling, HeartState, Tolerances
-from heartfit.circulation.enclosure import Enclosed, EnclosedStiffness, load_table
-from heartfit.circulation.network import Circulation
-from heartfit.circulation.valves import LinearValve
-from heartfit.geometry.arrays import Floats
-from heartfit.heart import Heart
-from heartfit.load import Load, outside
-from heartfit.mechanics.body import FiniteElementBody
-from heartfit.mechanics.sphere import Sphere, SphericalBody, Stiffness
-from heartfit.mechanics.statics import inflate
-from heartfit.mechanics.time_step import TimeStep
-from heartfit.mechanism import COMPARTMENTS, External, Mechanism, Pressure
+from heartfit.core.arrays import Floats
+from heartfit.heart.circulation.coupling import Coupling, HeartState, Tolerances
+from heartfit.heart.circulation.elements import LinearValve
+from heartfit.heart.circulation.enclosure import EnclosedBody, EnclosedStiffness, load_table
+from heartfit.heart.circulation.network import Circulation
+from heartfit.heart.finite_elements.body import FiniteElementBody
+from heartfit.heart.finite_elements.unloading import inflate
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics, simulate
+from heartfit.heart.sphere.body import Sphere, SphericalBody, Stiffness
+from heartfit.heart.sphere.simulation import simulate_spheres
+from heartfit.heart.time_step import TimeStep
 from heartfit.mechanisms.pericardium import Pericardium
 from heartfit.mechanisms.septal_load import SeptalLoad
-from heartfit.simulation import Numerics, simulate
-from heartfit.sphere.simulation import simulate_spheres
+from heartfit.roles import COMPARTMENTS, External, Mechanism, Pressure
+from heartfit.roles.laws import Load, outside_pressure
+from tests.shrinking import assert_derivative
 
 DEPTH = 1500.0
 TIGHT = Tolerances(force=1e-7, volume=1e-14, pressure=1e-4, iterations=60)
@@ -51,11 +51,11 @@ DIVING: tuple[Mechanism, ...] = (Water(), Depth())
 
 def test_loads_add_up_with_their_slope() -> None:
     loads = np.array([[[Load(pulse=300.0)], [Load(50.0, 200.0, 1e-4, 2e-5)]]])
-    pressure, slope = outside(loads, 0, 0, 1.3e-4)
+    pressure, slope = outside_pressure(loads, 0, 0, 1.3e-4)
     assert pressure == pytest.approx(350.0 + 200.0 * np.exp(1.5))
     assert slope == pytest.approx(200.0 * np.exp(1.5) / 2e-5)
     x, step = np.array([1.3e-4]), np.array([1e-5])
-    assert_derivative(lambda V: np.array([outside(loads, 0, 0, V[0])[0]]), slope * step, x, step)
+    assert_derivative(lambda V: np.array([outside_pressure(loads, 0, 0, V[0])[0]]), slope * step, x, step)
 
 
 def test_a_septal_load_is_the_left_ventricles_alone() -> None:
@@ -81,7 +81,7 @@ def test_the_enclosed_sphere_resists_with_its_wall_and_its_load(spheres: Spheric
     sac = Pericardium(pressure=900.0, volume=80e-6)
     x, step = np.array([[1e-3], [2e-3]]), TimeStep(0.0, 0.01, 0.8)
     bare = spheres.step(spheres.rest(), step).forces(x)
-    enclosed = Enclosed(spheres, (sac,)).step(spheres.rest(), step).forces(x)
+    enclosed = EnclosedBody(spheres, (sac,)).step(spheres.rest(), step).forces(x)
     outer = 900.0 * np.exp((spheres.volumes(x).mean() - 80e-6) / sac.growth)
     assert (enclosed - bare) / spheres.volume_gradients(x).diagonal() == pytest.approx([outer, outer])
 
@@ -89,7 +89,7 @@ def test_the_enclosed_sphere_resists_with_its_wall_and_its_load(spheres: Spheric
 @pytest.mark.parametrize("coupled", [True, False])
 def test_a_diving_heart_beats_as_on_land(spherical_heart: Heart, coupled: bool) -> None:
     """The same pressure outside the walls and in all vessels leaves every volume, and raises every pressure by it."""
-    left, right = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
+    left, right = Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6)
     diver = replace(spherical_heart, mechanisms=(*spherical_heart.mechanisms, *DIVING))
     body = SphericalBody(left, right, spherical_heart.tissue)
     on_land, below = (
@@ -121,12 +121,14 @@ def test_elements_dive_too(coarse_body: FiniteElementBody) -> None:
 
 
 def test_a_load_that_grows_and_changes_keeps_the_second_order(spherical_heart: Heart) -> None:
-    """Of the volume while a sac and a pulse press on a ventricle that fills through a tight valve."""
+    """The volume of a ventricle that fills through a tight valve, under a sac and a pulse."""
     slow = replace(spherical_heart, circulation=Circulation(mitral=LinearValve(open=1e-7)), period=0.8)
     heart = slow + Pericardium(pressure=100.0, volume=80e-6) + SeptalLoad(200.0, peak=0.06, width=0.24)
 
     def filled(dt: float) -> float:
-        beat = simulate_spheres(heart, [Sphere.of(80e-6, 130e-6)], Numerics(time_step=dt, max_beats=1))
+        beat = simulate_spheres(
+            heart, [Sphere.from_volumes(80e-6, 130e-6)], Numerics(time_step=dt, max_beats=1)
+        )
         return float(beat.volume["lv"][round(0.08 / dt)])
 
     fine = filled(0.08 / 512)

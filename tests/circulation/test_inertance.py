@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from tests.shrinking import assert_derivative
 
-from heartfit.branch import Branch, branch_flow, inertial_flow
+from heartfit.roles.laws import Branch, branch_flow, inertial_flow
+from tests.shrinking import assert_derivative
 
 LINEAR, ORIFICE = Branch(4e-6, 0.0, 1e-11, 0.0), Branch(0.0, 4e-4, 1e-11, 0.0)
 laws = pytest.mark.parametrize("law", [LINEAR, ORIFICE], ids=["linear", "orifice"])

@@ -1,18 +1,18 @@
-"""The circuit conserves blood whatever the pressures and whatever leaks it has."""
+"""The circuit conserves blood at all pressures and with all leaks."""
 
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from tests.shrinking import assert_derivative
 
-from heartfit.branch import Branch
-from heartfit.circulation.network import VALVES, Circulation, Network, NetworkStep
-from heartfit.circulation.valves import OrificeValve
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import COMPARTMENTS, Flow
+from heartfit.core.arrays import Floats
+from heartfit.heart.circulation.elements import OrificeValve
+from heartfit.heart.circulation.network import VALVES, Circulation, Network, NetworkStep
 from heartfit.mechanisms.atrial_kick import AtrialKick
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+from heartfit.roles import COMPARTMENTS, Flow
+from heartfit.roles.laws import Branch
+from tests.shrinking import assert_derivative
 
 CIRCULATIONS = [Circulation(), Circulation(mitral=OrificeValve(), aortic=OrificeValve())]
 ENDS = {**VALVES, "MitralRegurgitation": ("lv", "left_atrium")}

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from tests.shrinking import assert_derivative
 
-from heartfit.branch import BLOOD_DENSITY, Branch
-from heartfit.circulation.valves import LinearValve, OrificeValve, Valve
+from heartfit.heart.circulation.elements import LinearValve, OrificeValve, Valve
+from heartfit.roles.laws import BLOOD_DENSITY, Branch
+from tests.shrinking import assert_derivative
 
 VALVES = [LinearValve(), OrificeValve()]
 BOTH_WAYS = Branch(area=1e-4, back_area=1e-4)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.circulation.windkessel import EJECTION, PULMONARY, Windkessel, WindkesselState
+from heartfit.heart.circulation.elements import EJECTION_TIME, PULMONARY, Windkessel, WindkesselState
 
 TREES = [Windkessel(), PULMONARY]
 pytestmark = pytest.mark.parametrize("tree", TREES, ids=["systemic", "pulmonary"])
@@ -39,7 +39,7 @@ def test_affine_pressure_is_that_of_the_advanced_state(tree: Windkessel) -> None
     for _ in range(50):
         state = WindkesselState(rng.uniform(0.0, 2e4), rng.uniform(-1e-4, 5e-4))
         q, dt = rng.uniform(-1e-4, 6e-4), 10 ** rng.uniform(-4, -1)
-        a, b = tree.affine(state, dt)
+        a, b = tree.affine_pressure(state, dt)
         assert a + b * q == pytest.approx(arterial(tree, tree.advance(state, q, dt), q), rel=1e-12)
 
 
@@ -72,7 +72,7 @@ def test_oscillating_flow_meets_the_impedance(tree: Windkessel) -> None:
     assert errors[-1] < 0.03 * abs(peripheral + inertial)
 
 
-def test_raised_by_its_lack_the_same_inflow_leads_back_to_the_start(tree: Windkessel) -> None:
+def test_raised_by_its_deficit_the_same_inflow_leads_back_to_the_start(tree: Windkessel) -> None:
     inflow = np.clip(3e-4 * np.random.default_rng(2).standard_normal(4000), 0.0, None)
 
     def after(state: WindkesselState) -> WindkesselState:
@@ -82,7 +82,7 @@ def test_raised_by_its_lack_the_same_inflow_leads_back_to_the_start(tree: Windke
 
     first = WindkesselState(6e3)
     once = after(first)
-    periodic = WindkesselState(first.P_c + tree.lack(first, once, 0.8), once.q_L)
+    periodic = WindkesselState(first.P_c + tree.pressure_deficit(first, once, 0.8), once.q_L)
     assert abs(once.P_c / first.P_c - 1.0) > 0.05
     assert after(periodic).P_c == pytest.approx(periodic.P_c, rel=1e-3)
 
@@ -92,6 +92,6 @@ def test_the_periodic_start_is_kept_by_a_stroke_at_the_middle_of_ejection(tree: 
     start = tree.periodic_start(stroke, 0.8)
     state = start
     for step in range(steps):
-        q = stroke * steps / 0.8 if step == round(steps * EJECTION / 0.8) else 0.0
+        q = stroke * steps / 0.8 if step == round(steps * EJECTION_TIME / 0.8) else 0.0
         state = tree.advance(state, q, 0.8 / steps)
     assert state.P_c == pytest.approx(start.P_c, rel=1e-3)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat, failed_beat
-from heartfit.cohort.catheter import Catheter
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
+from heartfit.heart.beat import Beat, failed_beat
 from heartfit.observation.curve import Curve
+from heartfit.synthetic.scanner import Catheter
 
 PERIOD, TRIGGER = 0.83, 0.17
 
@@ -55,10 +55,10 @@ def test_noise_is_white_and_the_zero_is_drawn_once_a_recording(beat: Beat) -> No
 
 @pytest.mark.parametrize("wrong", [{"rate": 0.0}, {"noise": -1.0}, {"offset": -1.0}, {"rate": np.nan}])
 def test_a_catheter_that_cannot_be_is_refused(wrong: dict[str, float]) -> None:
-    with pytest.raises(InputError, match="expected a positive rate and deviations of at least zero"):
+    with pytest.raises(InputError, match=r"rate.*deviations"):
         Catheter(**wrong)
 
 
 def test_a_failed_beat_has_no_pressure() -> None:
-    with pytest.raises(InputError, match=r"the beat failed \(torn\)"):
+    with pytest.raises(InputError, match="torn"):
         Catheter().record(failed_beat("torn", PERIOD, TRIGGER, {}), 0)

@@ -6,14 +6,12 @@ import numpy as np
 import pytest
 from scipy.ndimage import label
 
-from heartfit.cohort.cine import image_beat
-from heartfit.cohort.scan_plan import ScanPlan
-from heartfit.cohort.scanner import Contrast, Scanner
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.coordinates import LeftVentricularAxes
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
+from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.imaging.sequence import ImageSequence
+from heartfit.synthetic.cine import ScanPlan, image_beat
+from heartfit.synthetic.scanner import Contrast, Scanner
 
 PERIOD = 0.8
 PHASES = 16
@@ -37,7 +35,7 @@ def beating(ventricle: VentricularMesh) -> Motion:
     """Towards the apex by 12 mm and back."""
     times = np.arange(PHASES) * PERIOD / PHASES
     descent = 6e-3 * (1.0 - np.cos(2.0 * np.pi * times / PERIOD))
-    up = LeftVentricularAxes.of(ventricle).axis
+    up = LeftVentricularAxes.from_mesh(ventricle).axis
     return Motion(times, PERIOD, ventricle.points - descent[:, None, None] * up)
 
 
@@ -170,7 +168,9 @@ def test_the_bright_voxels_of_the_left_ventricle_have_its_volume(
     middle = ventricle.points[np.unique(ventricle.surfaces["lv_endo"])].mean(axis=0)
     i, j, k = np.rint(seen.grid.index(middle)).astype(int)
     found = (bright == bright[k, j, i]).sum() * seen.grid.spacing.prod()
-    assert found == pytest.approx(Cavity.of(ventricle, "lv_endo").volume(ventricle.points), rel=0.05)
+    assert found == pytest.approx(
+        Cavity.from_endocardium(ventricle, "lv_endo").volume(ventricle.points), rel=0.05
+    )
 
 
 def test_images_are_all_that_leaves_the_scanner(clean: ImageSequence) -> None:

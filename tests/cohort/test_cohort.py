@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat, motion_of
-from heartfit.circulation.valves import OrificeValve
-from heartfit.cohort.draw_shape import draw_anatomy
-from heartfit.cohort.hidden_heart import ESTIMATED, OTHER_CONDUCTIONS, draw_heart, hide_heart
-from heartfit.electrophysiology.conduction import CONDUCTIONS
-from heartfit.heart import FOURTEEN, Heart
+from heartfit.heart.activation.conduction import CONDUCTIONS
+from heartfit.heart.beat import Beat, nodal_motion
+from heartfit.heart.circulation.elements import OrificeValve
+from heartfit.heart.heart import PAPER_PARAMETERS, Heart
+from heartfit.synthetic.volunteer import ESTIMATED, OTHER_CONDUCTIONS, draw_anatomy, draw_heart, hide_heart
 
 PERIOD, FRAMES = 0.8, 25
 STANDARD = {"sigma_0": 200e3, "mu": 8e3}
@@ -41,7 +40,7 @@ def test_the_hidden_heart_is_another_model() -> None:
 
 def test_the_truth_is_the_heart_s_value_of_the_paper_s_parameters() -> None:
     heart, truth = draw_heart(STANDARD, PERIOD, 1)
-    assert tuple(truth) == FOURTEEN
+    assert tuple(truth) == PAPER_PARAMETERS
     assert heart.with_parameters(truth) == heart
 
 
@@ -54,7 +53,7 @@ def test_the_hidden_hearts_scatter_about_the_standard() -> None:
 def test_a_heart_is_hidden_at_its_share_of_the_standard_and_the_others_scatter() -> None:
     ratios = {"sigma_0": 0.6, "mu": 1.1, "c_1": 1.48, "R_p": 0.9}
     first, second = (hide_heart(STANDARD, ratios, PERIOD, seed)[1] for seed in (1, 2))
-    standard = {name: Heart().parameters()[Heart().path_of(name)] for name in ESTIMATED} | STANDARD
+    standard = {name: Heart().parameters()[Heart().parameter_path(name)] for name in ESTIMATED} | STANDARD
     for name, ratio in ratios.items():
         assert first[name] == second[name] == pytest.approx(ratio * standard[name])
     assert first["k_RS"] != second["k_RS"]
@@ -68,7 +67,7 @@ def test_a_hidden_block_starts_where_the_calibrator_s_does_but_runs_at_other_spe
 
 
 def test_the_motion_begins_at_the_trigger_and_goes_on_between_the_steps(beat: Beat) -> None:
-    motion = motion_of(beat)
+    motion = nodal_motion(beat)
     steps = np.asarray(beat.positions)
     for time in np.linspace(0.0, PERIOD, FRAMES, endpoint=False):
         sample = ((time + beat.trigger) % PERIOD) / PERIOD * 800

@@ -4,23 +4,22 @@ import numpy as np
 import pytest
 from scipy.ndimage import label
 
-from heartfit.cohort.scan_plan import ScanPlan
-from heartfit.cohort.scanner import Contrast, Scanner
-from heartfit.cohort.scene import ATRIUM, FAT, LEAFLET, Scene, prism
-from heartfit.geometry.arrays import Floats
+from heartfit.core.arrays import Floats
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.coordinates import LeftVentricularAxes
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.topology import rim_loops
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.wall import wall_voxels
+from heartfit.geometry.surface import rim_loops
+from heartfit.imaging.raster import wall_voxels
+from heartfit.imaging.sequence import Grid
+from heartfit.synthetic.cine import ATRIUM, FAT, LEAFLET, ScanPlan, Scene, prism
+from heartfit.synthetic.scanner import Contrast, Scanner
 
 PLAN = Scanner(voxel=3e-3, slice_thickness=3e-3, subvoxel=1.5e-3, margin=40e-3)
 PLAIN = Contrast(muscle_texture=0.0, lung_texture=0.0)
 
 
 def scene_of(mesh: VentricularMesh, contrast: Contrast, shift: Floats | None = None) -> Scene:
-    axes = LeftVentricularAxes.of(mesh)
+    axes = LeftVentricularAxes.from_mesh(mesh)
     grid = ScanPlan.about(mesh, axes, PLAN).fine
     still = np.zeros((grid.size[2], 2))
     rng = np.random.default_rng(0)
@@ -100,7 +99,7 @@ def test_fat_lies_on_the_muscle_of_the_base(ventricle: VentricularMesh) -> None:
 def test_the_blood_in_the_cavities_has_their_volume(ventricle: VentricularMesh) -> None:
     """What hangs together with blood well below the valves; the leaflets keep the atria apart."""
     scene = scene_of(ventricle, PLAIN)
-    cavities = [Cavity.of(ventricle, f"{side}_endo") for side in ("lv", "rv")]
+    cavities = [Cavity.from_endocardium(ventricle, f"{side}_endo") for side in ("lv", "rv")]
     valves = min((ventricle.points[cavity.rim] @ scene.up).min() for cavity in cavities)
     pools = label(scene.at(ventricle.points) == PLAIN.blood)[0]
     k, j, i = np.nonzero(pools)
@@ -137,7 +136,7 @@ def test_a_displaced_slice_shows_the_heart_displaced_and_no_other_slice_does(
 def test_the_grid_s_axes_are_the_ventricle_s(ventricle: VentricularMesh) -> None:
     """Septal, anterior and from the apex to the base; the margin is kept on every side."""
     grid: Grid = scene_of(ventricle, PLAIN).grid
-    axes = LeftVentricularAxes.of(ventricle)
+    axes = LeftVentricularAxes.from_mesh(ventricle)
     np.testing.assert_array_equal(grid.direction, np.column_stack([axes.septal, axes.anterior, axes.axis]))
     index = grid.index(ventricle.points)
     edge = PLAN.margin / grid.spacing - 1.0

@@ -5,25 +5,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.cohort.draw_shape import AVERAGE, draw_anatomy
-from heartfit.cohort.template import Template
 from heartfit.geometry.cavity import Cavity
-from heartfit.geometry.mesh import VentricularMesh
+from heartfit.geometry.mesh import VentricularMesh, smallest_dihedral_angles
 from heartfit.geometry.parametric import ParametricVentricles
-from heartfit.geometry.quality import smallest_dihedral_angles
+from heartfit.synthetic.volunteer import AVERAGE, Template, draw_anatomy
 
 DILATED = ParametricVentricles(200e-6, 9e-3, 1.7, 170e-6, 3.6e-3)
 SHAPES = {"small": draw_anatomy(1010).shape, "dilated": DILATED}
 
 
 def cavities(mesh: VentricularMesh) -> list[float]:
-    return [Cavity.of(mesh, name).volume(mesh.points) for name in ("lv_endo", "rv_endo")]
+    return [Cavity.from_endocardium(mesh, name).volume(mesh.points) for name in ("lv_endo", "rv_endo")]
 
 
 def built(*size: float) -> Template:
     """A coarse template, which loses less on the way to these shapes than the study's to its own."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("heartfit.cohort.template.TEMPLATE_ANGLE", np.deg2rad(9.0))
+        patch.setattr("heartfit.synthetic.volunteer.TEMPLATE_ANGLE", np.deg2rad(9.0))
         return Template.build(*size)
 
 
@@ -38,14 +36,14 @@ def other() -> Template:
 
 
 def test_in_the_average_wall_the_template_stays_where_it_is(template: Template) -> None:
-    assert template.shaped(AVERAGE).points == pytest.approx(template.mesh.points, abs=1e-12)
+    assert template.deformed_to(AVERAGE).points == pytest.approx(template.mesh.points, abs=1e-12)
 
 
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.filterwarnings("error")
 def test_the_moved_mesh_fills_the_wall_of_the_shape(name: str, template: Template) -> None:
     shape = SHAPES[name]
-    moved = template.shaped(shape)
+    moved = template.deformed_to(shape)
     assert moved.wall_volume() == pytest.approx(shape.surface().volume(), rel=0.02)
     coarseness = np.array(cavities(template.mesh)) / [AVERAGE.edv, AVERAGE.rv_edv]
     assert cavities(moved) == pytest.approx(coarseness * [shape.edv, shape.rv_edv], rel=0.01)
@@ -54,7 +52,7 @@ def test_the_moved_mesh_fills_the_wall_of_the_shape(name: str, template: Templat
 
 
 def test_a_heart_repeats_to_the_bit(template: Template) -> None:
-    first, second = (template.shaped(DILATED).points for _ in range(2))
+    first, second = (template.deformed_to(DILATED).points for _ in range(2))
     assert np.array_equal(first, second)
 
 
@@ -62,10 +60,10 @@ def test_a_heart_repeats_to_the_bit(template: Template) -> None:
 def test_the_other_template_refills_the_same_wall_with_other_nodes(
     template: Template, other: Template
 ) -> None:
-    acquired = template.shaped(DILATED)
+    acquired = template.deformed_to(DILATED)
     bulge = 1.0 + 0.03 * np.sin(40.0 * acquired.points[:, 2:])  # of a beat, which no shape has
     acquired = acquired.with_points(acquired.points * bulge)
-    refilled = other.refilling(acquired, template.mesh)
+    refilled = other.fill_wall_of(acquired, template.mesh)
     assert refilled.wall_volume() == pytest.approx(acquired.wall_volume(), rel=0.02)
     assert cavities(refilled) == pytest.approx(cavities(acquired), rel=0.02)
     assert len(refilled.points) != len(acquired.points)
@@ -76,12 +74,12 @@ def test_where_moving_spoils_it_the_wall_is_meshed_anew(template: Template) -> N
     top, *foot = tets[smallest_dihedral_angles(points, tets).argmin()]
     points[top] = 0.01 * points[top] + 0.99 * points[foot].mean(axis=0)
     spoilt = replace(template, mesh=template.mesh.with_points(points))
-    with pytest.warns(UserWarning, match=r"does not fit: smallest dihedral angle.*meshed anew"):
-        mesh = spoilt.shaped(DILATED)
+    with pytest.warns(UserWarning, match=r"smallest dihedral angle"):
+        mesh = spoilt.deformed_to(DILATED)
     assert np.rad2deg(smallest_dihedral_angles(mesh.points, mesh.tets).min()) >= 8.0
 
 
 def test_a_wall_of_another_mesh_is_meshed_anew(template: Template, other: Template) -> None:
     with pytest.warns(UserWarning, match="numbered differently"):
-        mesh = other.refilling(template.shaped(DILATED), other.mesh)
+        mesh = other.fill_wall_of(template.deformed_to(DILATED), other.mesh)
     assert mesh.wall_volume() == pytest.approx(DILATED.surface().volume(), rel=0.04)

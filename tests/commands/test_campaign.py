@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from heartfit.cli import main
+from heartfit.cli.main import main
 
 ROOT = Path(__file__).parents[2]
 

@@ -6,9 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.cli import main
-from heartfit.io.cases import read_cases
-from heartfit.io.configuration import read_configuration, read_study
+from heartfit.cli.main import main
+from heartfit.io.configuration import read_cases, read_configuration, read_study
 
 ROOT = Path(__file__).parents[2]
 
@@ -110,8 +109,8 @@ def test_the_pressure_at_the_trigger_is_the_filling_pressure(project, pressure, 
     [case] = read_cases(project / "config" / "heart1.tsv")
     study = read_study([Path("config/config.yaml")])
     usual = study.end_diastolic_pressure
-    assert study.filling(case).rv == usual.rv
-    assert study.filling(case).lv == pytest.approx(usual.lv if said is None else said, rel=2e-2)
+    assert study.filling_pressures(case).rv == usual.rv
+    assert study.filling_pressures(case).lv == pytest.approx(usual.lv if said is None else said, rel=2e-2)
 
 
 @pytest.mark.measured

@@ -5,14 +5,13 @@ from pathlib import Path
 
 import pytest
 
-from heartfit.cohort.catheter import Catheter
-from heartfit.cohort.scanner import Contrast, Scanner
-from heartfit.configuration.imaging import Acquisition, ImageContrast, PressureLine, Registration, flat
-from heartfit.configuration.strict import validated
-from heartfit.configuration.study import Study
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
+from heartfit.core.validation import validate
+from heartfit.imaging.registration.track import FreeForm
 from heartfit.io.configuration import read_configuration, read_study
-from heartfit.registration.track import FreeForm
+from heartfit.study.imaging import Acquisition, ImageContrast, PressureLine, Registration, flat
+from heartfit.study.study import Study
+from heartfit.synthetic.scanner import Catheter, Contrast, Scanner
 
 CONFIG = Path(__file__).parents[2] / "config"
 
@@ -52,23 +51,23 @@ def test_other_acquisitions_differ_from_the_cohort_s_in_one_setting():
         (
             "registration_error",
             {"varied": {"snr": [10]}},
-            "varied.snr is no setting of the scanner; known are",
+            r"varied\.snr",
         ),
         ("registration_error", {"varied": {"frames": [3]}}, "frames"),
         ("registration_error", {"sequences": 19}, "sequences"),
-        ("registration_error", {"varied_sequences": 99}, "varied_sequences = 99 is more than sequences"),
-        ("registration", {"knot": 1.0}, "unknown key registration.knot; did you mean knots"),
+        ("registration_error", {"varied_sequences": 99}, r"varied_sequences = 99.*sequences"),
+        ("registration", {"knot": 1.0}, r"registration\.knot\b.*knots"),
     ],
 )
 def test_what_cannot_be_is_refused_in_one_line(content, table, change, said):
     with pytest.raises(InputError, match=said) as refused:
-        validated(Study, content | {table: content[table] | change}, "config")
+        validate(Study, content | {table: content[table] | change}, "config")
     assert "\n" not in str(refused.value)
 
 
 def test_the_protocol_tells_every_setting_and_changes_with_each(content):
-    study = validated(Study, content, "config")
-    other = validated(Study, content | {"registration": content["registration"] | {"reach": 5e-3}}, "config")
+    study = validate(Study, content, "config")
+    other = validate(Study, content | {"registration": content["registration"] | {"reach": 5e-3}}, "config")
     assert len(study.protocol()) == len(flat({"": study.cohort.scanner})) + 3 + len(Registration.model_fields)
     assert set(study.protocol().items()) ^ set(other.protocol().items()) == {
         ("registration.reach", 4e-3),

@@ -4,8 +4,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from heartfit.diagnosis import case, library
-from heartfit.diagnosis.twin import Twin
+from heartfit.discovery.sphere_model import diagnose as case
+from heartfit.discovery.sphere_model import forward_model as library
+from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
 
 FEW = ("CatheterDelay", "CatheterOffset", "ImageShrinkage", "MitralRegurgitation")
 
@@ -18,5 +19,5 @@ def few_mechanisms() -> Iterator[None]:
         yield
 
 
-def few(twin: Twin) -> dict[str, library.Candidate]:
-    return {name: each for name, each in library.candidates(twin).items() if name in FEW}
+def few(model: SphereForwardModel) -> dict[str, library.Candidate]:
+    return {name: each for name, each in library.candidates(model).items() if name in FEW}

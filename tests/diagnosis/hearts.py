@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 
-from heartfit.diagnosis.recording import Recording, Samples
-from heartfit.planting.case import Plan, plant
+from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.synthetic.campaign import PlantedPlan
+from heartfit.synthetic.case import plant
 
-LEAK = Plan(1, "single", ("MitralRegurgitation",), 2.5)
+LEAK = PlantedPlan(1, "single", ("MitralRegurgitation",), 2.5)
 
 
-def recorded(plan: Plan, condition: str = "rest") -> Recording:
+def recorded(plan: PlantedPlan, condition: str = "rest") -> Recording:
     """What is measured of a planted case."""
     curves = plant(replace(plan, reloaded=condition != "rest")).curves[condition]
     samples = {name: Samples(curve.times, curve.values) for name, curve in curves.items()}
@@ -17,4 +18,4 @@ def recorded(plan: Plan, condition: str = "rest") -> Recording:
 
 def healthy(seed: int) -> Recording:
     """A heart without an effect."""
-    return recorded(Plan(seed, "none"))
+    return recorded(PlantedPlan(seed, "none"))

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from heartfit import cli
-from heartfit.diagnosis import library
+from heartfit.cli import main as cli
+from heartfit.discovery.sphere_model import forward_model as library
 from heartfit.io.causes import read_cause
 from heartfit.io.curves import write_table_of_curves
-from heartfit.mechanism import registered
-from heartfit.planting.campaign import Plan
-from heartfit.planting.case import plant
+from heartfit.roles import registered
+from heartfit.synthetic.campaign import PlantedPlan
+from heartfit.synthetic.case import plant
 
-OFFSET = Plan(11, "single", ("CatheterOffset",), 2.5, reloaded=True)
+OFFSET = PlantedPlan(11, "single", ("CatheterOffset",), 2.5, reloaded=True)
 
 
 @pytest.fixture

@@ -3,12 +3,13 @@
 from dataclasses import replace
 
 import pytest
-from tests.diagnosis.hearts import LEAK, healthy, recorded
 
-from heartfit.diagnosis.diagnose import diagnose, likeliest
+from heartfit.discovery.sphere_model.diagnose import diagnose, near_best
 from heartfit.io.causes import read_cause, write_cause_card
-from heartfit.planting.case import plant
-from heartfit.tables.cause_card import card, sentence
+from heartfit.results.cause_card import markdown_card, verdict_sentence
+from heartfit.results.cause_figure import render_cause
+from heartfit.synthetic.case import plant
+from tests.diagnosis.hearts import LEAK, healthy, recorded
 
 pytestmark = pytest.mark.usefixtures("few_mechanisms")
 
@@ -34,15 +35,15 @@ def test_it_gains_under_a_loading_that_was_never_fitted(found):
 
 
 def test_the_card_says_it_in_words(found):
-    assert sentence(found).startswith("The simulation lacks mitral regurgitation of 0.")
-    text = card(found, "case 1")
+    assert verdict_sentence(found).startswith("Missing mechanism: mitral regurgitation, 0.")
+    text = markdown_card(found, "case 1")
     assert "cm²" in text
     assert "legs raised" in text
-    assert f"{found.simulations} simulated beats" in text
+    assert str(found.simulations) in text
 
 
 def test_the_card_is_written_and_read(found, tmp_path):
-    assert "cause.md" in write_cause_card(tmp_path / "deep", found, "case 1", "0123")
+    write_cause_card(tmp_path / "deep", render_cause(found, "case 1"), "0123")
     content = read_cause(tmp_path / "deep" / "cause.json")
     assert content["verdict"] == "named"
     assert content["mechanisms"][0]["amplitude"] == found.mechanisms[0].amplitude
@@ -65,9 +66,9 @@ def test_every_model_that_was_tried_is_told_with_its_criteria(found):
 
 def test_what_another_condition_adds_tells_members_of_a_group_apart():
     leak, delay, shrunk = ("Leak",), ("Delay",), ("Shrunk",)
-    assert likeliest({leak: 9.0, delay: 12.5, shrunk: 10.0}, 3.0) == [delay, shrunk]
-    assert likeliest({leak: 9.0, delay: 12.5, shrunk: 9.5}, 3.0) == [delay]
-    assert likeliest({}, 3.0) == []
+    assert near_best({leak: 9.0, delay: 12.5, shrunk: 10.0}, 3.0) == [delay, shrunk]
+    assert near_best({leak: 9.0, delay: 12.5, shrunk: 9.5}, 3.0) == [delay]
+    assert near_best({}, 3.0) == []
 
 
 @pytest.mark.parametrize("seed", [1, 4, 6])
@@ -83,4 +84,4 @@ def test_a_volume_alone_is_not_enough():
     found = diagnose(replace(both, curves={"lv_volume": both.curves["lv_volume"]}))
     assert found.verdict == "insufficient"
     assert "pressure" in found.next_measurement
-    assert sentence(found).startswith("These data cannot tell")
+    assert verdict_sentence(found).startswith("Insufficient data")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from heartfit.diagnosis.held_out import error_ratio
+from heartfit.discovery.sphere_model.held_out import error_ratio
 
 
 def test_the_ratio_is_that_of_the_errors_and_its_interval_holds_it():

@@ -2,28 +2,32 @@
 
 import numpy as np
 
-from heartfit.diagnosis.centre import HUMAN
-from heartfit.diagnosis.library import BASE, candidates, hypothesis
-from heartfit.diagnosis.twin import Twin
-from heartfit.mechanism import registered
+from heartfit.discovery.sphere_model.forward_model import (
+    BASE_COORDINATES,
+    SphereForwardModel,
+    candidates,
+    hypothesis,
+)
+from heartfit.discovery.sphere_model.nominal_heart import ADULT
+from heartfit.roles import registered
 
 FRAMES = np.arange(26) / 30
-BOTH = Twin(HUMAN, {"lv_volume": FRAMES, "lv_pressure": FRAMES})
+BOTH = SphereForwardModel(ADULT, {"lv_volume": FRAMES, "lv_pressure": FRAMES})
 
 
 def test_whatever_the_heart_has_not_and_the_recording_shows_is_a_candidate():
     assert set(candidates(BOTH)) == set(registered()) - {"AtrialKick"}
-    alone = candidates(Twin(HUMAN, {"lv_volume": FRAMES}))
+    alone = candidates(SphereForwardModel(ADULT, {"lv_volume": FRAMES}))
     assert set(candidates(BOTH)) - set(alone) == {"CatheterDamping", "CatheterDelay", "CatheterOffset"}
 
 
 def test_every_hypothesis_begins_with_the_same_coordinates_and_none_is_in_it():
     none = hypothesis(BOTH)
-    assert none.coordinates == BASE
+    assert none.coordinates == BASE_COORDINATES
     without = none.forward(none.at(0.0))
     for each in candidates(BOTH).values():
         single = hypothesis(BOTH, (each,))
-        assert single.coordinates[: len(BASE)] == BASE
+        assert single.coordinates[: len(BASE_COORDINATES)] == BASE_COORDINATES
         assert single.amplitudes.sum() == 1
         assert np.array_equal(single.forward(single.at(0.0)), without), each.name
         assert not np.array_equal(single.forward(single.at(1.0)), without), each.name

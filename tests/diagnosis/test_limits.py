@@ -1,10 +1,10 @@
 """What shows plainly has a small limit, what the model absorbs has none."""
 
-from heartfit.diagnosis.limits import limits
+from heartfit.discovery.sphere_model.limits import detection_limits
 
 
 def test_a_delay_shows_and_a_scar_does_not():
-    found = {(each.name, each.sign): each for each in limits(1, names=("CatheterDelay", "Scar"))}
+    found = {(each.name, each.sign): each for each in detection_limits(1, names=("CatheterDelay", "Scar"))}
     assert set(found) == {("CatheterDelay", 1.0), ("CatheterDelay", -1.0), ("Scar", 1.0)}
     late, scar = found["CatheterDelay", 1.0], found["Scar", 1.0]
     assert 0.005 < late.amplitude < 0.015

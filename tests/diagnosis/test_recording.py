@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from heartfit.diagnosis.recording import Recording, Samples
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
+from heartfit.discovery.sphere_model.recording import Recording, Samples
 
 TIMES = np.arange(25) * 0.033
 VOLUME = Samples(TIMES, 120e-6 + 50e-6 * np.cos(2 * np.pi * TIMES / 0.825))

@@ -3,23 +3,20 @@
 import numpy as np
 import pytest
 
-from heartfit.diagnosis import self_test as module
-from heartfit.diagnosis.centre import HUMAN
-from heartfit.diagnosis.free import moved
-from heartfit.diagnosis.library import BASE
-from heartfit.diagnosis.record import data_of
-from heartfit.diagnosis.recording import Recording, Samples
-from heartfit.diagnosis.self_test import LARGEST, recorded, self_test
-from heartfit.diagnosis.twin import NUMERICS
+from heartfit.discovery.sphere_model import recentred as module
+from heartfit.discovery.sphere_model.forward_model import BASE_COORDINATES, NUMERICS
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, perturb
+from heartfit.discovery.sphere_model.recentred import SELF_TEST_LIMIT, recorded, self_test
+from heartfit.discovery.sphere_model.recording import Recording, Samples, search_data
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
 
-POINTS = np.random.default_rng(0).normal(0.0, 0.7, (3, len(BASE)))
+POINTS = np.random.default_rng(0).normal(0.0, 0.7, (3, len(BASE_COORDINATES)))
 FEW = ("CatheterDelay", "CatheterOffset", "ImageTriggerDelay")
 
 
 def curves(x: np.ndarray) -> dict[str, Curve]:
-    return beat_curves(moved(HUMAN, x).beat(NUMERICS))
+    return beat_curves(perturb(ADULT, x).beat(NUMERICS))
 
 
 @pytest.fixture(scope="module")
@@ -34,30 +31,30 @@ def recording(beats: list[dict[str, Curve]]) -> Recording:
         "lv_pressure": beats[0]["lv_pressure"].resampled(86),
     }
     samples = {name: Samples(curve.times, curve.values) for name, curve in shown.items()}
-    return Recording(HUMAN.heart.period, samples)
+    return Recording(ADULT.heart.period, samples)
 
 
 @pytest.fixture(autouse=True)
 def _few(monkeypatch: pytest.MonkeyPatch) -> None:
     every = module.candidates
-    monkeypatch.setattr(module, "candidates", lambda twin: {name: every(twin)[name] for name in FEW})
+    monkeypatch.setattr(module, "candidates", lambda model: {name: every(model)[name] for name in FEW})
 
 
 def test_nothing_is_found_in_beats_of_the_sphere_itself(
     recording: Recording, beats: list[dict[str, Curve]]
 ) -> None:
-    assert self_test(recording, HUMAN, beats) < LARGEST
+    assert self_test(recording, ADULT, beats) < SELF_TEST_LIMIT
 
 
 def test_a_centre_whose_pressure_comes_early_fails(
     recording: Recording, beats: list[dict[str, Curve]]
 ) -> None:
     late = [beat | {"lv_pressure": beat["lv_pressure"].shifted(-0.04)} for beat in beats]
-    assert self_test(recording, HUMAN, late) > LARGEST
+    assert self_test(recording, ADULT, late) > SELF_TEST_LIMIT
 
 
 def test_noise_is_the_instruments(recording: Recording, beats: list[dict[str, Curve]]) -> None:
-    like, random = data_of(recording), np.random.default_rng(1)
+    like, random = search_data(recording), np.random.default_rng(1)
     errors = recorded(like, beats[0], random).values - np.concatenate(
         [beats[0][block.curve](block.times) for block in like.blocks]
     )

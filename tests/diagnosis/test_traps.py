@@ -4,30 +4,30 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
+
+from heartfit.core.arrays import Floats
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.decide import DEFAULT_RULES
+from heartfit.discovery.inference.hypothesis import Hypothesis
+from heartfit.discovery.inference.search import fit_from_baseline, survey_singles
+from heartfit.discovery.sphere_model.forward_model import SphereForwardModel, candidates, hypothesis
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
+from heartfit.discovery.sphere_model.recording import search_data
+from heartfit.synthetic.campaign import PlantedPlan
 from tests.diagnosis.hearts import healthy, recorded
 
-from heartfit.diagnosis.centre import HUMAN
-from heartfit.diagnosis.free import FREE
-from heartfit.diagnosis.library import candidates, hypothesis
-from heartfit.diagnosis.record import data_of
-from heartfit.diagnosis.twin import Twin
-from heartfit.discovery.bench import Bench
-from heartfit.discovery.hypothesis import Hypothesis
-from heartfit.discovery.rules import RULES
-from heartfit.discovery.survey import from_none, surveyed
-from heartfit.geometry.arrays import Floats
-from heartfit.planting.case import Plan
-
 CALIBRATED = ("cavity", "sigma_0", "mu", "c_1", "R_p", "k_RS", "k_ATP")
-SEEN = np.array([each.name.rsplit(".", 1)[-1] in CALIBRATED for each in FREE])
+SEEN = np.array([each.name.rsplit(".", 1)[-1] in CALIBRATED for each in FREE_PARAMETERS])
 
 
 @pytest.fixture(scope="module")
-def bench():
+def context():
     recording = healthy(4)
-    data = data_of(recording)
-    twin = Twin(HUMAN.of_the_size_of(recording), {block.curve: block.times for block in data.blocks})
-    return Bench(data), twin
+    data = search_data(recording)
+    model = SphereForwardModel(
+        ADULT.scaled_to(recording), {block.curve: block.times for block in data.blocks}
+    )
+    return FitContext(data), model
 
 
 def frozen(given: Hypothesis) -> Hypothesis:
@@ -43,30 +43,30 @@ def frozen(given: Hypothesis) -> Hypothesis:
     return Hypothesis(given.effects, kept, forward)
 
 
-def best_bayes_factor(bench: Bench, hypotheses: Sequence[Hypothesis]) -> float:
+def best_bayes_factor(context: FitContext, hypotheses: Sequence[Hypothesis]) -> float:
     """ln evidence of the best effect over none, which comes first."""
-    none, *effects = (bench.explain(each, each.at(float(bool(each.effects)))) for each in hypotheses)
+    none, *effects = (context.explain(each, each.at(float(bool(each.effects)))) for each in hypotheses)
     return max(each.log_evidence for each in effects) - none.log_evidence
 
 
-def test_frozen_parameters_invent_an_effect(bench):
-    judge, twin = bench
-    every = candidates(twin)
+def test_frozen_parameters_invent_an_effect(context):
+    judge, model = context
+    every = candidates(model)
     effects = [every[name] for name in ("CatheterDelay", "CatheterOffset", "ImageTriggerDelay")]
-    hypotheses = [hypothesis(twin), *(hypothesis(twin, (each,)) for each in effects)]
-    assert best_bayes_factor(judge, hypotheses) < RULES.detected
-    assert best_bayes_factor(judge, [frozen(each) for each in hypotheses]) > 2.0 * RULES.detected
+    hypotheses = [hypothesis(model), *(hypothesis(model, (each,)) for each in effects)]
+    assert best_bayes_factor(judge, hypotheses) < DEFAULT_RULES.detected
+    assert best_bayes_factor(judge, [frozen(each) for each in hypotheses]) > 2.0 * DEFAULT_RULES.detected
 
 
-def test_the_residual_of_one_unscented_step_is_no_evidence(bench):
-    judge, twin = bench
-    none = hypothesis(twin)
+def test_the_residual_of_one_unscented_step_is_no_evidence(context):
+    judge, model = context
+    none = hypothesis(model)
     fitted = judge.explain(none, none.at(0.0)).fit.predicted
     assert chi_square(judge, one_step(judge, frozen(none))) > 3.0
     assert chi_square(judge, fitted) < 1.3
 
 
-def one_step(judge: Bench, model: Hypothesis) -> Floats:
+def one_step(judge: FitContext, model: Hypothesis) -> Floats:
     """What the model predicts after one unscented step from the centre: the mean slopes over 2 n + 1 sigma points."""
     n = len(model.coordinates)
     reach = np.sqrt(n)
@@ -78,10 +78,10 @@ def one_step(judge: Bench, model: Hypothesis) -> Floats:
     return model.forward(np.linalg.solve(np.eye(n) + gram, slope))
 
 
-def chi_square(judge: Bench, predicted: Floats) -> float:
+def chi_square(judge: FitContext, predicted: Floats) -> float:
     """Of the whitened residual at its likeliest level of noise, over the number of values."""
     residual = judge.data.values - predicted
-    levels = judge.whitening.likeliest(residual)
+    levels = judge.whitening.most_probable_levels(residual)
     parts = zip(judge.whitening.roots, levels, judge.whitening.rows, strict=True)
     white = np.concatenate([roots[level] @ residual[rows] for roots, level, rows in parts])
     return float(np.mean(white**2))
@@ -89,13 +89,15 @@ def chi_square(judge: Bench, predicted: Floats) -> float:
 
 def test_a_severe_leak_drags_the_fit_without_it_to_where_the_leak_is_not_seen():
     """It is named all the same, for every effect starts from the centre of the priors as well."""
-    recording = recorded(Plan(301, "single", ("MitralRegurgitation",), 3.0))
-    data = data_of(recording)
-    twin = Twin(HUMAN.of_the_size_of(recording), {block.curve: block.times for block in data.blocks})
-    leak = hypothesis(twin, (candidates(twin)["MitralRegurgitation"],))
-    judge = Bench(data)
-    none = judge.explain(hypothesis(twin), hypothesis(twin).at(0.0))
-    dragged = from_none(judge, none, leak)
-    survey = surveyed(judge, hypothesis(twin), [leak], RULES)
-    assert dragged.log_evidence - none.log_evidence < RULES.detected
-    assert survey.singles[0].log_evidence - survey.none.log_evidence > 3.0 * RULES.detected
+    recording = recorded(PlantedPlan(301, "single", ("MitralRegurgitation",), 3.0))
+    data = search_data(recording)
+    model = SphereForwardModel(
+        ADULT.scaled_to(recording), {block.curve: block.times for block in data.blocks}
+    )
+    leak = hypothesis(model, (candidates(model)["MitralRegurgitation"],))
+    judge = FitContext(data)
+    none = judge.explain(hypothesis(model), hypothesis(model).at(0.0))
+    dragged = fit_from_baseline(judge, none, leak)
+    survey = survey_singles(judge, hypothesis(model), [leak], DEFAULT_RULES)
+    assert dragged.log_evidence - none.log_evidence < DEFAULT_RULES.detected
+    assert survey.singles[0].log_evidence - survey.baseline.log_evidence > 3.0 * DEFAULT_RULES.detected

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from heartfit.discovery.data import Block, Data, Noise
-from heartfit.discovery.hypothesis import Coordinate, Hypothesis
+from heartfit.discovery.inference.data import Block, Data, Noise
+from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 
 TIMES = np.arange(8) / 8
 NOISE = Noise((0.3, 0.6), 0.1, 0.1, discrepancy=0.5)

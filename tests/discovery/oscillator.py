@@ -7,8 +7,8 @@ The base coordinates scale A, w and z and shift b; standard deviations as in ``S
 
 import numpy as np
 
-from heartfit.discovery.data import Block, Data, Noise
-from heartfit.discovery.hypothesis import Coordinate, Hypothesis
+from heartfit.discovery.inference.data import Block, Data, Noise
+from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 
 TIMES = np.arange(24) / 24
 SPREAD = {"amplitude": 0.2, "frequency": 0.1, "damping": 0.3, "offset": 0.1}

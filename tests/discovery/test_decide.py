@@ -2,8 +2,7 @@
 
 import pytest
 
-from heartfit.discovery.decide import Decision, Evidences, Verdict, decide
-from heartfit.discovery.rules import STRICT
+from heartfit.discovery.inference.decide import STRICT_RULES, Decision, Evidences, decide
 
 A, B, C, AB = ("a",), ("b",), ("c",), ("a", "b")
 
@@ -26,23 +25,23 @@ def evidences(
 @pytest.mark.parametrize(
     ("given", "expected"),
     [
-        (evidences(4.9), Decision(Verdict.NONE)),
-        (evidences(5.0), Decision(Verdict.NAMED, A)),
-        (evidences(1.0, rival=5.0), Decision(Verdict.UNKNOWN)),
-        (evidences(8.0, rival=6.5), Decision(Verdict.UNKNOWN)),
-        (evidences(8.0, rival=6.0), Decision(Verdict.NAMED, A)),
-        (evidences(9.0, on_top=4.1), Decision(Verdict.UNKNOWN)),
-        (evidences(9.0, on_top=4.0), Decision(Verdict.NAMED, A)),
-        (evidences(100.0, rival=90.0, on_top=35.0), Decision(Verdict.NAMED, A)),
-        (evidences(100.0, rival=90.0, on_top=36.0), Decision(Verdict.UNKNOWN)),
-        (evidences(100.0, rival=90.1, on_top=35.0), Decision(Verdict.UNKNOWN)),
-        (evidences(12.0, 9.5), Decision(Verdict.GROUP, A, (B,))),
-        (evidences(9.5, 12.0), Decision(Verdict.GROUP, B, (A,))),
-        (evidences(12.0, 9.0), Decision(Verdict.NAMED, A)),
-        (evidences(12.0, pair=18.9), Decision(Verdict.NAMED, A)),
-        (evidences(12.0, pair=19.0), Decision(Verdict.TWO, AB)),
-        (evidences(12.0, pair=19.0, left=4.0), Decision(Verdict.UNKNOWN)),
-        (evidences(12.0, rival=30.0, on_top=30.0, pair=50.0), Decision(Verdict.TWO, AB)),
+        (evidences(4.9), Decision("none")),
+        (evidences(5.0), Decision("named", A)),
+        (evidences(1.0, rival=5.0), Decision("unknown")),
+        (evidences(8.0, rival=6.5), Decision("unknown")),
+        (evidences(8.0, rival=6.0), Decision("named", A)),
+        (evidences(9.0, on_top=4.1), Decision("unknown")),
+        (evidences(9.0, on_top=4.0), Decision("named", A)),
+        (evidences(100.0, rival=90.0, on_top=35.0), Decision("named", A)),
+        (evidences(100.0, rival=90.0, on_top=36.0), Decision("unknown")),
+        (evidences(100.0, rival=90.1, on_top=35.0), Decision("unknown")),
+        (evidences(12.0, 9.5), Decision("group", A, (B,))),
+        (evidences(9.5, 12.0), Decision("group", B, (A,))),
+        (evidences(12.0, 9.0), Decision("named", A)),
+        (evidences(12.0, pair=18.9), Decision("named", A)),
+        (evidences(12.0, pair=19.0), Decision("two", AB)),
+        (evidences(12.0, pair=19.0, left=4.0), Decision("unknown")),
+        (evidences(12.0, rival=30.0, on_top=30.0, pair=50.0), Decision("two", AB)),
     ],
 )
 def test_the_rules(given, expected) -> None:
@@ -50,5 +49,5 @@ def test_the_rules(given, expected) -> None:
 
 
 def test_a_model_of_another_structure_asks_for_more() -> None:
-    assert decide(evidences(9.9), STRICT) == Decision(Verdict.NONE)
-    assert decide(evidences(10.0), STRICT) == Decision(Verdict.NAMED, A)
+    assert decide(evidences(9.9), STRICT_RULES) == Decision("none")
+    assert decide(evidences(10.0), STRICT_RULES) == Decision("named", A)

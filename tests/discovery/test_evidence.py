@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.stats import multivariate_normal, norm
-from tests.discovery.linear import TIMES, covariances, data, slopes
 
-from heartfit.discovery.evidence import posterior
-from heartfit.discovery.whitening import Whitening
+from heartfit.discovery.inference.data import Whitening
+from heartfit.discovery.inference.evidence import posterior
+from tests.discovery.linear import TIMES, covariances, data, slopes
 
 Y = np.random.default_rng(5).standard_normal(TIMES.size)
 
 
 def taken_at(x: np.ndarray, matrix: np.ndarray, one_sided: list[bool]) -> object:
-    whitening = Whitening.of(data(Y))
+    whitening = Whitening.from_data(data(Y))
     return posterior(whitening, x, Y - matrix @ x, matrix, np.array(one_sided))
 
 

@@ -2,23 +2,20 @@
 
 import numpy as np
 import pytest
+
+from heartfit.discovery.inference.data import Noise, Whitening
+from heartfit.discovery.inference.evidence import OBJECTIVE_TOLERANCE, fit
+from heartfit.discovery.inference.hypothesis import Coordinate, CountedHypothesis, Hypothesis
 from tests.discovery import oscillator
 from tests.discovery.linear import NOISE, TIMES, data, hypothesis, slopes
-
-from heartfit.discovery.data import Noise
-from heartfit.discovery.descent import SLIGHT
-from heartfit.discovery.forward import Counted
-from heartfit.discovery.hypothesis import Coordinate, Hypothesis
-from heartfit.discovery.optimise import fit
-from heartfit.discovery.whitening import Whitening
 
 KNOWN = Noise((0.3,), NOISE.memory, NOISE.roughness, NOISE.discrepancy)
 Y = slopes(3) @ np.array([1.0, -2.0, 0.5]) + 0.1 * np.random.default_rng(2).standard_normal(TIMES.size)
 
 
 def fitted(given: Hypothesis, start: np.ndarray, values: np.ndarray = Y) -> tuple[object, int]:
-    model = Counted(given)
-    return fit(model, values, Whitening.of(data(values, KNOWN)), start), model.runs
+    model = CountedHypothesis(given)
+    return fit(model, values, Whitening.from_data(data(values, KNOWN)), start), model.runs
 
 
 def ridge(J: np.ndarray) -> np.ndarray:
@@ -53,7 +50,7 @@ def test_failures_shorten_the_step_and_the_start() -> None:
     )
     found, _ = fitted(failing, np.array([3.0, 0.0, 0.0]))
     assert found.converged
-    assert found.objective == pytest.approx(fitted(linear, np.zeros(3))[0].objective, abs=SLIGHT)
+    assert found.objective == pytest.approx(fitted(linear, np.zeros(3))[0].objective, abs=OBJECTIVE_TOLERANCE)
 
 
 def test_a_model_that_never_runs_has_no_fit() -> None:
@@ -63,10 +60,10 @@ def test_a_model_that_never_runs_has_no_fit() -> None:
 
 def test_borrowed_slopes_lead_to_the_same_place_for_fewer_runs() -> None:
     truth = oscillator.observed(oscillator.curves(np.array([1.0, 0.5, -1.0, 0.3])), 1)
-    whitening, cost = Whitening.of(truth), []
-    at_centre = Counted(oscillator.NONE).jacobian(np.zeros(4), oscillator.curves(np.zeros(4)))
+    whitening, cost = Whitening.from_data(truth), []
+    at_centre = CountedHypothesis(oscillator.NONE).jacobian(np.zeros(4), oscillator.curves(np.zeros(4)))
     for given in (None, at_centre):
-        model = Counted(oscillator.NONE)
+        model = CountedHypothesis(oscillator.NONE)
         found = fit(model, truth.values, whitening, np.zeros(4), given)
         cost.append((model.runs, found.objective))
         assert found.converged
@@ -76,8 +73,8 @@ def test_borrowed_slopes_lead_to_the_same_place_for_fewer_runs() -> None:
 
 def test_trusted_slopes_are_not_taken_anew() -> None:
     J = slopes(3)
-    model = Counted(hypothesis(J))
-    found = fit(model, Y, Whitening.of(data(Y, KNOWN)), np.zeros(3), J, trusted=2)
+    model = CountedHypothesis(hypothesis(J))
+    found = fit(model, Y, Whitening.from_data(data(Y, KNOWN)), np.zeros(3), J, trusted=2)
     assert found.x == pytest.approx(ridge(J), abs=1e-2)
     assert model.runs <= 1 + 1 + 2
 
@@ -85,7 +82,9 @@ def test_trusted_slopes_are_not_taken_anew() -> None:
 def test_a_fit_that_cannot_reach_its_target_is_given_up_with_the_first_fresh_slopes() -> None:
     whole, runs = fitted(hypothesis(slopes(3)), np.zeros(3))
     for above, ended in ((0.1, True), (-0.1, False)):
-        model = Counted(hypothesis(slopes(3)))
-        found = fit(model, Y, Whitening.of(data(Y, KNOWN)), np.zeros(3), target=whole.objective + above)
+        model = CountedHypothesis(hypothesis(slopes(3)))
+        found = fit(
+            model, Y, Whitening.from_data(data(Y, KNOWN)), np.zeros(3), target=whole.objective + above
+        )
         assert found.converged == ended
         assert model.runs == (runs if ended else 1 + 3)

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.discovery import oscillator
 
-from heartfit.discovery.data import Block, Data, Noise
-from heartfit.discovery.decide import Verdict
-from heartfit.discovery.hypothesis import Hypothesis
-from heartfit.discovery.search import Findings, search
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
+from heartfit.discovery.inference.data import Block, Data, Noise
+from heartfit.discovery.inference.hypothesis import Hypothesis
+from heartfit.discovery.inference.search import Findings, search
+from tests.discovery import oscillator
 
 
 def searched(truth: np.ndarray, seed: int) -> Findings:
@@ -32,7 +31,7 @@ def test_a_hidden_effect_is_named_and_its_interval_holds_it(name, amplitude) -> 
 def test_two_hidden_effects_are_both_named() -> None:
     truth = oscillator.combined(("delay", "pulse")).forward(np.array([*base(1), 2.0, 1.0]))
     found = searched(truth, 1)
-    assert found.decision.verdict == Verdict.TWO
+    assert found.decision.verdict == "two"
     assert found.decision.effects == ("delay", "pulse")
 
 
@@ -40,8 +39,8 @@ def test_what_no_effect_explains_is_unknown_and_its_place_is_shown() -> None:
     truth = oscillator.curves(base(2))
     truth[:24] += 0.4 * np.exp(-0.5 * ((oscillator.TIMES - 0.35) / 0.05) ** 2)
     found = searched(truth, 2)
-    assert found.decision.verdict == Verdict.UNKNOWN
-    position, _ = found.lacking
+    assert found.decision.verdict == "unknown"
+    position, _ = found.baseline_discrepancy
     assert oscillator.TIMES[np.argmax(position.mean)] == pytest.approx(0.35, abs=0.05)
 
 
@@ -50,7 +49,7 @@ def test_no_hypothesis_fits_worse_than_none() -> None:
         found = searched(oscillator.curves(base(seed)), seed)
         for single in found.survey.singles:
             assert single.fit.converged
-            assert single.fit.objective <= found.survey.none.fit.objective + 0.05
+            assert single.fit.objective <= found.survey.baseline.fit.objective + 0.05
 
 
 def test_the_simulations_are_counted() -> None:
@@ -75,7 +74,7 @@ def test_the_simulations_are_counted() -> None:
 
 def test_data_and_models_without_which_nothing_can_be_said() -> None:
     dead = Hypothesis((), oscillator.BASE, lambda x: None)
-    with pytest.raises(InputError, match="centre of the priors"):
+    with pytest.raises(InputError, match=r"centre.*prior"):
         search(
             oscillator.observed(oscillator.curves(base(0)), 0), dead, oscillator.SINGLES, oscillator.combined
         )

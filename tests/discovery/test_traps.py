@@ -7,16 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.discovery import oscillator
 
-from heartfit.discovery.bench import Bench
-from heartfit.discovery.decide import Verdict
-from heartfit.discovery.explanation import Explanation
-from heartfit.discovery.forward import Counted
-from heartfit.discovery.hypothesis import Coordinate, Hypothesis
-from heartfit.discovery.optimise import fit
-from heartfit.discovery.rules import RULES
-from heartfit.discovery.search import search
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.decide import DEFAULT_RULES
+from heartfit.discovery.inference.evidence import Explanation, fit
+from heartfit.discovery.inference.hypothesis import Coordinate, CountedHypothesis, Hypothesis
+from heartfit.discovery.inference.search import search
+from tests.discovery import oscillator
 
 SEEDS = range(8)
 
@@ -44,7 +41,7 @@ def share_of_alarms(frozen: int) -> float:
         ).decision.verdict
         for seed in SEEDS
     ]
-    return np.mean([each != Verdict.NONE for each in verdicts])
+    return np.mean([each != "none" for each in verdicts])
 
 
 def test_parameters_that_are_held_invent_effects() -> None:
@@ -57,22 +54,26 @@ def test_the_residual_of_one_step_is_no_evidence() -> None:
     alarms = {"one step": 0, "converged": 0}
     for seed in SEEDS:
         data = oscillator.observed(oscillator.curves(truth(seed)), seed)
-        bench = Bench(data)
+        context = FitContext(data)
         rival = max(
-            each.log_evidence for each in (bench.explain(each, each.at(1.0)) for each in oscillator.SINGLES)
+            each.log_evidence for each in (context.explain(each, each.at(1.0)) for each in oscillator.SINGLES)
         )
         for name, runs in (("one step", 1 + 4 + 1), ("converged", 400)):
-            found = fit(Counted(oscillator.NONE), data.values, bench.whitening, np.zeros(4), limit=runs)
-            at_step = replace(found, jacobian=Counted(oscillator.NONE).jacobian(found.x, found.predicted))
+            found = fit(
+                CountedHypothesis(oscillator.NONE), data.values, context.whitening, np.zeros(4), limit=runs
+            )
+            at_step = replace(
+                found, jacobian=CountedHypothesis(oscillator.NONE).jacobian(found.x, found.predicted)
+            )
             assert found.converged == (name == "converged")
-            alarms[name] += rival - laplace_there(at_step, bench) > RULES.detected
+            alarms[name] += rival - laplace_there(at_step, context) > DEFAULT_RULES.detected
     assert alarms["one step"] > len(SEEDS) / 2
     assert alarms["converged"] == 0
 
 
-def laplace_there(found: object, bench: Bench) -> float:
+def laplace_there(found: object, context: FitContext) -> float:
     """ln Z as if the fit had converged: without what the linear model still promises."""
-    seen = Explanation.of(found, bench.data.values, bench.whitening)
+    seen = Explanation.from_fit(found, context.data.values, context.whitening)
     step = seen.posterior.mean - found.x
     return seen.log_evidence - 0.5 * step @ np.linalg.solve(seen.posterior.covariance, step)
 
@@ -89,12 +90,14 @@ def test_a_base_fit_in_a_side_minimum_is_found_out() -> None:
     none = Hypothesis((), (frequency,), lambda x: bent(x[0]))
     lured = Hypothesis(("lure",), (frequency, lure), lambda x: bent(x[0] + x[1]))
     data = oscillator.observed(bent(1.5), 0)
-    alone = fit(Counted(none), data.values, Bench(data).whitening, np.zeros(1))
+    alone = fit(CountedHypothesis(none), data.values, FitContext(data).whitening, np.zeros(1))
     idle = Hypothesis(("idle",), (frequency, Coordinate("idle", amplitude=True)), lambda x: bent(x[0]))
     found = search(data, none, [lured, idle], oscillator.combined)
-    assert all(each.fit.objective <= found.survey.none.fit.objective + 0.05 for each in found.survey.singles)
-    assert alone.objective - found.survey.none.fit.objective > RULES.detected
-    assert found.decision.verdict == Verdict.NONE
+    assert all(
+        each.fit.objective <= found.survey.baseline.fit.objective + 0.05 for each in found.survey.singles
+    )
+    assert alone.objective - found.survey.baseline.fit.objective > DEFAULT_RULES.detected
+    assert found.decision.verdict == "none"
 
 
 def test_a_simulation_that_fails_is_no_curve() -> None:
@@ -108,13 +111,13 @@ def test_a_simulation_that_fails_is_no_curve() -> None:
     data = oscillator.observed(oscillator.curves(truth(1), drift=0.4), 1)
     found = search(data, oscillator.NONE, [failing, dead], oscillator.combined)
     assert found.survey.failed == (("gain",),)
-    assert found.decision.verdict == Verdict.NONE
+    assert found.decision.verdict == "none"
     stopped = np.where(oscillator.TIMES < 0.7, 1.0, 0.0)
     handed_out = np.tile(stopped, 2) * oscillator.curves(truth(1)) + 5.0 * np.tile(1.0 - stopped, 2)
     fallen = search(
         oscillator.observed(handed_out, 1), oscillator.NONE, oscillator.SINGLES, oscillator.combined
     )
-    assert fallen.decision.verdict == Verdict.UNKNOWN
+    assert fallen.decision.verdict == "unknown"
 
 
 @pytest.mark.parametrize("effect", list(oscillator.EFFECTS))
@@ -129,7 +132,7 @@ def test_intervals_hold_what_was_hidden(effect) -> None:
                 abs(random.standard_normal()) if hidden.one_sided[4] else random.standard_normal(),
             ]
         )
-        found = Bench(oscillator.observed(hidden.forward(x), seed)).explain(hidden, hidden.at(1.0))
+        found = FitContext(oscillator.observed(hidden.forward(x), seed)).explain(hidden, hidden.at(1.0))
         _, low, high = found.interval(effect)
         held += low <= x[4] <= high
     assert held >= 33
@@ -145,4 +148,4 @@ def test_false_alarms_without_an_effect_are_rare() -> None:
         ).decision.verdict
         for seed in range(100, 300)
     ]
-    assert sum(each != Verdict.NONE for each in verdicts) <= 4
+    assert sum(each != "none" for each in verdicts) <= 4

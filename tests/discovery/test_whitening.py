@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
-from tests.discovery import oscillator
 
-from heartfit.discovery.data import Data
-from heartfit.discovery.whitening import Whitening
+from heartfit.discovery.inference.data import Data, Whitening
+from tests.discovery import oscillator
 
 R = oscillator.noise(np.random.default_rng(3))
 DATA = Data(R, oscillator.BLOCKS)
@@ -17,7 +16,7 @@ def test_levels_are_averaged_block_by_block() -> None:
     for block, rows in zip(DATA.blocks, DATA.rows, strict=True):
         levels = [block.noise.covariance(block.times, 1.0, level) for level in block.noise.levels]
         density *= np.mean([multivariate_normal(cov=each).pdf(R[rows]) for each in levels])
-    assert Whitening.of(DATA).log_likelihood(R) == pytest.approx(np.log(density), rel=1e-9)
+    assert Whitening.from_data(DATA).log_likelihood(R) == pytest.approx(np.log(density), rel=1e-9)
 
 
 def test_a_discrepancy_adds_its_covariance() -> None:
@@ -26,11 +25,11 @@ def test_a_discrepancy_adds_its_covariance() -> None:
     smooth = 4.0 * block.noise.discrepancy_covariance(block.times, block.times, 1.0)
     levels = [block.noise.covariance(block.times, 1.0, level) + smooth for level in block.noise.levels]
     density = np.mean([multivariate_normal(cov=each).pdf(R[rows]) for each in levels])
-    assert Whitening.of(one, 2.0).log_likelihood(R[rows]) == pytest.approx(np.log(density), rel=1e-9)
+    assert Whitening.from_data(one, 2.0).log_likelihood(R[rows]) == pytest.approx(np.log(density), rel=1e-9)
 
 
 def test_the_normal_equations_are_the_slope_of_the_logarithm() -> None:
-    J, whitening = np.random.default_rng(1).standard_normal((R.size, 2)), Whitening.of(DATA)
+    J, whitening = np.random.default_rng(1).standard_normal((R.size, 2)), Whitening.from_data(DATA)
     slope, curvature = whitening.normal(R, J)
     h = 1e-5
     differences = [

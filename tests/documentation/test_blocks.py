@@ -3,6 +3,7 @@
 import re
 
 import pytest
+
 from tests.documentation.blocks import ROOT, Block, blocks_of, carry_out
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from skfem import MeshTet
 
-from heartfit.electrophysiology.eikonal import activation_times, slowness_metric
+from heartfit.heart.activation.eikonal import activation_times, slowness_metric
 
 SIDE = 0.02
 FIBRE = np.array([2.0, 1.0, 0.5]) / np.linalg.norm([2.0, 1.0, 0.5])
@@ -84,9 +84,9 @@ def test_a_late_site_is_reached_by_the_wave_before() -> None:
 
 def test_no_site_bad_speeds_and_islands_are_refused() -> None:
     points, tets, fibres = block(1)
-    with pytest.raises(ValueError, match="0 sites"):
+    with pytest.raises(ValueError, match=r"\b0 sites"):
         activation_times(points, tets, fibres, {})
-    with pytest.raises(ValueError, match="speed 0 m/s"):
+    with pytest.raises(ValueError, match="0 m/s"):
         activation_times(points, tets, fibres, {0: 0.0}, speed=0.0)
-    with pytest.raises(ValueError, match="1 nodes are connected to no site"):
+    with pytest.raises(ValueError, match=r"\b1 nodes"):
         activation_times(np.vstack([points, [1.0, 1.0, 1.0]]), tets, fibres, {0: 0.0})

@@ -4,14 +4,13 @@ from dataclasses import replace
 
 import pytest
 
-from heartfit.electrophysiology.conduction import HEALTHY, LBBB
-from heartfit.electrophysiology.personalise import LAYER, personalised, total_duration
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart.activation.conduction import HEALTHY, LAYER_SPEEDS, LBBB, fit_conduction, total_duration
 
 
 def test_without_a_duration_nothing_changes(ventricle: VentricularMesh) -> None:
-    assert personalised(ventricle, HEALTHY, None) is HEALTHY
+    assert fit_conduction(ventricle, HEALTHY, None) is HEALTHY
 
 
 def test_a_faster_layer_is_over_sooner(ventricle: VentricularMesh) -> None:
@@ -21,23 +20,23 @@ def test_a_faster_layer_is_over_sooner(ventricle: VentricularMesh) -> None:
 
 
 def test_the_layer_alone_reaches_a_usual_duration(ventricle: VentricularMesh) -> None:
-    found = personalised(ventricle, LBBB, 0.125)
-    assert total_duration(ventricle, found) == pytest.approx(0.125, abs=1e-3)
-    assert found == replace(LBBB, left_layer=found.left_layer)
-    assert LAYER[0] < found.left_layer < LAYER[1]
+    fit = fit_conduction(ventricle, LBBB, 0.125)
+    assert total_duration(ventricle, fit) == pytest.approx(0.125, abs=1e-3)
+    assert fit == replace(LBBB, left_layer=fit.left_layer)
+    assert LAYER_SPEEDS[0] < fit.left_layer < LAYER_SPEEDS[1]
 
 
-@pytest.mark.parametrize(("duration", "layer"), [(0.095, LAYER[1]), (0.180, LAYER[0])])
+@pytest.mark.parametrize(("duration", "layer"), [(0.095, LAYER_SPEEDS[1]), (0.180, LAYER_SPEEDS[0])])
 def test_beyond_its_reach_the_wall_changes_too(
     ventricle: VentricularMesh, duration: float, layer: float
 ) -> None:
-    found = personalised(ventricle, LBBB, duration)
-    assert total_duration(ventricle, found) == pytest.approx(duration, abs=1e-3)
-    assert found == replace(LBBB, left_layer=layer, speed=found.speed)
-    assert (found.speed < LBBB.speed) == (duration > 0.1)
+    fit = fit_conduction(ventricle, LBBB, duration)
+    assert total_duration(ventricle, fit) == pytest.approx(duration, abs=1e-3)
+    assert fit == replace(LBBB, left_layer=layer, speed=fit.speed)
+    assert (fit.speed < LBBB.speed) == (duration > 0.1)
 
 
 @pytest.mark.parametrize("duration", [0.02, 0.6])
 def test_a_duration_out_of_reach_says_what_is_within(ventricle: VentricularMesh, duration: float) -> None:
-    with pytest.raises(InputError, match=r"QRS of \d+ ms; this heart can take \d+ to \d+ ms"):
-        personalised(ventricle, LBBB, duration)
+    with pytest.raises(InputError, match=r"QRS.*\d+ ms.*\d+.*\d+ ms"):
+        fit_conduction(ventricle, LBBB, duration)

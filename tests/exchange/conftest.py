@@ -6,13 +6,12 @@ import pytest
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import calibrate
-from heartfit.exchange.calibrated import Calibrated
 from heartfit.observation.curve import Curve
-from heartfit.observation.measurement import Measurement
-from heartfit.observation.noise import Observation
-from heartfit.tables.case import summarise
+from heartfit.observation.measurement import Measurement, Observation
+from heartfit.results.case import summarise
+from heartfit.results.exchange import Calibrated
 
-PRIOR = Gaussian.of_relative({"sigma_0": 300e3, "mu": 9e3}, {"sigma_0": 0.2, "mu": 0.3})
+PRIOR = Gaussian.from_relative({"sigma_0": 300e3, "mu": 9e3}, {"sigma_0": 0.2, "mu": 0.3})
 SLOPES = np.array([[-10e-6, 40e-6], [2e-6, -30e-6]])
 """Of the observations, m^3 and m^3/s, by the logarithms of the parameters."""
 AT_PRIOR = np.array([60e-6, 400e-6])

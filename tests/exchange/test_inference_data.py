@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
-from heartfit.exchange.inference_data import CHAINS, DRAWS, groups
 from heartfit.io.exchange import write_inference_data
+from heartfit.results.exchange import CHAINS, DRAWS, inference_groups
 
 COUNT = CHAINS * DRAWS
 
 
 @pytest.fixture(scope="module")
 def found(calibrated):
-    return groups(calibrated)
+    return inference_groups(calibrated)
 
 
 def drawn(group, names):
@@ -58,7 +58,7 @@ def test_the_file_is_read_by_arviz_with_units_and_the_same_to_the_byte(calibrate
 
     files = [tmp_path / folder / "inference.nc" for folder in ("one", "two")]
     for file in files:
-        write_inference_data(file, calibrated)
+        write_inference_data(file, calibrated.case, inference_groups(calibrated))
     assert files[0].read_bytes() == files[1].read_bytes()
     data = arviz.from_netcdf(str(files[0]))
     assert {"posterior", "prior", "observed_data", "posterior_predictive", "sample_stats"} <= set(
@@ -73,4 +73,4 @@ def test_the_file_is_read_by_arviz_with_units_and_the_same_to_the_byte(calibrate
 
 
 def test_a_beat_that_failed_leaves_no_prediction(calibrated):
-    assert not groups(replace(calibrated, simulated={}))["predictions"].data_vars
+    assert not inference_groups(replace(calibrated, simulated={}))["predictions"].data_vars

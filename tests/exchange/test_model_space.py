@@ -7,27 +7,30 @@ from dataclasses import asdict
 import pytest
 import yaml
 
-from heartfit import cli
-from heartfit.diagnosis.cause import Diagnosis, Tried
-from heartfit.discovery.rules import RULES
-from heartfit.exchange.model_space import by_evidence, by_likelihood, chosen
+from heartfit.cli import main as cli
+from heartfit.discovery.inference.decide import DEFAULT_RULES
+from heartfit.discovery.sphere_model.cause import Diagnosis, FittedModel
 from heartfit.io.causes import write_cause
+from heartfit.results.model_space import best_model, models_by_evidence, models_by_likelihood
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
     from petab_select import Models, Problem, ui
 
 
-def tried(leak: float, delay: float, both: float | None = None) -> tuple[Tried, ...]:
+def tried(leak: float, delay: float, both: float | None = None) -> tuple[FittedModel, ...]:
     """None with the ln evidence 0, singles and a pair with these."""
-    pair = () if both is None else (Tried(("CatheterDelay", "MitralRegurgitation"), both, 75.0, 25),)
-    singles = (Tried(("MitralRegurgitation",), leak, 80.0, 24), Tried(("CatheterDelay",), delay, 86.0, 24))
-    return (Tried((), 0.0, 90.0, 23), *singles, *pair)
+    pair = () if both is None else (FittedModel(("CatheterDelay", "MitralRegurgitation"), both, 75.0, 25),)
+    singles = (
+        FittedModel(("MitralRegurgitation",), leak, 80.0, 24),
+        FittedModel(("CatheterDelay",), delay, 86.0, 24),
+    )
+    return (FittedModel((), 0.0, 90.0, 23), *singles, *pair)
 
 
 def exported(folder, models):
-    card = Diagnosis("named", (), (), "", (), 0, 0.8, RULES.detected, tried=models, samples=130)
-    write_cause(folder / "cause" / "cause.json", card, "0123")
+    card = Diagnosis("named", (), (), "", (), 0, 0.8, DEFAULT_RULES.detected, tried=models, samples=130)
+    write_cause(folder / "cause" / "cause.json", card, (), "0123")
     assert cli.main(["petab-select", str(folder / "cause"), "-o", str(folder / "space")]) == 0
     return folder / "space"
 
@@ -58,7 +61,7 @@ def searched(folder, criteria, criterion=None):
 )
 def test_a_forward_search_comes_to_the_choice_of_the_thresholds(tmp_path, capsys, models, choice):
     folder = exported(tmp_path, models)
-    assert f"the least criterion has {choice}, the verdict is named" in capsys.readouterr().out
+    assert f"{choice} has the lowest criterion, the verdict is named" in capsys.readouterr().out
     assert searched(folder, "evidence.yaml") == choice
 
 
@@ -69,17 +72,17 @@ def test_other_criteria_are_there_for_who_prefers_them(tmp_path):
 
 
 def test_criteria_are_their_formulas():
-    none, *_ = by_likelihood(tried(1.0, 1.0), 130)
+    none, *_ = models_by_likelihood(tried(1.0, 1.0), 130)
     assert none["criteria"]["AIC"] == 2 * 23 + 2 * 90.0
     assert none["criteria"]["BIC"] == pytest.approx(23 * 4.867534 + 180.0)
-    leak = by_evidence(tried(7.0, 1.0), 5.0)[1]
+    leak = models_by_evidence(tried(7.0, 1.0), 5.0)[1]
     assert leak["criteria"] == {"NLLH": -2.0}
-    assert chosen(by_evidence(tried(7.0, 1.0), 10.0)) == "none"
+    assert best_model(models_by_evidence(tried(7.0, 1.0), 10.0)) == "none"
 
 
 def test_a_card_of_before_is_refused_in_a_line(tmp_path, capsys):
-    card = Diagnosis("none", (), (), "", (), 0, 0.8, RULES.detected)
-    write_cause(tmp_path / "cause.json", card, "0123")
+    card = Diagnosis("none", (), (), "", (), 0, 0.8, DEFAULT_RULES.detected)
+    write_cause(tmp_path / "cause.json", card, (), "0123")
     assert cli.main(["petab-select", str(tmp_path)]) == 2
     assert "holds no models" in capsys.readouterr().err
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from heartfit.exchange.tidy import curves_table, parameters_table
+from heartfit.results.exchange import curves_table, parameters_table
 
 
 def test_every_belief_about_every_parameter_is_a_row(calibrated):

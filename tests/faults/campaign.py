@@ -9,49 +9,19 @@ from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 
+from heartfit.core.pages import render_page
+from tests.checkout import ROOT
 from tests.faults.clocks import clocks, jumping_clock
 from tests.faults.damage import cut_kernels, damaged
 from tests.faults.disks import full_disk, read_only
 from tests.faults.kills import job_killed, kills, orphans
 from tests.faults.orders import orders, other_processor
 from tests.faults.outcome import Outcome
-from tests.faults.tiny import ROOT, TinyStudy
+from tests.faults.tiny import TinyStudy
 from tests.faults.together import two_folders, two_runs
 
 PAGE = ROOT / "docs" / "faults.md"
 SEED = 2012
-HEADER = """# Faults
-
-What was done to the smallest study there is (`config/tiny.yaml`, one virtual volunteer, {files} results), and what came
-of it. After each fault one more call, the same as before, has to complete, with every result identical to the bit to
-those of a study that nothing happened to: {kinds}. Only logs and benchmarks, which tell
-of times, are left out. This page is written by `python3 study.py faults`; `--quick` tries a part of it, in ten
-minutes on two cores.
-
-| what was done | what came of it | mended by one more call |
-|---|---|---|
-"""
-FOOTER = """
-## What it rests on
-
-- **Whole or not at all.** Every file is written as a draft in a folder `.draft-*` beside its place, brought to the
-  disk, and then renamed. Snakemake notes which jobs were under way and does them again.
-- **Sums.** `results/.sums/` holds the SHA-256 of every file as it was written, as `sha256sum` prints it. A file that is
-  not what was written is set aside as `*.altered` at the beginning of the next call, which says so, and is made again
-  where it is needed. An edit by hand is found, too. Files of an older version have no sum and are taken as they are.
-- **Locks.** Snakemake's lock of a killed run stays and would refuse the next one. Each run also holds a lock of the
-  system's on `.snakemake/heartfit.lock`, which goes with its process. A run that gets it alone takes stale locks and
-  drafts away. On a file system that knows no such locks, `snakemake --unlock` is yours to call.
-- **Clocks.** Snakemake goes by dates. Results from the future are dated now, before anything runs.
-- **The same again.** The same inputs give the same bytes, meshes included
-  ([decision 21](decisions/021-same-mesh-twice.md)), see [reproducible](reproducible.md).
-
-A dry run (`-n`) puts things in order, too: Snakemake does not tell the two apart before it reads the workflow.
-
-Not covered: a byte that changes in numba's compiled kernels (their files have no sum; delete
-`src/heartfit/__pycache__`), a result that changes while a run that needs it is at work, and inputs of yours that are
-dated in the future (Snakemake says so; `touch` them).
-"""
 
 
 def main(arguments: list[str]) -> int:
@@ -61,6 +31,8 @@ def main(arguments: list[str]) -> int:
     quick = parser.parse_args(arguments).quick
     with TemporaryDirectory() as folder:
         study = TinyStudy(Path(folder))
+        if quick:
+            study.adopt()
         expected = _reference(study)
         outcomes = list(_all(study, expected, quick))
     if not quick:
@@ -110,7 +82,7 @@ def page(expected: dict[str, str], outcomes: list[Outcome]) -> str:
         f"| {outcome.done} | {outcome.came} | {'yes' if outcome.mended else '**no**'} |\n"
         for outcome in outcomes
     )
-    return HEADER.format(files=len(expected), kinds=kinds) + rows + FOOTER
+    return render_page("faults", files=len(expected), kinds=kinds, rows=rows)
 
 
 def _say(text: str) -> None:

@@ -37,7 +37,7 @@ def _damaged_so(study: TinyStudy, expected: dict[str, str], chance: Random, way:
     for file in files:
         file.write_bytes(WAYS[way](file.read_bytes(), chance))
     code, said = study.run(asked=[f"{RESULTS}/{name}" for name in KINDS.values()])
-    named = [name for name in KINDS.values() if f"{RESULTS}/{name} is not what was written" in said]
+    named = [name for name in KINDS.values() if f"{RESULTS}/{name} was altered" in said]
     kept = [file for file in files if file.with_name(f"{file.name}.altered").exists()]
     mended = code == 0 and len(named) == len(kept) == len(KINDS) and not differences(study.sums(), expected)
     done = f"a {', a '.join(KINDS)}, each {way}"

@@ -6,6 +6,7 @@ from functools import partial
 from random import Random
 
 import psutil
+
 from tests.faults.outcome import Outcome, half_written, one_more_call
 from tests.faults.tiny import TinyStudy, finish, kill
 

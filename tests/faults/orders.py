@@ -4,6 +4,7 @@ from io import StringIO
 from random import Random
 
 import pandas as pd
+
 from tests.faults.outcome import Outcome, one_more_call
 from tests.faults.tiny import RESULTS, TinyStudy, finish
 
@@ -23,7 +24,7 @@ def orders(
     for count, way in zip(threads, ways, strict=False):
         study.wipe()
         first = chance.sample(sorted(expected), 8)
-        with study.edited("workflow/common/begin.smk", THREADS % 1, THREADS % count):
+        with study.edited("workflow/common/study.smk", THREADS % 1, THREADS % count):
             same = one_more_call(
                 study, expected, *way, "--prioritize", *(f"{RESULTS}/{name}" for name in first)
             )

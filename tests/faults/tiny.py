@@ -11,8 +11,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
-PARTS = ("Snakefile", "workflow", "config", "resources", "profiles", "src")
+from tests.checkout import ROOT, copy_project, environment_of
+
 RESULTS = "results/tiny"
 TARGETS = (f"{RESULTS}/tables/numbers.csv", f"{RESULTS}/figures/volunteer1_physical.png")
 UNEQUAL = ("logs", "benchmarks", ".sums")
@@ -27,8 +27,7 @@ class TinyStudy:
         self.folder = folder / "project"
         self._kept = folder / "kept"
         self.folder.mkdir(parents=True)
-        for part in PARTS:
-            _copy(ROOT / part, self.folder / part)
+        copy_project(self.folder)
 
     def start(
         self,
@@ -44,7 +43,7 @@ class TinyStudy:
         return subprocess.Popen(
             [*command, *elsewhere, *arguments, "--", *targets],
             cwd=self.folder,
-            env=os.environ | {"PYTHONPATH": str(self.folder / "src")} | dict(environment or {}),
+            env=environment_of(self.folder) | dict(environment or {}),
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -67,6 +66,12 @@ class TinyStudy:
     def left_over(self) -> list[Path]:
         """Parts of files that were not finished."""
         return [file for file in (self.folder / RESULTS).rglob("*") if left_over(file)]
+
+    def adopt(self, root: Path = ROOT) -> None:
+        """Take over the results of this study where the project has them, so that a run makes only what is missing."""
+        if (root / RESULTS).is_dir() and (root / ".snakemake" / "metadata").is_dir():
+            shutil.copytree(root / RESULTS, self.folder / RESULTS)
+            shutil.copytree(root / ".snakemake" / "metadata", self.folder / ".snakemake" / "metadata")
 
     def keep(self) -> None:
         """Keep the results as they are now."""
@@ -122,11 +127,3 @@ def kill(process: "subprocess.Popen[str]", after: float) -> bool:
 
 def left_over(file: Path) -> bool:
     return any(part.startswith(".draft-") for part in file.parts) or file.suffix == ".altered"
-
-
-def _copy(source: Path, target: Path) -> None:
-    if source.is_dir():
-        ignore = shutil.ignore_patterns("__pycache__", "bivme_patient1")
-        shutil.copytree(source, target, ignore=ignore)
-    else:
-        shutil.copy2(source, target)

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 
@@ -17,7 +17,7 @@ BOX = np.array([triangle for a, b, c, d in FACES for triangle in ([a, b, c], [a,
 
 @pytest.fixture
 def box() -> Cavity:
-    return Cavity.of(SimpleNamespace(surfaces={"lv_endo": BOX}), "lv_endo")
+    return Cavity.from_endocardium(SimpleNamespace(surfaces={"lv_endo": BOX}), "lv_endo")
 
 
 def test_an_open_box_holds_its_edges_product_wherever_it_stands(box: Cavity) -> None:
@@ -46,20 +46,20 @@ def test_the_gradient_is_the_limit_of_differences(box: Cavity, seed: int) -> Non
 
 def test_volume_is_homogeneous_of_degree_three(ventricle: VentricularMesh) -> None:
     for name in ("lv_endo", "rv_endo"):
-        cavity = Cavity.of(ventricle, name)
+        cavity = Cavity.from_endocardium(ventricle, name)
         power = float((cavity.gradient(ventricle.points) * ventricle.points).sum())
         assert power == pytest.approx(3.0 * cavity.volume(ventricle.points), rel=1e-12)
 
 
 def test_a_closed_endocardium_is_refused() -> None:
     closed = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    with pytest.raises(InputError, match="no opening"):
-        Cavity.of(SimpleNamespace(surfaces={"lv_endo": closed}), "lv_endo")
+    with pytest.raises(InputError, match="opening"):
+        Cavity.from_endocardium(SimpleNamespace(surfaces={"lv_endo": closed}), "lv_endo")
 
 
 def test_the_surface_with_its_lids_is_closed_and_holds_the_cavity(ventricle: VentricularMesh) -> None:
     """Its normals point inwards, hence the sign; a lid's apex is the mean of its ring."""
-    cavity = Cavity.of(ventricle, "lv_endo")
+    cavity = Cavity.from_endocardium(ventricle, "lv_endo")
     corners = cavity.corners(ventricle.points)
     triangles = cavity.triangles % len(corners)
     a, b, c = np.moveaxis(corners[triangles], 1, 0)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from heartfit.geometry.contours import (
+from heartfit.geometry.sections import (
     contour_distances,
     distance_to,
     enclosed_area,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from heartfit.geometry.cut import cut
+from heartfit.geometry.sections import cut_surface
 
 CORNERS = np.array([[x, y, z] for x in (0.0, 2.0) for y in (0.0, 3.0) for z in (0.0, 5.0)])
 
@@ -36,7 +36,7 @@ def area(segments: np.ndarray, normal: np.ndarray) -> float:
 def test_a_box_is_cut_in_rectangles_that_run_counterclockwise(
     origin: list[float], normal: list[float], expected: float
 ) -> None:
-    segments = cut(CORNERS, hull(CORNERS), np.array(origin), np.array(normal))
+    segments = cut_surface(CORNERS, hull(CORNERS), np.array(origin), np.array(normal))
     assert area(segments, np.array(normal)) == pytest.approx(expected, abs=1e-12)
 
 
@@ -47,7 +47,7 @@ def test_contours_are_closed_to_the_bit_and_lie_in_the_plane() -> None:
     triangles = hull(points)
     for normal in np.eye(3):
         node = points[np.abs(points @ normal).argmin()]  # lies in the plane, which is nearly the equator's
-        segments = cut(points, triangles, node, normal)
+        segments = cut_surface(points, triangles, node, normal)
         starts, ends = (Counter(map(tuple, segments[:, side])) for side in (0, 1))
         assert starts == ends
         assert np.abs((segments - node) @ normal).max() < 1e-14

@@ -1,10 +1,10 @@
-"""Harmonic fields: what is linear on the boundary is linear inside."""
+"""Harmonic fields: linear values on the boundary give a linear field inside."""
 
 import numpy as np
 import pytest
 from skfem import MeshTet
 
-from heartfit.geometry.laplace import element_gradients, harmonic_extension
+from heartfit.geometry.harmonic import element_gradients, harmonic_extension
 
 BLOCK = MeshTet().refined(2)
 POINTS, TETS = BLOCK.p.T, BLOCK.t.T.astype(np.int64)

@@ -1,4 +1,4 @@
-"""Filling the wall: volume, angles, names and openings of the tetrahedra, and what the mesher leaves behind."""
+"""Filling the wall: volume, angles, names and openings of the tetrahedra, and no output or files of the mesher."""
 
 from pathlib import Path
 
@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from heartfit.geometry import mesher
+from heartfit.geometry.mesh import smallest_dihedral_angles
 from heartfit.geometry.mesher import MeshingError, fill_wall
 from heartfit.geometry.parametric import ParametricVentricles
-from heartfit.geometry.quality import smallest_dihedral_angles
-from heartfit.geometry.surface import LabelledSurface, triangle_normals
-from heartfit.geometry.topology import boundary_faces, rim_loops
+from heartfit.geometry.surface import LabelledSurface, boundary_faces, rim_loops, triangle_normals
 
 
 @pytest.fixture(scope="module")
@@ -42,13 +41,13 @@ def test_a_tolerance_wider_than_the_wall_is_refused_with_its_reason(surface: Lab
         fill_wall(surface, edge_length=0.05, tolerance=0.009, attempts=1)
 
 
-def test_a_crash_of_the_mesher_is_told_and_no_other_seed_is_tried(
+def test_a_crash_of_the_mesher_is_reported_and_no_other_seed_is_tried(
     surface: LabelledSurface, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    tried = []
+    calls = []
 
-    def crash(*asked: object) -> None:
-        tried.append(asked)
+    def crash(*arguments: object) -> None:
+        calls.append(arguments)
         raise ChildProcessError("the mesher ended with -6: double free")
 
     monkeypatch.setattr(mesher, "tetrahedralise", crash)
@@ -56,7 +55,7 @@ def test_a_crash_of_the_mesher_is_told_and_no_other_seed_is_tried(
         MeshingError, match=r"^edge length 10 mm, tolerance 1 mm: .* double free; use a shorter"
     ):
         fill_wall(surface, edge_length=0.01, tolerance=0.001)
-    assert len(tried) == 1
+    assert len(calls) == 1
 
 
 def test_the_angle_of_regular_and_flat_tetrahedra() -> None:
@@ -69,5 +68,5 @@ def test_the_angle_of_regular_and_flat_tetrahedra() -> None:
 
 def test_a_triangle_surrounded_by_another_name_takes_it() -> None:
     pairs = np.array([[0, 1], [0, 2], [0, 3]])
-    labels = mesher._without_islands(np.array(["base", "epi", "epi", "epi"]), pairs)
+    labels = mesher._remove_islands(np.array(["base", "epi", "epi", "epi"]), pairs)
     assert labels.tolist() == ["epi"] * 4

@@ -1,10 +1,10 @@
-"""Motions that cannot be are refused, and say which phase is wrong."""
+"""Motions: impossible ones are refused with the wrong phase, others are periodic and linear between phases."""
 
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
-from heartfit.geometry.motion import Motion
+from heartfit.core.errors import InputError
+from heartfit.geometry.mesh import Motion
 
 TIMES = np.linspace(0.0, 0.9, 10)
 POSITIONS = np.zeros((10, 4, 3))
@@ -15,19 +15,19 @@ def test_a_motion_within_one_period_is_taken() -> None:
 
 
 @pytest.mark.parametrize(
-    ("times", "period", "positions", "what"),
+    ("times", "period", "positions", "message"),
     [
-        (TIMES[:7], 1.0, POSITIONS[:7], "7 phases; expected at least 8"),
-        (np.array([0.0, 0.1, 0.2, 0.3, 0.1, *TIMES[5:]]), 1.0, POSITIONS, "phase 4 is at 0.1 s"),
+        (TIMES[:7], 1.0, POSITIONS[:7], r"\b7\b.*\b8\b"),
+        (np.array([0.0, 0.1, 0.2, 0.3, 0.1, *TIMES[5:]]), 1.0, POSITIONS, r"phase 4\b.*\b0\.1 s"),
         (TIMES, 0.9, POSITIONS, "within"),
-        (TIMES, 1.0, POSITIONS[:9], "expected \\(10, nodes, 3\\)"),
+        (TIMES, 1.0, POSITIONS[:9], r"\(10, nodes, 3\)"),
         (TIMES, 1.0, np.full_like(POSITIONS, np.nan), "NaN"),
     ],
 )
 def test_a_motion_that_cannot_be_is_refused(
-    times: np.ndarray, period: float, positions: np.ndarray, what: str
+    times: np.ndarray, period: float, positions: np.ndarray, message: str
 ) -> None:
-    with pytest.raises(InputError, match=what):
+    with pytest.raises(InputError, match=message):
         Motion(times, period, positions)
 
 

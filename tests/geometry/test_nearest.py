@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from heartfit.geometry.nearest import closest_weights, nearest_on_surface
+from heartfit.geometry.carry import closest_weights, nearest_on_surface
 
 TRIANGLE = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
 

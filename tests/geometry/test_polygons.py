@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from heartfit.geometry.arrays import Floats
-from heartfit.geometry.polygons import Polygon, bands, clipped, sections
+from heartfit.core.arrays import Floats
+from heartfit.geometry.sections import Polygon, clip_polygon, split_into_bands, tetrahedra_sections
 
 TRIANGLE = np.array([[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 0.0]])
 """Its value is x."""
@@ -18,24 +18,24 @@ def area(polygon: Polygon) -> float:
 
 
 def at_level(normal: Floats, offset: float) -> list[Polygon]:
-    return list(sections(TETRAHEDRON, np.arange(4)[None], TETRAHEDRON @ normal - offset))
+    return list(tetrahedra_sections(TETRAHEDRON, np.arange(4)[None], TETRAHEDRON @ normal - offset))
 
 
 def test_what_is_kept_and_what_is_not_are_the_whole() -> None:
     height = TRIANGLE[:, 0] - 0.25
-    kept, left = clipped(TRIANGLE, height), clipped(TRIANGLE, -height)
+    kept, left = clip_polygon(TRIANGLE, height), clip_polygon(TRIANGLE, -height)
     assert area(kept) == pytest.approx(0.5 * 0.75**2)
     assert area(kept) + area(left) == pytest.approx(0.5)
     assert kept[:, 3] == pytest.approx(kept[:, 0]), "values go along"
 
 
 def test_nothing_is_left_below_and_everything_above() -> None:
-    assert len(clipped(TRIANGLE, -np.ones(3))) == 0
-    assert clipped(TRIANGLE, np.ones(3)) == pytest.approx(TRIANGLE)
+    assert len(clip_polygon(TRIANGLE, -np.ones(3))) == 0
+    assert clip_polygon(TRIANGLE, np.ones(3)) == pytest.approx(TRIANGLE)
 
 
 def test_bands_lie_between_their_levels_and_fill_the_polygon() -> None:
-    parts = list(bands(TRIANGLE, 3, np.linspace(-0.2, 1.0, 7)))
+    parts = list(split_into_bands(TRIANGLE, 3, np.linspace(-0.2, 1.0, 7)))
     assert [band for band, _ in parts] == [1, 2, 3, 4, 5]
     assert sum(area(part) for _, part in parts) == pytest.approx(0.5)
     for band, part in parts:

@@ -1,9 +1,9 @@
-"""Closed surfaces: what is refused and the volume of what is not."""
+"""Closed surfaces: their volume, and the refusal of others."""
 
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.surface import LabelledSurface
 
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]])
@@ -20,10 +20,10 @@ def test_a_corner_of_a_box_holds_a_sixth_of_it() -> None:
 @pytest.mark.parametrize(
     ("triangles", "labels", "what"),
     [
-        (TRIANGLES[:3], LABELS[:3], "3 edges have one side only"),
-        (np.vstack([TRIANGLES[:3], TRIANGLES[3:, ::-1]]), LABELS, "not consistently oriented"),
-        (TRIANGLES[:, ::-1], LABELS, "turn the triangles outwards"),
-        (np.vstack([TRIANGLES, TRIANGLES]), np.tile(LABELS, 2), "not a manifold"),
+        (TRIANGLES[:3], LABELS[:3], r"\b3 edges"),
+        (np.vstack([TRIANGLES[:3], TRIANGLES[3:, ::-1]]), LABELS, "oriented"),
+        (TRIANGLES[:, ::-1], LABELS, "outward"),
+        (np.vstack([TRIANGLES, TRIANGLES]), np.tile(LABELS, 2), "manifold"),
         (TRIANGLES, np.where(LABELS == "epi", "pericardium", LABELS), "pericardium"),
     ],
 )

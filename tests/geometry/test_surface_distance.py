@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from heartfit.geometry.arrays import Floats, Integers
-from heartfit.geometry.surface_distance import surface_distances
+from heartfit.core.arrays import Floats, Integers
+from heartfit.geometry.carry import surface_distances
 
 SIDE = 9
 
@@ -41,7 +41,7 @@ def test_fine_triangles_count_no_more_than_coarse_ones() -> None:
 
 
 def test_both_ways_count() -> None:
-    """A peak far from the other sheet is seen from its own side only."""
+    """A peak far from the other sheet is at a distance from its own side only."""
     points, triangles = sheet(0.0)
     peak = points.copy()
     peak[SIDE * SIDE // 2, 2] = 1.0

@@ -3,9 +3,15 @@
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
-from heartfit.geometry.surface import require_closed
-from heartfit.geometry.topology import boundary_faces, euler_characteristic, neighbours, orient, rim_loops
+from heartfit.core.errors import InputError
+from heartfit.geometry.surface import (
+    boundary_faces,
+    euler_characteristic,
+    neighbours,
+    orient,
+    require_closed,
+    rim_loops,
+)
 
 OCTAHEDRON = np.array(
     [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]

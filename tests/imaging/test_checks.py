@@ -6,12 +6,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.imaging.checks import BLOOD, OUTSIDE, WALL, Parts, agreement, require_covered, require_match
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.sequence import ImageSequence
+from heartfit.imaging.checks import (
+    BLOOD,
+    OUTSIDE,
+    WALL,
+    ClosedSurfaces,
+    agreement,
+    require_covered,
+    require_match,
+)
+from heartfit.imaging.sequence import Grid, ImageSequence
 from heartfit.io.images import read_images
 from heartfit.io.measured_heart import read_measured_heart
 
@@ -40,7 +47,7 @@ def grid() -> Grid:
 
 @pytest.fixture(scope="module")
 def painted(mesh: VentricularMesh, grid: Grid) -> np.ndarray:
-    return Parts.of(mesh).painted(grid, mesh.points)
+    return ClosedSurfaces.from_surfaces(mesh).paint(grid, mesh.points)
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +65,7 @@ def cine(image: np.ndarray, grid: Grid) -> ImageSequence:
 def test_what_the_mesh_calls_blood_and_wall_has_its_volumes(
     mesh: VentricularMesh, painted: np.ndarray
 ) -> None:
-    cavities = sum(Cavity.of(mesh, name).volume(mesh.points) for name in ("lv_endo", "rv_endo"))
+    cavities = sum(Cavity.from_endocardium(mesh, name).volume(mesh.points) for name in ("lv_endo", "rv_endo"))
     assert np.count_nonzero(painted == WALL) * VOXEL**3 == pytest.approx(mesh.wall_volume(), rel=0.01)
     assert np.count_nonzero(painted == BLOOD) * VOXEL**3 == pytest.approx(cavities, rel=0.01)
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from heartfit.imaging.raster import interpolated, paint_inside, paint_wall, sampled
-from heartfit.verification.block import cube
+from heartfit.geometry.cube import cube
+from heartfit.imaging.raster import interpolate, paint_inside, paint_wall, sample_fields
 
 SHAPE = (22, 24, 26)
 FLAT = np.ones((1, 1, 1))
@@ -119,12 +119,12 @@ def test_texture_stays_with_the_tissue(seed: int) -> None:
 
 def test_between_voxels_a_field_is_linear_and_beyond_them_constant() -> None:
     field = np.random.default_rng(0).random((3, 4, 5))
-    assert interpolated(field, 3.0, 2.0, 1.0) == field[1, 2, 3]
-    assert interpolated(field, 1.5, 2.25, 0.0) == pytest.approx(
+    assert interpolate(field, 3.0, 2.0, 1.0) == field[1, 2, 3]
+    assert interpolate(field, 1.5, 2.25, 0.0) == pytest.approx(
         0.75 * field[0, 2, 1:3].mean() + 0.25 * field[0, 3, 1:3].mean(), rel=1e-14
     )
-    assert interpolated(field, -3.0, 9.0, 2.0) == field[2, 3, 0]
-    assert interpolated(FLAT, 7.0, -7.0, 0.3) == 1.0
+    assert interpolate(field, -3.0, 9.0, 2.0) == field[2, 3, 0]
+    assert interpolate(FLAT, 7.0, -7.0, 0.3) == 1.0
 
 
 def test_several_fields_are_sampled_as_one_is_and_only_where_they_weigh() -> None:
@@ -135,11 +135,11 @@ def test_several_fields_are_sampled_as_one_is_and_only_where_they_weigh() -> Non
         np.zeros((2, 3, 4)),
     )
     weight[:, 1:, ::2] = 0.5
-    found = sampled(fields, index, weight)
+    found = sample_fields(fields, index, weight)
     assert found.shape == (2, 2, 3, 4)
     for place in np.ndindex(weight.shape):
         k, j, i = index[(slice(None), *place)]
-        expected = [interpolated(field, i, j, k) if weight[place] else 0.0 for field in fields]
+        expected = [interpolate(field, i, j, k) if weight[place] else 0.0 for field in fields]
         np.testing.assert_array_equal(found[(slice(None), *place)], expected)
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from heartfit.geometry.coordinates import LeftVentricularAxes
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.view import View, views
+from heartfit.imaging.sampling import View, views
+from heartfit.imaging.sequence import Grid
 
 TURN = np.linalg.qr(np.random.default_rng(3).standard_normal((3, 3)))[0]
 
@@ -51,7 +51,7 @@ def test_the_base_is_above_and_the_right_ventricle_on_the_left(
     ventricle: VentricularMesh, flip: float
 ) -> None:
     """Short-axis slices, counted from apex to base or from base to apex."""
-    axes = LeftVentricularAxes.of(ventricle)
+    axes = LeftVentricularAxes.from_mesh(ventricle)
     normal = flip * axes.axis
     direction = np.column_stack([np.cross(axes.anterior, normal), axes.anterior, normal])
     corner = ventricle.points.mean(axis=0) - direction @ np.full(3, 0.1)

@@ -3,13 +3,9 @@
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
-from heartfit.io.arrays import read_arrays
-from heartfit.io.atomic import replacing
-from heartfit.io.meshes import read_motion
-from heartfit.io.simulated_motion import read_simulated_motion
-from heartfit.io.slices import read_slice_motion
-from heartfit.io.sums import keep_sums
+from heartfit.core.errors import InputError
+from heartfit.io.files import keep_sums, replacing
+from heartfit.io.meshes import read_arrays, read_motion, read_simulated_motion, read_slice_motion
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import SimpleITK as sitk
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.io.images import read_images
 
 FRAMES, SLICES = 8, 3
@@ -117,7 +117,7 @@ def test_temporal_positions_do_where_there_are_no_trigger_times(tmp_path: Path) 
 def test_the_caller_knows_the_beat_that_the_files_do_not_tell(tmp_path: Path) -> None:
     folder = stack(tmp_path / "cine", lambda place, frame: {"0018|1060": text(90.0 * frame), "0018|1062": ""})
     assert read_images(folder, period=0.85).times == pytest.approx(0.09 * np.arange(FRAMES))
-    with pytest.raises(InputError, match="cine: nothing says how long the beat is"):
+    with pytest.raises(InputError, match="cine: the length of the beat is not stated"):
         read_images(folder)
 
 

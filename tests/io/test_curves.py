@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.io.curves import read_curves, read_table_of_curves, write_curves
 from heartfit.observation.curve import Curve
 
@@ -68,7 +68,7 @@ def test_curves_of_different_periods_do_not_share_a_file(tmp_path: Path) -> None
         ("0,170,1,100", "0,many,1,100", "lv_volume_ml in data row 1 is many"),
         ("0,170,1,100", ",170,1,100", "time_s in data row 1 is empty"),
         ("0,170,1,100", "0.04,170,1,100", "expected increasing times"),
-        ("lv_pressure_kpa", "lv_volume_ml", "c.csv: column lv_volume_ml stands there twice"),
+        ("lv_pressure_kpa", "lv_volume_ml", "c.csv: column lv_volume_ml occurs twice"),
         ("0,170,1,100", "0,170,120,100", "c.csv: pressure: values from .* to 120000 Pa.* mmHg taken for kPa"),
         ("0,170,1,100", "0,0.17,1,100", "c.csv: volume: values from 1.7e-07"),
     ],

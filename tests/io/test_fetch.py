@@ -4,8 +4,8 @@ import hashlib
 
 import pytest
 
-from heartfit.errors import InputError
-from heartfit.io.fetch import fetch
+from heartfit.core.errors import InputError
+from heartfit.io.files import fetch
 
 
 @pytest.fixture

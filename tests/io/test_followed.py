@@ -6,16 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.configuration.source import Labels, Source
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.parametric import ParametricVentricles
 from heartfit.geometry.surface import LabelledSurface
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.sequence import ImageSequence
-from heartfit.io.followed import followed
-from heartfit.io.segmentations import write_segmentation
-from heartfit.segmentation.labels import Segmentation
-from heartfit.segmentation.paint import segmented
+from heartfit.imaging.segmentation.stack import Segmentation
+from heartfit.imaging.segmentation.surface import segment_surface
+from heartfit.imaging.sequence import Grid, ImageSequence
+from heartfit.io.segmentations import sequence_to_track, write_segmentation
+from heartfit.study.case import Labels, Source
 
 LABELS = Labels(lv_cavity=1, lv_wall=2, rv_cavity=3)
 DIRECTION = np.array([[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]])
@@ -30,7 +28,7 @@ def heart() -> tuple[Grid, Segmentation, Segmentation]:
     surfaces = (
         LabelledSurface(wall.points @ DIRECTION * scale, wall.triangles, wall.labels) for scale in (1.0, 0.9)
     )
-    large, small = (segmented(surface, grid) for surface in surfaces)
+    large, small = (segment_surface(surface, grid) for surface in surfaces)
     return grid, large, small
 
 
@@ -49,14 +47,14 @@ def source(folder: Path, frames: Sequence[Segmentation], end_diastole: int = 0) 
 def test_end_diastole_alone_leaves_the_cine(
     tmp_path: Path, heart: tuple[Grid, Segmentation, Segmentation], cine: ImageSequence
 ) -> None:
-    assert followed(source(tmp_path, heart[1:2]), cine) is cine
+    assert sequence_to_track(source(tmp_path, heart[1:2]), cine) is cine
 
 
 def test_labels_of_every_frame_take_its_place_end_diastole_first(
     tmp_path: Path, heart: tuple[Grid, Segmentation, Segmentation], cine: ImageSequence
 ) -> None:
     _, large, small = heart
-    images = followed(source(tmp_path, [small, large, *6 * [small]], end_diastole=1), cine)
+    images = sequence_to_track(source(tmp_path, [small, large, *6 * [small]], end_diastole=1), cine)
     blood = (images.voxels > 0.75).sum(axis=(1, 2, 3))
     assert blood.argmax() == 0
     assert len(set(blood[1:].tolist())) == 1
@@ -67,4 +65,4 @@ def test_other_frames_than_the_cine_are_refused(
     tmp_path: Path, heart: tuple[Grid, Segmentation, Segmentation], cine: ImageSequence
 ) -> None:
     with pytest.raises(InputError, match="5 frames, the images have 8"):
-        followed(source(tmp_path, 5 * [heart[1]]), cine)
+        sequence_to_track(source(tmp_path, 5 * [heart[1]]), cine)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import SimpleITK as sitk
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.io.image_file import load, numbers
 
 BESIDE = {".mha": "x.mha", ".mhd": "x.zraw", ".nrrd": "x.nrrd", ".nhdr": "x.raw.gz", ".nii.gz": "x.nii.gz"}

@@ -12,9 +12,8 @@ import SimpleITK as sitk
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from heartfit.errors import InputError
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.sequence import ImageSequence
+from heartfit.core.errors import InputError
+from heartfit.imaging.sequence import Grid, ImageSequence
 from heartfit.io.images import read_images, write_images
 
 WRITTEN = (".nrrd", ".nii.gz", ".mha")
@@ -107,7 +106,7 @@ def test_without_times_frames_are_evenly_spread_over_the_period(tmp_path: Path) 
 
 @pytest.mark.parametrize("unit", [2, 34], ids=["none", "hertz"])
 def test_a_nifti_without_a_unit_of_time_is_refused(tmp_path: Path, unit: int) -> None:
-    with pytest.raises(InputError, match=r"cine\.nii: nothing says how long the beat is"):
+    with pytest.raises(InputError, match=r"cine\.nii: the length of the beat is not stated"):
         read_images(nifti(tmp_path, unit))
 
 
@@ -257,7 +256,7 @@ def farther(image: sitk.Image) -> None:
             r"p1_4_sax\.mha: first voxel at \(0, 0, 0\) mm",
         ),
         (rewritten(lambda image: sitk.JoinSeries([image])), r"p1_4_sax\.mha: 4-D"),
-        (lambda folder: folder.with_suffix(".json").unlink(), "cine: nothing says how long the beat is"),
+        (lambda folder: folder.with_suffix(".json").unlink(), "cine: the length of the beat is not stated"),
         (
             lambda folder: folder.with_suffix(".json").write_text(
                 json.dumps({"period_s": 0.8, "times_s": [0.0]})

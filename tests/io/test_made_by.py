@@ -5,9 +5,9 @@ import platform
 import numpy as np
 import pytest
 
-from heartfit import cli
-from heartfit.io import made_by as module
-from heartfit.io.made_by import made_by, versions
+from heartfit.cli import main as cli
+from heartfit.io import fingerprint as module
+from heartfit.io.fingerprint import made_by, versions
 from heartfit.io.results import write_result
 
 

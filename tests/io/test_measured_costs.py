@@ -1,16 +1,14 @@
 """Costs that were measured are read back as they were written."""
 
-import re
 from pathlib import Path
 
 import pytest
 
-from heartfit.errors import InputError
-from heartfit.io.measured_costs import as_table, measured_footprints, measured_needs, read_table
-from heartfit.planning.footprint import Footprint
-from heartfit.planning.need import Need
+from heartfit.core.errors import InputError
+from heartfit.io.costs import as_table, measured_footprints, measured_needs, read_table
+from heartfit.study.forecast import Footprint
+from heartfit.study.need import Need
 
-ROOT = Path(__file__).parents[2]
 HEADER = "s\tmax_rss\tcpu_time\n"
 
 
@@ -60,9 +58,3 @@ def test_another_table_and_none_are_refused_in_one_line(tmp_path):
         InputError, match=r"costs\.tsv: not the costs that were measured; expected the columns job"
     ):
         read_table(Need, tmp_path / "costs.tsv")
-
-
-def test_what_the_rules_ask_for_was_measured():
-    measured = {row.job for row in read_table(Need, ROOT / "resources" / "costs.tsv")}
-    rules = "".join(file.read_text() for file in (ROOT / "workflow" / "rules").glob("*.smk"))
-    assert set(re.findall(r'needs\("(\w+)"\)', rules)) <= measured

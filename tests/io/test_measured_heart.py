@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.io.measured_heart import read_measured_heart
 
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from heartfit import cli
-from heartfit.errors import InputError
-from heartfit.io.mechanism_files import run_mechanism_files
-from heartfit.mechanism import registered, registry
+from heartfit.cli import main as cli
+from heartfit.cli.diagnose import run_mechanism_files
+from heartfit.core.errors import InputError
+from heartfit.roles import registered, registry
 
 PAGE = Path(__file__).parents[2] / "docs" / "write_a_mechanism.md"
 PUMP = re.search(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)[1]
@@ -37,9 +37,9 @@ def test_a_package_offers_its_own_by_an_entry_point(pump, monkeypatch):
     pump.rename(pump.parent / "pump_of_a_package.py")
     offered = [EntryPoint("pumps", "pump_of_a_package", registry.GROUP)]
     monkeypatch.setattr(registry, "entry_points", lambda group: offered)
-    registry._import_all.cache_clear()
+    registry._import_modules.cache_clear()
     assert "BalloonPump" in registered()
-    registry._import_all.cache_clear()
+    registry._import_modules.cache_clear()
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,8 @@ import meshio
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
+from heartfit.core.errors import InputError
+from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.io.meshes import read_mesh, read_motion, write_mesh, write_motion
 
 FIELDS = ("points", "tets", "fibres", "orientation", "segments", "activation", "longitudinal")

@@ -21,8 +21,8 @@ def test_a_noise_model_there_and_back(tmp_path: Path) -> None:
     protocol = {"snr": 30.0, "slices": 9, "method": "demons", "breath_hold": True}
     model = NoiseModel(
         protocol,
-        Scatter.of(("V_min", "q_max", "q_min"), 0.1 * sample[:, :3]),
-        Scatter.of([f"phase {k} of 25" for k in range(25)], sample, shrunk=True),
+        Scatter.from_sample(("V_min", "q_max", "q_min"), 0.1 * sample[:, :3]),
+        Scatter.from_sample([f"phase {k} of 25" for k in range(25)], sample, shrunk=True),
     )
     write_noise_model(tmp_path / "model.json", model, "abc")
     found = read_noise_model(tmp_path / "model.json")
@@ -34,6 +34,6 @@ def test_a_noise_model_there_and_back(tmp_path: Path) -> None:
 
 def test_the_sensors_there_and_back(tmp_path: Path) -> None:
     sample = np.random.default_rng(0).standard_normal((24, 3))
-    sensors = Scatter.of(("shrinkage", "smoothing", "delay"), sample)
+    sensors = Scatter.from_sample(("shrinkage", "smoothing", "delay"), sample)
     write_sensors(tmp_path / "sensors.json", sensors, "abc")
     require_same(read_sensors(tmp_path / "sensors.json"), sensors)

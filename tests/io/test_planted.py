@@ -6,21 +6,21 @@ from pathlib import Path
 
 import pytest
 
-from heartfit.diagnosis.cause import Cause
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
+from heartfit.discovery.sphere_model.cause import Cause
+from heartfit.io.beats import MEASURED
 from heartfit.io.curves import read_curves
-from heartfit.io.findings import read_conditions_of, read_planted, write_findings
 from heartfit.io.fingerprint import PACKAGE, modules_below
-from heartfit.io.planted import open_seal, seal, write_planted
-from heartfit.io.recordings import MEASURED
+from heartfit.io.planted import read_conditions_of, read_planted, write_findings
 from heartfit.io.scores import read_scored
-from heartfit.planting.campaign import Plan
-from heartfit.planting.case import plant
-from heartfit.planting.trial import VOLUME, Finding
+from heartfit.io.seals import open_seal, seal, write_planted
+from heartfit.synthetic.campaign import PlantedPlan
+from heartfit.synthetic.case import plant
+from heartfit.synthetic.trial import VOLUME, ScoredDiagnosis
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "scripts"
 
-CASE = plant(Plan(5, "single", ("CatheterOffset",), 2.0, reloaded=True))
+CASE = plant(PlantedPlan(5, "single", ("CatheterOffset",), 2.0, reloaded=True))
 
 
 def test_recording_and_answer_are_read_back(tmp_path):
@@ -58,8 +58,10 @@ def test_a_missing_answer_is_told_in_one_line(tmp_path):
 def test_findings_are_read_back_beside_their_answers(tmp_path):
     write_planted(CASE, tmp_path / "measured", tmp_path / "sealed")
     named = Cause("CatheterOffset", 7.5, 900.0, "Pa", (500.0, 1300.0))
-    less = {VOLUME: Finding("insufficient")}
-    finding = Finding("named", (named,), {"CatheterOffset": 7.5}, {"lv_pressure": 0.7}, 3000, 12.0, less)
+    less = {VOLUME: ScoredDiagnosis("insufficient")}
+    finding = ScoredDiagnosis(
+        "named", (named,), {"CatheterOffset": 7.5}, {"lv_pressure": 0.7}, 3000, 12.0, less
+    )
     write_findings(tmp_path / "findings.json", {"5": finding}, "abc")
     (scored,) = read_scored([tmp_path / "findings.json"], [tmp_path / "sealed"])
     assert scored.finding == finding
@@ -82,10 +84,9 @@ def test_the_job_that_diagnoses_rests_on_no_code_that_plants_or_opens_a_seal():
     diagnosing = {
         path.relative_to(PACKAGE).as_posix() for path in modules_below(SCRIPTS / "diagnose_planted.py")
     }
-    assert "planting/trial.py" in diagnosing
-    assert not diagnosing & {
-        f"planting/{name}.py" for name in ("case", "hidden", "measuring", "outsiders", "effects")
-    }
-    assert "io/planted.py" not in diagnosing
+    assert "synthetic/trial.py" in diagnosing
+    answers = {f"synthetic/{name}.py" for name in ("case", "hidden", "campaign", "out_of_library", "scoring")}
+    assert all((PACKAGE / name).exists() for name in answers)
+    assert not diagnosing & (answers | {"io/seals.py", "io/scores.py"})
     planting = {path.relative_to(PACKAGE).as_posix() for path in modules_below(SCRIPTS / "plant_effects.py")}
-    assert not {name for name in planting if name.startswith(("discovery/", "diagnosis/diagnose"))}
+    assert not planting & {"discovery/inference/search.py", "discovery/sphere_model/diagnose.py"}

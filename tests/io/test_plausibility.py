@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.io.plausibility import read_limits, read_ranges, read_sobol, write_ranges, write_sobol
+from heartfit.calibration.plausible import End, Plausible, PlausibleRange
+from heartfit.calibration.sensitivity import Sensitivity
+from heartfit.calibration.sobol import SobolIndices
+from heartfit.io.noise_models import read_limits, read_ranges, read_sobol, write_ranges, write_sobol
 from heartfit.io.results import read_sensitivity, write_sensitivity
-from heartfit.sensitivity.covariance import Sensitivity
-from heartfit.sensitivity.plausible import End, Plausible, PlausibleRange
-from heartfit.sensitivity.sobol import SobolIndices
 
 RESOURCES = Path(__file__).parents[2] / "resources"
 
@@ -31,7 +31,7 @@ def test_ranges_survive(tmp_path: Path) -> None:
 
 
 def test_sensitivities_survive(tmp_path: Path) -> None:
-    prior = Gaussian.of_relative({"sigma_0": 3e5, "mu": 9e3}, {"sigma_0": 0.2, "mu": 0.2})
+    prior = Gaussian.from_relative({"sigma_0": 3e5, "mu": 9e3}, {"sigma_0": 0.2, "mu": 0.2})
     found = Sensitivity(prior, ("V_min",), np.ones(1), np.eye(2)[:, :1], np.ones((2, 1)), ("mu+ (cold)",))
     write_sensitivity(tmp_path / "found.json", found, "abc")
     again = read_sensitivity(tmp_path / "found.json")

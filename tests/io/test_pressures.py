@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from heartfit.configuration.source import RecordedPressure
-from heartfit.configuration.strict import validated
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
+from heartfit.core.validation import validate
 from heartfit.io.pressures import read_pressure
+from heartfit.study.case import RecordedPressure
 
 PERIOD = 0.8
 TIMES = np.arange(0.0, PERIOD, 0.004)
@@ -51,7 +51,8 @@ def test_the_left_ventricle_is_told_from_others_by_its_name_or_by_the_user(tmp_p
     assert read(named).values.max() == pytest.approx(PASCALS.max(), rel=1e-3)
     unnamed = table(tmp_path, "time_s,p1_kpa,p2_kpa", *columns)
     with pytest.raises(
-        InputError, match=r"pressure\.csv: which of p1_kpa, p2_kpa is the pressure of the left"
+        InputError,
+        match=r"pressure\.csv: the column of the left-ventricular pressure .* p1_kpa, p2_kpa: state it",
     ):
         read(unnamed)
     assert read(unnamed, column="p1_kpa").values.max() == pytest.approx(PASCALS.max(), rel=1e-3)
@@ -61,9 +62,9 @@ def test_the_left_ventricle_is_told_from_others_by_its_name_or_by_the_user(tmp_p
     ("header", "given", "message"),
     [
         ("time_s,lv_pressure", {}, "column lv_pressure has no unit; expected lv_pressure_mmhg or"),
-        ("time_s,lv_pressure_kpa", {"unit": "mmHg"}, "says one unit and mmHg is stated"),
+        ("time_s,lv_pressure_kpa", {"unit": "mmHg"}, "and the stated unit mmHg disagree"),
         ("time,lv_pressure_kpa", {}, "0 columns of times with a unit"),
-        ("time_s,lv_pressure_kpa", {"trigger": "ecg"}, "no column ecg, said to be the trigger"),
+        ("time_s,lv_pressure_kpa", {"trigger": "ecg"}, "no column ecg, stated as the trigger"),
         ("time_s,lv_pressure_kpa", {"column": "aorta"}, "no column aorta"),
         ("time_ms,lv_pressure_kpa", {}, "is the unit of time right|the beats are"),
     ],
@@ -93,4 +94,4 @@ def test_a_cell_that_is_no_number_is_named(tmp_path):
 )
 def test_what_contradicts_itself_is_refused(content, message):
     with pytest.raises(InputError, match=message):
-        validated(RecordedPressure, {"file": "x.csv", **content}, "config.yaml")
+        validate(RecordedPressure, {"file": "x.csv", **content}, "config.yaml")

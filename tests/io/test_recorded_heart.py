@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat
-from heartfit.cohort.catheter import Catheter
-from heartfit.configuration.source import RecordedPressure
-from heartfit.heart import Heart
+from heartfit.heart.beat import Beat
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics
+from heartfit.heart.sphere.body import Sphere
+from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.io.pressures import read_pressure
-from heartfit.mechanics.sphere import Sphere
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.operator import PressureFeatures
-from heartfit.simulation import Numerics
-from heartfit.sphere.simulation import simulate_spheres
+from heartfit.study.case import RecordedPressure
+from heartfit.synthetic.scanner import Catheter
 
 MMHG = 133.322368
 STRETCHES = (1.0, 0.97, 1.02, 0.99, 0.7, 1.25, 1.01, 0.98)
@@ -22,7 +22,7 @@ EARLY = 4
 
 @pytest.fixture(scope="module")
 def beat(spherical_heart: Heart) -> Beat:
-    return simulate_spheres(spherical_heart, [Sphere.of(80e-6, 130e-6)], Numerics(time_step=2e-3))
+    return simulate_spheres(spherical_heart, [Sphere.from_volumes(80e-6, 130e-6)], Numerics(time_step=2e-3))
 
 
 @pytest.fixture(scope="module")

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
-from heartfit.io.recordings import read_recording
+from heartfit.core.errors import InputError
+from heartfit.io.beats import read_recording
 
 
 def written(path, text):

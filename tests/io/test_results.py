@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat, failed_beat
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import Posterior, calibrate
-from heartfit.errors import InputError
-from heartfit.io.atomic import replacing
+from heartfit.core.errors import InputError
+from heartfit.heart.beat import Beat, failed_beat
 from heartfit.io.beats import read_beat, write_beat
+from heartfit.io.files import replacing
 from heartfit.io.results import (
     read_case,
     read_fingerprint,
@@ -25,11 +25,10 @@ from heartfit.io.results import (
     write_result,
     write_sigma_points,
 )
-from heartfit.observation.measurement import Measurement
-from heartfit.observation.noise import Observation
-from heartfit.tables.case import CaseResult
+from heartfit.observation.measurement import Measurement, Observation
+from heartfit.results.case import CaseResult
 
-PRIOR = Gaussian.of_relative({"sigma_0": 240e3, "mu": 7e3}, {"sigma_0": 0.2, "mu": 0.3})
+PRIOR = Gaussian.from_relative({"sigma_0": 240e3, "mu": 7e3}, {"sigma_0": 0.2, "mu": 0.3})
 
 
 def posterior() -> Posterior:

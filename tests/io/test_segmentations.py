@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import SimpleITK as sitk
 
-from heartfit.errors import InputError
-from heartfit.imaging.grid import Grid
+from heartfit.core.errors import InputError
+from heartfit.imaging.segmentation.stack import Segmentation
+from heartfit.imaging.sequence import Grid
 from heartfit.io.segmentations import read_segmentation, write_segmentation
-from heartfit.segmentation.labels import Segmentation
 
 LABELS = {"lv_cavity": 3, "lv_wall": 2, "rv_cavity": 1}
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat, failed_beat
-from heartfit.errors import InputError
-from heartfit.io.simulated_motion import read_simulated_motion, write_simulated_motion
+from heartfit.core.errors import InputError
+from heartfit.heart.beat import Beat, failed_beat
+from heartfit.io.meshes import read_simulated_motion, write_simulated_motion
 
 PERIOD, TRIGGER, STEPS = 0.8, 0.2, 80
 FRAMES = 0.1 * np.arange(8)

@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
-from heartfit.imaging.grid import Grid
-from heartfit.io.slices import read_slice_motion, write_slice_motion
-from heartfit.registration.slices import SliceMotion
+from heartfit.core.errors import InputError
+from heartfit.imaging.registration.slices import SliceMotion
+from heartfit.imaging.sequence import Grid
+from heartfit.io.meshes import read_slice_motion, write_slice_motion
 
 
 def test_what_is_written_is_read_back_to_single_precision(tmp_path: Path) -> None:

@@ -7,9 +7,8 @@ import sys
 
 import pytest
 
-from heartfit.io.atomic import replacing, write_text
-from heartfit.io.log import record
-from heartfit.io.sums import altered, forget, is_as_written, keep_sums
+from heartfit.io.files import altered, forget, is_as_written, keep_sums, replacing, write_text
+from heartfit.io.run import record
 
 
 @pytest.fixture
@@ -68,7 +67,7 @@ def test_a_block_that_ends_badly_leaves_the_file_as_it_was(results):
 
 def test_a_full_disk_is_one_line_in_the_log(tmp_path):
     failing = (
-        f"from heartfit.io.log import record; record({str(tmp_path / 'job.log')!r})\n"
+        f"from heartfit.io.run import record; record({str(tmp_path / 'job.log')!r})\n"
         f"raise OSError({errno.ENOSPC}, 'No space left on device', 'results/beat.json')"
     )
     assert record.__module__ in failing

@@ -8,7 +8,7 @@ import meshio
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.parametric import ParametricVentricles
 from heartfit.geometry.surface import SURFACES, LabelledSurface
 from heartfit.io.measured_heart import read_measured_heart
@@ -134,7 +134,7 @@ FAULTS: dict[str, tuple[Callable[[Path], object], str]] = {
     "no notes": (lambda at: (at / "surfaces.json").unlink(), r"surfaces\.json: no such file"),
     "no unit": (lambda at: write_notes(at, unit=None), "unit is None; expected one of mm"),
     "inches": (lambda at: write_notes(at, unit="in"), "unit is 'in'"),
-    "no period": (lambda at: write_notes(at, period_s=None), "how long the beat is"),
+    "no period": (lambda at: write_notes(at, period_s=None), "length of the beat"),
     "ms for s": (lambda at: write_notes(at, period_s=800), "a beat of 800 s"),
     "a text for a period": (lambda at: write_notes(at, period_s="0.8"), "period_s, a number"),
     "unknown key": (lambda at: write_notes(at, period_ms=800), "unknown key period_ms"),

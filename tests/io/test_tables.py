@@ -7,18 +7,19 @@ import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.io.tables import (
     read_numbers,
     read_published,
     read_shape,
     read_tolerances,
+    write_csv,
     write_figure,
     write_figures,
     write_table,
     write_tables,
 )
-from heartfit.tables.notes import NOTES
+from heartfit.results.text import NOTES, render_table, render_tables
 
 TABLE = pd.DataFrame({"setting": ["paper"], "case": ["a_b"], "sigma_0 (kPa)": [240.0]})
 
@@ -27,26 +28,26 @@ TABLE = pd.DataFrame({"setting": ["paper"], "case": ["a_b"], "sigma_0 (kPa)": [2
     ("suffix", "content"), [("csv", "paper,a_b,240"), ("md", "| paper "), ("tex", r"$\sigma_{0}$ (kPa) \\")]
 )
 def test_the_suffix_decides(tmp_path: Path, suffix: str, content: str) -> None:
-    write_table(tmp_path / f"table.{suffix}", TABLE)
+    write_table(tmp_path / f"table.{suffix}", render_table(TABLE))
     assert content in (tmp_path / f"table.{suffix}").read_text()
 
 
 @pytest.mark.parametrize(("suffix", "line"), [("csv", 0), ("md", -1), ("tex", 0)])
 def test_every_table_says_what_it_was_made_by(tmp_path: Path, suffix: str, line: int) -> None:
-    write_table(tmp_path / f"table.{suffix}", TABLE)
+    write_table(tmp_path / f"table.{suffix}", render_table(TABLE))
     said = (tmp_path / f"table.{suffix}").read_text().splitlines()[line]
     assert re.match(r"(# |<!-- |% )made by heartfit \S+, Python \d.*, code [0-9a-f]{16}", said)
 
 
 def test_what_is_written_as_csv_is_read_without_that_line(tmp_path: Path) -> None:
-    write_table(tmp_path / "numbers.csv", TABLE)
+    write_csv(tmp_path / "numbers.csv", TABLE)
     for read in (read_numbers, read_published, read_shape):
         assert read(tmp_path / "numbers.csv").columns.tolist() == TABLE.columns.tolist()
 
 
 def test_another_suffix_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"\.xlsx"):
-        write_table(tmp_path / "table.xlsx", TABLE)
+        write_table(tmp_path / "table.xlsx", render_table(TABLE))
 
 
 def test_the_published_means_recompute_to_their_rounding() -> None:
@@ -70,7 +71,7 @@ def test_a_figure_is_the_same_file_every_time(tmp_path: Path, suffix: str) -> No
 
 
 def test_tables_and_figures_are_written_by_name_with_their_note(tmp_path: Path) -> None:
-    write_tables(tmp_path, {"table1": TABLE, "other": TABLE})
+    write_tables(tmp_path, render_tables({"table1": TABLE, "other": TABLE}))
     write_figures(tmp_path, {"card": Figure()})
     suffixes = [("table1", ("csv", "md", "tex")), ("other", ("csv", "md", "tex")), ("card", ("png", "pdf"))]
     assert {file.name for file in tmp_path.iterdir()} == {

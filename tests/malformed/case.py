@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from heartfit import cli
+from heartfit.cli import main as cli
 
 Content = str | bytes | Callable[[Path], None]
 PATIENCE = 20

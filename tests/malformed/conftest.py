@@ -4,6 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+
 from tests.malformed.pictures import write_sources
 from tests.malformed.sound import write_sound
 

@@ -6,9 +6,9 @@ from typing import Any
 
 import yaml
 from hypothesis import strategies as st
-from tests.malformed.sound import CASES, CONFIGURATION, recording
 
-from heartfit.configuration.study import Study
+from heartfit.study.study import Study
+from tests.malformed.sound import CASES, CONFIGURATION, recording
 
 SOUND = yaml.safe_load(CONFIGURATION)
 SCHEMA = Study.model_json_schema()

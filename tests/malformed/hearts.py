@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.io import loadmat, savemat
 from scipy.sparse import csc_array, eye
+
 from tests.malformed.case import Content, Malformed, folder
 from tests.malformed.sound import HEADER, control_points, phase
 
@@ -193,7 +194,7 @@ MALFORMED = [
         '{"1": {"description": "cine_trufi_retro", "nominal_interval_ms": 1e999}}',
         "not JSON",
     ),
-    heart("timing with a key twice", TIMING, '{"1": {}, "1": {}}', "stands twice"),
-    heart("timing without end", TIMING, "[" * 100_000, "nested without end"),
+    heart("timing with a key twice", TIMING, '{"1": {}, "1": {}}', "occurs twice"),
+    heart("timing without end", TIMING, "[" * 100_000, "nested too deeply"),
     heart("timing of another length", TIMING, timing(nominal_interval_ms=900), "expected the same to 2 %"),
 ]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import SimpleITK as sitk
+
 from tests.malformed.case import Content, Malformed, folder, hole, pipe
 from tests.malformed.pictures import dicom
 
@@ -165,7 +166,7 @@ MALFORMED = [
     images("a pipe that nobody fills", "x.nii", pipe, "no such file|not a regular file"),
     images("empty", "x.nii.gz", "", "cannot be read"),
     images("text", "x.nii", "text" * 200, "cannot be read"),
-    images("an archive", "x.zip", b"PK\x03\x04" + bytes(200), "not a kind of image"),
+    images("an archive", "x.zip", b"PK\x03\x04" + bytes(200), "not a supported kind of image"),
     images(
         "an archive that is called images", "x.nii.gz", gzip.compress(b"PK\x03\x04" * 200), "cannot be read"
     ),
@@ -213,7 +214,7 @@ MALFORMED = [
     images("dark blood", "x.nrrd", voxels(dark), "Dice"),
     images("voxels elsewhere, in a device", "x.mhd", detached("/dev/zero"), "voxels of"),
     images("voxels elsewhere, in a pipe", "x.mhd", detached("data.raw"), "voxels of", data_raw=pipe),
-    images("voxels in another folder", "x.mhd", detached("../secret"), "voxels of"),
+    images("voxels in another folder", "x.mhd", detached("../secret"), "voxels from"),
     images("voxels in a list of files", "x.mhd", detached("LIST\na\nb"), "voxels of"),
     images("voxels that are not there", "x.mhd", detached("none.raw"), "voxels of"),
     images("voxels of an NRRD in a device", "x.nhdr", detached("/dev/zero", "nhdr"), "voxels of"),

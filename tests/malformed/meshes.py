@@ -6,6 +6,7 @@ from pathlib import Path
 
 import meshio
 import numpy as np
+
 from tests.malformed.case import Content, Malformed, folder, pipe
 
 SIMULATE = "simulate|bad.vtu|--config|sound.yaml"

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import SimpleITK as sitk
-from tests.malformed.case import Content, Malformed, folder, hole, pipe
-from tests.malformed.sound import PHASES, wall
 
 from heartfit.geometry.surface import SURFACES
+from tests.malformed.case import Content, Malformed, folder, hole, pipe
+from tests.malformed.sound import PHASES, wall
 
 CHECK = "check|--no-picture|--config|sound.yaml|bad.yaml"
 LABELS = "{lv_cavity: 1, lv_wall: 2, rv_cavity: 3}"
@@ -98,7 +98,7 @@ MALFORMED = [
     segmented("a pipe that nobody fills", pipe, "not a regular file"),
     segmented("empty", "", "cannot be read"),
     segmented("a hole of a terabyte", hole, "cannot be read"),
-    segmented("an archive", b"PK\x03\x04" * 99, "not a kind of image", file="seg.zip"),
+    segmented("an archive", b"PK\x03\x04" * 99, "not a supported kind of image", file="seg.zip"),
     segmented("a part that nobody drew", drawn(), "no voxel has 3, stated for rv_cavity"),
     segmented("halves of labels", put(1.5), "no whole numbers"),
     segmented("labels of NaN", put(np.nan), "no whole numbers", file="seg.nrrd"),
@@ -120,7 +120,7 @@ MALFORMED = [
     surfaces("notes in Latin-1", "surfaces.json", spoil=text("surfaces.json", b'{"unit": "\xb5m"}')),
     surfaces("no unit", "unit is None", without("unit")),
     surfaces("a unit that nobody knows", "unit is 'inch'", NOTES | {"unit": "inch"}),
-    surfaces("no period", "nothing says how long the beat is", without("period_s")),
+    surfaces("no period", "the length of the beat is not stated", without("period_s")),
     surfaces("a period in milliseconds", "a beat of 800 s", NOTES | {"period_s": 800}),
     surfaces("a period of NaN", "surfaces.json", '{"unit": "mm", "period_s": NaN}'),
     surfaces("times that are words", "expected period_s", NOTES | {"times_s": ["0"] * PHASES}),

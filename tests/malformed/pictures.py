@@ -5,12 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import SimpleITK as sitk
-from tests.malformed.sound import PHASES, wall
 
-from heartfit.imaging.checks import Parts
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.sequence import ImageSequence
+from heartfit.imaging.checks import ClosedSurfaces
+from heartfit.imaging.sequence import Grid, ImageSequence
 from heartfit.io.images import write_images
+from tests.malformed.sound import PHASES, wall
 
 VOXEL, MARGIN, PERIOD, BEAT = 5e-3, 8e-3, 0.8, 160
 BRIGHTNESS = np.array([10.0, 60.0, 200.0])
@@ -23,7 +22,9 @@ def sequence() -> ImageSequence:
     low = surface.points.min(axis=0) - MARGIN
     i, j, k = np.ceil((np.ptp(surface.points, axis=0) + 2 * MARGIN) / VOXEL).astype(int).tolist()
     grid = Grid((i, j, k), np.full(3, VOXEL), low, np.eye(3))
-    frame = BRIGHTNESS[Parts.of(surface).painted(grid, surface.points).astype(int)].astype(np.float32)
+    frame = BRIGHTNESS[ClosedSurfaces.from_surfaces(surface).paint(grid, surface.points).astype(int)].astype(
+        np.float32
+    )
     return ImageSequence(grid, np.stack([frame] * PHASES), np.arange(PHASES) * PERIOD / PHASES, PERIOD)
 
 

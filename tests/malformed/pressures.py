@@ -1,6 +1,7 @@
 """Recorded pressures of a measured heart, and sources, that are wrong."""
 
 import yaml
+
 from tests.malformed.case import Content, Malformed, folder, pipe
 from tests.malformed.pictures import pressure
 
@@ -33,7 +34,7 @@ MALFORMED = [
     recorded("no unit of pressure", pressure("time_s,lv_pressure,marker"), "has no unit"),
     recorded("no unit of time", pressure("time,lv_pressure_mmhg,marker"), "columns of times with a unit"),
     recorded("another unit of pressure", pressure("time_s,lv_pressure_bar,marker"), "has no unit"),
-    recorded("two units", SOUND, "says one unit and kPa is stated", unit="kPa"),
+    recorded("two units", SOUND, "and the stated unit kPa disagree", unit="kPa"),
     recorded("a unit that nobody knows", SOUND, "mmHg", unit="bar"),
     recorded(
         "millimetres of mercury called kilopascals",
@@ -61,7 +62,7 @@ MALFORMED = [
     recorded("a column that is not there", SOUND, "no column ecg", trigger="ecg"),
     recorded("a pressure that is not there", SOUND, "no column rv", column="rv"),
     recorded("two that say when a beat begins", SOUND, "leave one out", upstroke=0.05),
-    recorded("nothing that says when a beat begins", SOUND, "nothing says when one begins", trigger=None),
+    recorded("nothing that says when a beat begins", SOUND, "neither trigger nor upstroke", trigger=None),
     recorded("a delay in milliseconds", SOUND, "delay", delay=20),
     recorded("a zero beyond all", SOUND, "pressure", zero=1e9),
     recorded("a zero of NaN", SOUND, "zero", zero=float("nan")),

@@ -9,9 +9,9 @@ from scipy.io import savemat
 from scipy.sparse import eye
 
 from heartfit.geometry.surface import LabelledSurface
+from heartfit.io.measured_heart import SURFACE_OF_LABEL
 from heartfit.io.meshes import write_mesh
-from heartfit.io.subdivision import SURFACE_OF_LABEL
-from heartfit.verification.specimen import COARSE, SHAPE, specimen
+from verification.specimen import COARSE, SHAPE, specimen
 
 ROOT = Path(__file__).parents[2]
 CONFIGURATION = (

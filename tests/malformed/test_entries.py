@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from tests.malformed.configurations import LAUGHS
 
 ROOT = Path(__file__).parents[2]
@@ -33,7 +34,7 @@ def run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
 def test_the_program_refuses_in_one_line(name: str, tmp_path: Path) -> None:
     text, says = BAD[name]
     (tmp_path / "bad.yaml").write_text(text)
-    command = [sys.executable, "-c", "import sys; from heartfit.cli import main; sys.exit(main())"]
+    command = [sys.executable, "-c", "import sys; from heartfit.cli.main import main; sys.exit(main())"]
     given = ["check", "--no-picture", "--config", str(ROOT / "config" / "config.yaml"), "bad.yaml"]
     done = run([*command, *given], tmp_path)
     assert done.returncode == 2

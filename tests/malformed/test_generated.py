@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+
 from tests.malformed.case import exit_code, files_in
 from tests.malformed.grammar import RECORDINGS, TABLES_OF_CASES, of_another_kind, of_another_name
 from tests.malformed.test_malformed import LONGEST

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from _pytest.mark import ParameterSet
+
 from tests.malformed import (
     case_tables,
     configurations,

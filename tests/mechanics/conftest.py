@@ -7,8 +7,8 @@ import pytest
 from skfem import MeshTet
 
 from heartfit.geometry.mesh import VentricularMesh, element_volumes
-from heartfit.geometry.topology import boundary_faces
-from heartfit.mechanics.body import Step
+from heartfit.geometry.surface import boundary_faces
+from heartfit.heart.finite_elements.body import Step
 
 EDGE = 0.04
 Block = Callable[..., VentricularMesh]

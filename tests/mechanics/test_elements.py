@@ -1,13 +1,13 @@
-"""Locking: what the bulk modulus does to a cantilever that could bend without changing its volume."""
+"""Locking: effect of the bulk modulus on a cantilever that can bend at constant volume."""
 
 from collections.abc import Callable
 
 import numpy as np
 import pytest
 
-from heartfit.mechanics.body import FiniteElementBody, Tissue
-from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
-from heartfit.mechanics.support import Support
+from heartfit.heart.finite_elements.body import FiniteElementBody, Tissue
+from heartfit.heart.muscle.passive import MooneyRivlin
+from heartfit.heart.muscle.tissue import Support
 
 CLAMPED = Support(k_b=1e10, k_p=0.0, annulus=1.0)
 SHEAR = MooneyRivlin().shear_modulus
@@ -24,7 +24,7 @@ def deflection(block: Callable, tangent_matrix: Callable) -> Callable[[str, floa
         rest = body.rest()
         load = np.zeros_like(rest.x)
         load[mesh.points[:, 0] > mesh.points[:, 0].max() - 1e-9, 2] = 1e-6
-        matrix = tangent_matrix(body.endless_step(rest), rest.x)
+        matrix = tangent_matrix(body.static_step(rest), rest.x)
         return float(np.linalg.solve(matrix, load.ravel()) @ load.ravel() / load.sum())
 
     return bend

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from heartfit.mechanics import elimination
-from heartfit.mechanics.elimination import Fronts, fronts
+from heartfit.heart.finite_elements import elimination
+from heartfit.heart.finite_elements.elimination import Fronts, find_fronts
 
 
 def filled(tets: np.ndarray, order: np.ndarray) -> list[set[int]]:
@@ -24,44 +24,44 @@ def filled(tets: np.ndarray, order: np.ndarray) -> list[set[int]]:
 
 @pytest.fixture(params=[(0, 0.0, 1), (8, 0.05, 32), (100, 1.0, 100)], ids=["single", "default", "one"])
 def dissected(request, monkeypatch, block: Callable) -> tuple[np.ndarray, Fronts]:
-    for name, value in zip(("SMALL", "WASTE", "LARGEST"), request.param, strict=True):
+    for name, value in zip(("MERGE_SIZE", "MERGE_WASTE", "LARGEST_FRONT"), request.param, strict=True):
         monkeypatch.setattr(elimination, name, value)
     mesh = block((4, 3, 3))
-    return mesh.tets, fronts(mesh.tets, len(mesh.points))
+    return mesh.tets, find_fronts(mesh.tets, len(mesh.points))
 
 
 def test_every_node_is_eliminated_once(dissected: tuple[np.ndarray, Fronts]) -> None:
-    _, found = dissected
-    assert sorted(found.order) == list(range(len(found.order)))
-    assert found.starts[0] == 0
-    assert found.starts[-1] == len(found.order)
-    assert (np.diff(found.starts) > 0).all()
+    _, fronts = dissected
+    assert sorted(fronts.order) == list(range(len(fronts.order)))
+    assert fronts.starts[0] == 0
+    assert fronts.starts[-1] == len(fronts.order)
+    assert (np.diff(fronts.starts) > 0).all()
 
 
 def test_a_front_touches_what_its_nodes_touch(dissected: tuple[np.ndarray, Fronts]) -> None:
-    tets, found = dissected
-    touched = filled(tets, found.order)
-    for s in range(len(found.parents)):
-        start, end = found.starts[s], found.starts[s + 1]
-        rows = found.rows[found.row_starts[s] : found.row_starts[s + 1]]
+    tets, fronts = dissected
+    touched = filled(tets, fronts.order)
+    for s in range(len(fronts.parents)):
+        start, end = fronts.starts[s], fronts.starts[s + 1]
+        rows = fronts.rows[fronts.row_starts[s] : fronts.row_starts[s + 1]]
         needed = set.union(*touched[start:end])
         assert list(rows) == sorted(j for j in needed if j >= end)
 
 
 def test_the_parent_eliminates_the_first_row(dissected: tuple[np.ndarray, Fronts]) -> None:
-    _, found = dissected
-    for s, parent in enumerate(found.parents):
-        rows = found.rows[found.row_starts[s] : found.row_starts[s + 1]]
+    _, fronts = dissected
+    for s, parent in enumerate(fronts.parents):
+        rows = fronts.rows[fronts.row_starts[s] : fronts.row_starts[s + 1]]
         if parent == -1:
             assert len(rows) == 0
         else:
-            assert found.starts[parent] <= rows[0] < found.starts[parent + 1]
+            assert fronts.starts[parent] <= rows[0] < fronts.starts[parent + 1]
 
 
 def test_a_single_node_per_front_wastes_nothing(dissected: tuple[np.ndarray, Fronts]) -> None:
     """Merging may add rows, never lose one; without it, the fill is that of the definition."""
-    tets, found = dissected
-    entries = np.diff(found.row_starts).sum()
-    least = sum(map(len, filled(tets, found.order)))
-    alone = (np.diff(found.starts) == 1).all()
+    tets, fronts = dissected
+    entries = np.diff(fronts.row_starts).sum()
+    least = sum(map(len, filled(tets, fronts.order)))
+    alone = (np.diff(fronts.starts) == 1).all()
     assert entries == least if alone else entries < least

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from heartfit.mechanics import kinematics
-from heartfit.mechanics.kinematics import COLUMN, ROW, StepFailed
+from heartfit.heart.finite_elements import kinematics
+from heartfit.heart.finite_elements.kinematics import COLUMN, ROW, StepFailed
 
 
 def random_tensor(seed: int) -> np.ndarray:
@@ -33,10 +33,10 @@ def test_a_linear_map_has_its_own_gradient_stretch_and_fibre_strain(block: Calla
     gradients, volumes = kinematics.shape_gradients(mesh.points, mesh.tets)
     assert volumes.sum() == pytest.approx(0.04**3)
     m = len(mesh.tets)
-    found, C, J = np.empty((m, 3, 3)), np.empty((m, 6)), np.empty(m)
-    kinematics.deformation_gradient(mesh.points @ (F - np.eye(3)).T, mesh.tets, gradients, found)
-    kinematics.right_cauchy_green(found, C, J)
-    assert found == pytest.approx(np.broadcast_to(F, found.shape))
+    gradient, C, J = np.empty((m, 3, 3)), np.empty((m, 6)), np.empty(m)
+    kinematics.deformation_gradient(mesh.points @ (F - np.eye(3)).T, mesh.tets, gradients, gradient)
+    kinematics.right_cauchy_green(gradient, C, J)
+    assert gradient == pytest.approx(np.broadcast_to(F, gradient.shape))
     assert pytest.approx(np.broadcast_to((F.T @ F)[ROW, COLUMN], C.shape)) == C
     assert pytest.approx(np.linalg.det(F)) == J
     strain = kinematics.fibre_strain(C, kinematics.fibre_dyads(mesh.fibres))
@@ -47,5 +47,5 @@ def test_a_tetrahedron_without_positive_volume_is_named(block: Callable) -> None
     mesh = block()
     tets = mesh.tets.copy()
     tets[7] = tets[7][[1, 0, 2, 3]]
-    with pytest.raises(StepFailed, match=r"tetrahedron 7 has volume -\S+ m\^3: expected a positive volume"):
+    with pytest.raises(StepFailed, match=r"tetrahedron 7\b.*-\S+ m\^3"):
         kinematics.shape_gradients(mesh.points, tets)

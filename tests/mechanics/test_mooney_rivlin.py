@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from tests.shrinking import assert_derivative
 
-from heartfit.mechanics.kinematics import COLUMN, ROW
-from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
+from heartfit.heart.finite_elements.kinematics import COLUMN, ROW
+from heartfit.heart.muscle.passive import MooneyRivlin
+from tests.shrinking import assert_derivative
 
 LAW = MooneyRivlin(c_1=5e3, c_2=8e2)
 SCALE = 1.7

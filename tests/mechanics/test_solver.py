@@ -4,11 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from tests.mechanics.conftest import assembled
 
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.mechanics.general_solver import GeneralFactor
-from heartfit.mechanics.solver import Elimination
+from heartfit.heart.finite_elements.kinematics import StepFailed
+from heartfit.heart.finite_elements.solver import Elimination
+from heartfit.heart.finite_elements.unloading import GeneralFactor
+from tests.mechanics.conftest import assembled
 
 
 def saddles(mesh: VentricularMesh, seed: int) -> tuple[np.ndarray, np.ndarray]:
@@ -58,3 +59,20 @@ def test_columns_are_solved_one_by_one(block: Callable) -> None:
     right = np.random.default_rng(5).standard_normal((4 * len(mesh.points), 3))
     columns = np.stack([factor.solve(column) for column in right.T], axis=1)
     assert factor.solve(right) == pytest.approx(columns)
+
+
+@pytest.mark.parametrize("bad", [0.0, np.nan])
+def test_a_tangent_without_factors_is_a_stated_failure(block: Callable, bad: float) -> None:
+    mesh = block()
+    elements, nodes = (bad * matrix for matrix in saddles(mesh, 5))
+    elimination = Elimination(mesh.tets, len(mesh.points), 4)
+    with pytest.raises(StepFailed, match="cannot be factorised"):
+        elimination.factorise(elements, nodes)
+
+
+def test_a_singular_general_tangent_is_a_stated_failure(block: Callable) -> None:
+    mesh = block()
+    elements, nodes = saddles(mesh, 5)
+    order = Elimination(mesh.tets, len(mesh.points), 4).permutation
+    with pytest.raises(StepFailed, match="cannot be factorised"):
+        GeneralFactor(mesh.tets, np.ones_like(elements), np.zeros_like(nodes), order)

@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
+from heartfit.heart.finite_elements.body import StepFailed, Tissue
+from heartfit.heart.finite_elements.unloading import inflate
+from heartfit.heart.sphere.body import Sphere, SphereState, SphericalBody, fibre_class_means
+from heartfit.heart.time_step import TimeStep
 from tests.shrinking import assert_derivative
 
-from heartfit.mechanics.body import StepFailed, Tissue
-from heartfit.mechanics.sphere import Sphere, SphereState, SphericalBody, of_fibres
-from heartfit.mechanics.statics import inflate
-from heartfit.mechanics.time_step import TimeStep
-
-LEFT, RIGHT = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
+LEFT, RIGHT = Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6)
 TISSUE = Tissue()
 BODY = SphericalBody(LEFT, RIGHT, TISSUE)
 STEP = TimeStep(0.18, 5e-3, 0.8, last=4e-3)
@@ -59,8 +59,8 @@ def test_static_inflation_follows_the_closed_form(pressures: tuple[float, float]
     state = inflate(BODY, np.array(pressures))
     stretch = BODY.stretch(state.x)
     assert (stretch > 1.005).all()
-    found = [work_over_volume(sphere, s) for sphere, s in zip((LEFT, RIGHT), stretch, strict=True)]
-    assert found == pytest.approx(pressures, rel=1e-4)
+    closed_form = [work_over_volume(sphere, s) for sphere, s in zip((LEFT, RIGHT), stretch, strict=True)]
+    assert closed_form == pytest.approx(pressures, rel=1e-4)
 
 
 def test_inflating_an_unloaded_sphere_gives_the_measured_cavities() -> None:
@@ -79,7 +79,7 @@ def test_a_thin_sphere_obeys_laplace() -> None:
     thin = Sphere(radius=0.04, thickness=4e-5)
     body = SphericalBody(thin, thin, TISSUE)
     x = np.full((2, 1), 0.006)
-    pressure = body.endless_step(body.rest()).forces(x) / np.diag(body.volume_gradients(x))
+    pressure = body.static_step(body.rest()).forces(x) / np.diag(body.volume_gradients(x))
     stretch = 1.15
     cauchy = 0.5 * stretch * TISSUE.passive.in_plane_stress(np.array([stretch]))
     laplace = 2.0 * 4e-5 * stretch**-2 * cauchy / (0.04 * stretch)
@@ -99,16 +99,16 @@ def test_the_matrix_and_the_sarcomere_resist_motion() -> None:
 
 def test_a_balloon_fails_with_its_stretch() -> None:
     with pytest.raises(StepFailed, match="stretched to"):
-        BODY.endless_step(BODY.rest()).forces(np.full((2, 1), 0.1))
+        BODY.static_step(BODY.rest()).forces(np.full((2, 1), 0.1))
 
 
 @pytest.mark.parametrize("classes", [1, 8, 17, 40])
 def test_fibre_classes_share_the_segments_in_their_order(classes: int) -> None:
     """Seventeen are the segments, fewer have the means of theirs; the right sphere is the right wall."""
     regional = np.arange(18.0) ** 2
-    left, right = of_fibres(regional, classes, 2).reshape(2, -1)
+    left, right = fibre_class_means(regional, classes, 2).reshape(2, -1)
     assert left.mean() == pytest.approx(regional[1:].mean())
     assert (right == regional[0]).all()
-    assert of_fibres(regional, classes, 1) == pytest.approx(left)
-    assert sorted(of_fibres(regional, 17, 1)) == pytest.approx(regional[1:])
-    assert of_fibres(regional, 8, 1)[0] == pytest.approx((81.0 + 64.0 + 0.125 * 14.0**2) / 2.125)
+    assert fibre_class_means(regional, classes, 1) == pytest.approx(left)
+    assert sorted(fibre_class_means(regional, 17, 1)) == pytest.approx(regional[1:])
+    assert fibre_class_means(regional, 8, 1)[0] == pytest.approx((81.0 + 64.0 + 0.125 * 14.0**2) / 2.125)

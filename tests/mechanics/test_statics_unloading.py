@@ -4,18 +4,17 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart.finite_elements import unloading
+from heartfit.heart.finite_elements.body import FiniteElementBody, StepFailed, Tissue
+from heartfit.heart.finite_elements.kinematics import push_forward
+from heartfit.heart.finite_elements.unloading import inflate, unload
+from heartfit.heart.muscle.passive import MooneyRivlin
+from heartfit.heart.muscle.tissue import Support
 from tests.conftest import END_DIASTOLIC_PRESSURE
 from tests.mechanics.conftest import assembled
 from tests.shrinking import assert_derivative
-
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.mechanics import unloading
-from heartfit.mechanics.body import FiniteElementBody, StepFailed, Tissue
-from heartfit.mechanics.kinematics import push_forward
-from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
-from heartfit.mechanics.statics import inflate
-from heartfit.mechanics.support import Support
-from heartfit.mechanics.unloading import unload
 
 SOFT = Tissue(passive=MooneyRivlin(c_1=300.0, c_2=30.0))
 
@@ -26,8 +25,8 @@ def test_inflating_the_unloaded_ventricles_gives_the_measured_ones(
     state = inflate(coarse_body, END_DIASTOLIC_PRESSURE)
     away = np.linalg.norm(coarse_body.positions(state.x) - ventricle.points, axis=1)
     assert away.max() < 1e-4
-    moved = np.linalg.norm(coarse_body.reference.points - ventricle.points, axis=1)
-    assert moved.max() > 2e-3
+    distances = np.linalg.norm(coarse_body.reference.points - ventricle.points, axis=1)
+    assert distances.max() > 2e-3
 
 
 def test_unloading_empties_both_cavities_and_keeps_the_wall(
@@ -66,13 +65,13 @@ def test_every_prior_and_the_paper_s_bulk_modulus_unload(
 def test_the_tangent_at_fixed_loaded_positions_is_exact_but_for_the_supports(
     block: Callable[[], VentricularMesh], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Of linear tetrahedra in strong shear, without supports, whose stiffness would follow X."""
+    """Linear tetrahedra in strong shear, without supports, whose stiffness would follow X."""
     monkeypatch.setattr(
         unloading, "GeneralFactor", lambda tets, elements, nodes, _: assembled(tets, elements, nodes)
     )
     loaded = block()
     tissue = Tissue(element="p1", support=Support(k_b=0.0, k_p=0.0, annulus=1.0))
-    search = unloading._Search(loaded, tissue)
+    search = unloading._ReferenceSearch(loaded, tissue)
     x = np.random.default_rng(5).normal(0.0, 4e-4, loaded.points.shape)
     x[:, 0] += 0.3 * loaded.points[:, 1]
     tangent = unloading._tangent(search._residual(x, np.zeros(2))[0], x)
@@ -101,6 +100,6 @@ def test_inflated_orientations_are_those_that_were_measured(
     state = inflate(coarse_body, END_DIASTOLIC_PRESSURE)
     edges = coarse_body.positions(state.x)[coarse_body.tets]
     deformed = np.einsum("eai,eaj->eij", edges, coarse_body.gradients)
-    moved = push_forward(coarse_body.dyads, deformed)
-    assert moved == pytest.approx(np.asarray(ventricle.orientation), abs=2e-3)
+    orientation = push_forward(coarse_body.dyads, deformed)
+    assert orientation == pytest.approx(np.asarray(ventricle.orientation), abs=2e-3)
     assert abs(coarse_body.dyads - np.asarray(ventricle.orientation)).max() > 0.03

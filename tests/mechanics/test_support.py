@@ -1,4 +1,4 @@
-"""What holds the heart neither pulls nor turns it: springs, a sliding pericardium, stiff annuli."""
+"""The support of the heart: springs and dampers at the rings, a sliding pericardium, stiff annuli."""
 
 from collections.abc import Callable
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.mechanics.support import Support
+from heartfit.heart.muscle.tissue import Support
 
 EDGE = 0.04
 

@@ -1,39 +1,39 @@
-"""Mechanisms that act on the blood keep what their roles promise, on spheres and on elements."""
+"""Contracts of the roles that act on the blood, on spheres and on elements."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+
+from heartfit.heart.circulation.network import VALVES
+from heartfit.heart.finite_elements.body import FiniteElementBody
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics, simulate
+from heartfit.heart.sphere.body import Sphere, SphericalBody
+from heartfit.heart.sphere.simulation import simulate_spheres
+from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+from heartfit.roles import COMPARTMENTS, External, Flow, Mechanism, Narrowing, Pressure, registered
+from heartfit.roles.laws import BLOOD_DENSITY
 from tests.shrinking import assert_derivative
 
-from heartfit.branch import BLOOD_DENSITY
-from heartfit.circulation.network import VALVES
-from heartfit.heart import Heart
-from heartfit.mechanics.body import FiniteElementBody
-from heartfit.mechanics.sphere import Sphere, SphericalBody
-from heartfit.mechanism import COMPARTMENTS, External, Flow, Mechanism, Narrowing, Pressure, registered
-from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
-from heartfit.simulation import Numerics, simulate
-from heartfit.sphere.simulation import simulate_spheres
-
 PERIOD = 0.829
-LEFT, RIGHT = Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6)
+LEFT, RIGHT = Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6)
 ONE_BEAT = Numerics(time_step=0.01, max_beats=1)
 
 
-def of(role: type[Mechanism]) -> dict[str, type]:
+def kinds_with_role(role: type[Mechanism]) -> dict[str, type]:
     return {name: kind for name, kind in registered().items() if issubclass(kind, role)}
 
 
-FLOWS, NARROWINGS, PRESSURES, EXTERNALS = of(Flow), of(Narrowing), of(Pressure), of(External)
+FLOWS, NARROWINGS, PRESSURES, EXTERNALS = map(kinds_with_role, (Flow, Narrowing, Pressure, External))
 ALL = FLOWS | NARROWINGS | PRESSURES | EXTERNALS
 
 
-def each(kinds: dict[str, type]) -> pytest.MarkDecorator:
+def parametrize_kinds(kinds: dict[str, type]) -> pytest.MarkDecorator:
     return pytest.mark.parametrize("kind", kinds.values(), ids=kinds.keys())
 
 
-@each(ALL)
+@parametrize_kinds(ALL)
 @pytest.mark.parametrize("compiled", [True, False])
 def test_switched_off_it_leaves_no_trace(
     kind: type[Mechanism], compiled: bool, spherical_heart: Heart, spheres: SphericalBody
@@ -57,14 +57,14 @@ def test_elements_do_not_notice_what_is_off(coarse_body: FiniteElementBody) -> N
     few = replace(ONE_BEAT, time_step=0.02)
     heart = replace(Heart(), mechanisms=())
     plain, off = (
-        simulate(each, coarse_body, few)
-        for each in (heart, replace(heart, mechanisms=tuple(kind().turned_off() for kind in ALL.values())))
+        simulate(case, coarse_body, few)
+        for case in (heart, replace(heart, mechanisms=tuple(kind().turned_off() for kind in ALL.values())))
     )
     for name, curve in plain.signals().items():
         assert (off.signals()[name] == curve).all(), name
 
 
-@each(NARROWINGS)
+@parametrize_kinds(NARROWINGS)
 def test_a_narrowing_grows_with_its_switch_and_names_a_valve(kind: type[Narrowing]) -> None:
     switch = kind.switch()
     widths = [replace(kind(), **{switch.name: switch.at(x)}).inverse_square() for x in (0.0, 1.0, 2.0)]
@@ -72,24 +72,24 @@ def test_a_narrowing_grows_with_its_switch_and_names_a_valve(kind: type[Narrowin
     assert widths[0] == 0.0 < widths[1] < widths[2]
 
 
-@each(EXTERNALS)
+@parametrize_kinds(EXTERNALS)
 def test_loads_are_continuous_periodic_and_grow_with_volume(kind: type[External]) -> None:
     """And one of the ventricles feels them."""
-    time, felt = np.linspace(0.0, PERIOD, 4001), False
+    time, nonzero = np.linspace(0.0, PERIOD, 4001), False
     for ventricle in COMPARTMENTS[:2]:
         pulse, rise, volume, scale = (
-            np.broadcast_to(each, 4001) for each in kind().load(ventricle, time, PERIOD)
+            np.broadcast_to(coefficient, 4001) for coefficient in kind().load(ventricle, time, PERIOD)
         )
         later = kind().load(ventricle, time + PERIOD, PERIOD)
         assert np.broadcast_to(later.pulse, 4001) == pytest.approx(pulse, abs=1e-6)
         assert abs(np.diff(pulse, append=pulse[0])).max() <= 0.01 * np.ptp(pulse)
         assert (rise >= 0.0).all()
         assert (scale > 0.0).all()
-        felt = felt or bool((pulse + rise * (volume >= 0.0)).any())
-    assert felt
+        nonzero = nonzero or bool((pulse + rise * (volume >= 0.0)).any())
+    assert nonzero
 
 
-@each(PRESSURES)
+@parametrize_kinds(PRESSURES)
 def test_pressures_are_continuous_and_periodic(kind: type[Pressure]) -> None:
     time = np.linspace(0.0, PERIOD, 4001)
     for compartment in kind.compartments:
@@ -100,7 +100,7 @@ def test_pressures_are_continuous_and_periodic(kind: type[Pressure]) -> None:
         assert curve[-1] == pytest.approx(curve[0], abs=1e-6)
 
 
-@each(PRESSURES)
+@parametrize_kinds(PRESSURES)
 def test_pressures_act_on_atria_and_arteries(kind: type[Pressure]) -> None:
     """The ventricles' pressure follows from their walls: what presses on these is an External."""
     assert set(kind.compartments) <= set(COMPARTMENTS[2:])
@@ -108,7 +108,7 @@ def test_pressures_act_on_atria_and_arteries(kind: type[Pressure]) -> None:
         assert kind().pressure(compartment, np.linspace(0.0, PERIOD, 100), PERIOD).any()
 
 
-@each(FLOWS)
+@parametrize_kinds(FLOWS)
 def test_flows_run_down_the_gradient_with_their_own_slope(kind: type[Flow]) -> None:
     assert {kind.upstream, kind.downstream} <= set(COMPARTMENTS)
     drops = np.linspace(-1e4, 1e4, 2001)
@@ -122,7 +122,7 @@ def test_flows_run_down_the_gradient_with_their_own_slope(kind: type[Flow]) -> N
         assert_derivative(lambda p: np.array([kind().flow(0.3, p[0])[0]]), slope, x, step)
 
 
-@each(FLOWS)
+@parametrize_kinds(FLOWS)
 def test_blood_is_conserved_with_another_branch(
     kind: type[Flow], spherical_heart: Heart, spheres: SphericalBody
 ) -> None:

@@ -1,4 +1,4 @@
-"""What a catheter makes of a pressure, beside closed forms and the equation itself."""
+"""Catheter sensors against closed forms and the equation of the oscillator."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ TIMES = np.arange(COUNT) * PERIOD / COUNT - 0.17
 
 
 def pressure(times: np.ndarray) -> np.ndarray:
-    """Up and down within 0.4 s, Pa; smooth enough to be known between its samples."""
+    """Up and down within 0.4 s, Pa; smooth enough to interpolate between its samples."""
     wave = 2.0 * np.pi * times / PERIOD
     return 8e3 * np.exp(3.0 * (np.cos(wave) - 1.0)) + 600.0 * np.sin(4.0 * wave)
 
@@ -57,11 +57,11 @@ def test_each_harmonic_has_the_gain_and_the_lag_of_the_oscillator(k: int) -> Non
 
 def test_a_stiff_line_is_a_short_delay() -> None:
     """To first order in r the oscillator delays by 2 zeta r: half of r leaves a quarter of the difference."""
-    missed = []
+    errors = []
     for r in (2e-3, 1e-3):
         shown = CatheterDamping(r, 0.5).distort(TIMES, pressure(TIMES), PERIOD)
-        missed.append(abs(shown - pressure(TIMES - 2.0 * 0.5 * r)).max())
-    assert missed[0] / missed[1] == pytest.approx(4.0, rel=0.1)
+        errors.append(abs(shown - pressure(TIMES - 2.0 * 0.5 * r)).max())
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
 
 
 def test_the_mean_pressure_stays() -> None:

@@ -1,9 +1,9 @@
-"""What images make of a volume curve, beside closed forms."""
+"""Image sensors against closed forms."""
 
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.mechanisms.image_shrinkage import ImageShrinkage
 from heartfit.mechanisms.image_smoothing import ImageSmoothing
 from heartfit.mechanisms.image_trigger_delay import ImageTriggerDelay
@@ -13,7 +13,7 @@ TIMES = np.arange(COUNT) * PERIOD / COUNT - 0.17
 
 
 def harmonics(times: np.ndarray) -> np.ndarray:
-    """A curve whose every harmonic is known: mean 110 mL, the first, third and seventh."""
+    """A curve of few harmonics: mean 110 mL, the first, third and seventh."""
     wave = 2.0 * np.pi * times / PERIOD
     return 1e-6 * (110.0 + 35.0 * np.cos(wave - 0.3) + 12.0 * np.sin(3.0 * wave) + 4.0 * np.cos(7.0 * wave))
 
@@ -29,7 +29,7 @@ def test_shrinkage_scales_every_excursion_from_the_trigger_frame(shrinkage: floa
 
 
 def test_shrinkage_leaves_some_motion() -> None:
-    with pytest.raises(InputError, match=r"ImageShrinkage\.shrinkage = 1: expected less than 1"):
+    with pytest.raises(InputError, match=r"ImageShrinkage\.shrinkage = 1\b"):
         ImageShrinkage(1.0)
 
 
@@ -70,5 +70,5 @@ def test_a_delay_of_whole_samples_moves_any_curve_as_it_is() -> None:
 def test_a_filter_asks_for_equidistant_samples_of_a_whole_period() -> None:
     skewed = TIMES + 1e-3 * np.linspace(0.0, 1.0, COUNT) ** 2
     for times in (skewed, 0.9 * TIMES):
-        with pytest.raises(InputError, match="expected equidistant samples over the whole period"):
+        with pytest.raises(InputError, match="equidistant"):
             ImageSmoothing(0.02).distort(times, harmonics(times), PERIOD)

@@ -35,7 +35,5 @@ def test_the_shown_curve_closes_and_keeps_its_extremes() -> None:
 
 
 def test_a_systole_that_fills_the_beat_is_refused() -> None:
-    with pytest.raises(
-        ValueError, match=r"RateMismatch\.systole = 0\.9 s: expected less than the period, 0\.8 s"
-    ):
+    with pytest.raises(ValueError, match=r"RateMismatch\.systole = 0\.9 s.*0\.8 s"):
         RateMismatch(0.1, 0.9).distort(TIMES, volume(TIMES), PERIOD)

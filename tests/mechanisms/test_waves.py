@@ -1,28 +1,28 @@
-"""What prescribed waves, loads and narrowings do to a beat: the signs that a cardiologist expects."""
+"""Effects of prescribed waves, loads and narrowings on a beat: the signs that a cardiologist expects."""
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat
-from heartfit.heart import Heart
-from heartfit.mechanics.sphere import Sphere
-from heartfit.mechanism import Mechanism
+from heartfit.heart.beat import Beat
+from heartfit.heart.heart import Heart
+from heartfit.heart.sphere.body import Sphere
+from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.mechanisms.aortic_regurgitation import AorticRegurgitation
-from heartfit.mechanisms.aortic_stenosis import FLOW, AorticStenosis
+from heartfit.mechanisms.aortic_stenosis import REFERENCE_FLOW, AorticStenosis
 from heartfit.mechanisms.arterial_reflection import ArterialReflection
 from heartfit.mechanisms.atrial_surge import AtrialSurge
 from heartfit.mechanisms.base_descent import BaseDescent
 from heartfit.mechanisms.mitral_stenosis import MitralStenosis
 from heartfit.mechanisms.pericardium import Pericardium
 from heartfit.mechanisms.septal_load import SeptalLoad
-from heartfit.sphere.simulation import simulate_spheres
+from heartfit.roles import Mechanism
 
 
 @dataclass(frozen=True)
 class Indices:
-    """What is read off a beat: mL and kPa; systole is where the aortic valve is open."""
+    """Left ventricular indices of a beat [mL, kPa]; the aortic valve is open in systole."""
 
     beat: Beat
 
@@ -56,11 +56,11 @@ def human() -> Heart:
 
 
 def beat(heart: Heart, *mechanisms: Mechanism) -> Indices:
-    found = simulate_spheres(
-        replace(heart, mechanisms=(*heart.mechanisms, *mechanisms)), [Sphere.of(125e-6, 170e-6)]
+    result = simulate_spheres(
+        replace(heart, mechanisms=(*heart.mechanisms, *mechanisms)), [Sphere.from_volumes(125e-6, 170e-6)]
     )
-    assert found.completed, found.reason
-    return Indices(found)
+    assert result.completed, result.reason
+    return Indices(result)
 
 
 def test_a_stenotic_valve_takes_the_gradient_that_is_stated(human: Heart) -> None:
@@ -68,7 +68,7 @@ def test_a_stenotic_valve_takes_the_gradient_that_is_stated(human: Heart) -> Non
     healthy, tight = beat(human), beat(human, AorticStenosis(gradient=8e3))
     q = tight.beat.flow["aortic"][tight.systole]
     conductance = human.circulation.aortic.law().conductance
-    assert tight.gradient * 1e3 == pytest.approx(8e3 * (q / FLOW) ** 2 + q / conductance, rel=1e-6)
+    assert tight.gradient * 1e3 == pytest.approx(8e3 * (q / REFERENCE_FLOW) ** 2 + q / conductance, rel=1e-6)
     assert tight.pressure.max() > 1.2 * healthy.pressure.max()
     assert tight.beat.flow["aortic"].max() < 0.8 * healthy.beat.flow["aortic"].max()
     assert tight.beat.flow["aortic"].argmax() > healthy.beat.flow["aortic"].argmax()
@@ -95,7 +95,7 @@ def test_a_pericardium_keeps_the_heart_small_and_its_diastole_stiff(human: Heart
     free, held = beat(human), beat(human, Pericardium(pressure=1200.0))
     assert held.volume.max() < 0.96 * free.volume.max()
     filling = free.beat.time < 0.12
-    stiffness = [np.polyfit(each.volume[filling], each.pressure[filling], 1)[0] for each in (free, held)]
+    stiffness = [np.polyfit(case.volume[filling], case.pressure[filling], 1)[0] for case in (free, held)]
     assert stiffness[1] > 1.3 * stiffness[0]
 
 

@@ -29,23 +29,31 @@ def _in(file: str, tests: str, *changes: tuple[str, str, str]) -> tuple[Mutant, 
 
 MUTANTS = (
     *_in(
-        "mechanics/active/bcs.py",
+        "heart/muscle/bcs.py",
         BCS,
-        ("destruction by motion dropped", "x, made = dt * rate + alpha * abs(d),", "x, made = dt * rate,"),
+        (
+            "destruction by motion dropped",
+            "x, formed = dt * rate + alpha * abs(d),",
+            "x, formed = dt * rate,",
+        ),
         (
             "motion mends bridges",
             "shrink = 1.0 / (1.0 + 0.25 * (dt * rate + alpha",
             "shrink = 1.0 / (1.0 + 0.25 * (dt * rate - alpha",
         ),
-        ("bridges attach without tension", "made * sigma_0 * inverse, 0.25", "0.0 * sigma_0 * inverse, 0.25"),
+        (
+            "bridges attach without tension",
+            "formed * sigma_0 * inverse, 0.25",
+            "0.0 * sigma_0 * inverse, 0.25",
+        ),
         ("attaching bridges share no stress", "abs(d)) + loss)", "abs(d)))"),
         ("friction pushes", "tau + mu * d / dt - c,", "tau - mu * d / dt - c,"),
         ("spring pulled by the old strain", "mean = 0.5 * (es_old + es_new)", "mean = es_old"),
-        ("fibre slope without the sarcomere", "change, s_e + s_d * turn, d, turn", "change, s_e, d, turn"),
+        ("fibre slope without the sarcomere", "change, s_e + s_d * increment_slope, d", "change, s_e, d"),
         ("lambda ends at its mean", "new[2, i] = 2.0 * mean - lam", "new[2, i] = mean"),
     ),
     *_in(
-        "mechanics/passive/mooney_rivlin.py",
+        "heart/muscle/passive.py",
         MOONEY,
         ("first invariant not isochoric", "a * (identity - I1 / 3.0 * Ci[i])", "a * identity"),
         ("second invariant's sign", "(I1 * identity - C[e, i] -", "(I1 * identity + C[e, i] -"),
@@ -53,14 +61,14 @@ MUTANTS = (
         ("in-plane stress lacks the radial part", "(stretch - stretch**-5)", "(stretch)"),
     ),
     *_in(
-        "mechanics/passive/guccione.py",
+        "heart/muscle/guccione.py",
         EXPONENTIAL,
         ("not isochoric", "(H[i] - trace / 3.0 * Ci[i])", "H[i]"),
         ("tangent of the exponential halved", "2.0 * H[i] * H[k] +", "H[i] * H[k] +"),
         ("fibres do not mix", "0.5 * b[1] * mixed + b[2] * unit", "b[2] * unit"),
     ),
     *_in(
-        "mechanics/kinematics.py",
+        "heart/finite_elements/kinematics.py",
         f"{MECHANICS}/test_kinematics.py {BODY}",
         ("determinant's sign", "- F[e, 0, 1] * (F[e, 1, 0]", "+ F[e, 0, 1] * (F[e, 1, 0]"),
         ("inverse's shear", "out[3] = (C[4] * C[5] - C[3] * C[2])", "out[3] = (C[4] * C[5] + C[3] * C[2])"),
@@ -72,7 +80,7 @@ MUTANTS = (
         ),
     ),
     *_in(
-        "mechanics/assembly.py",
+        "heart/finite_elements/assembly.py",
         BODY,
         (
             "wall pressure inwards",
@@ -93,7 +101,7 @@ MUTANTS = (
         ("no geometric stiffness", "        _add_geometric(S[e], gradients[e], K)\n", ""),
     ),
     *_in(
-        "mechanics/elements.py",
+        "heart/finite_elements/elements.py",
         f"{MECHANICS}/test_elements.py {BODY}",
         (
             "no stabilisation",
@@ -108,7 +116,7 @@ MUTANTS = (
         ),
     ),
     *_in(
-        "mechanics/body.py",
+        "heart/finite_elements/body.py",
         BODY,
         ("supports push", "self._support, x[:, :3]) - self._drag", "self._support, x[:, :3]) + self._drag"),
         (
@@ -118,7 +126,7 @@ MUTANTS = (
         ),
     ),
     *_in(
-        "mechanics/time_step.py",
+        "heart/time_step.py",
         TIME,
         ("first order again", "self.length / (self.length + self.last) if", "0.0 * self.length if"),
         (
@@ -128,7 +136,7 @@ MUTANTS = (
         ),
     ),
     *_in(
-        "mechanics/support.py",
+        "heart/muscle/tissue.py",
         f"{MECHANICS}/test_support.py",
         (
             "the pericardium sticks",
@@ -138,7 +146,7 @@ MUTANTS = (
         ("no stiffer apex", "(1.0 + (self.apical - 1.0) * ramp)", "(1.0 + 0.0 * ramp)"),
     ),
     *_in(
-        "mechanics/solver.py",
+        "heart/finite_elements/solver.py",
         f"{MECHANICS}/test_solver.py",
         (
             "children are forgotten",
@@ -149,7 +157,7 @@ MUTANTS = (
         ("scaled once only", "result[i, j] *= scale[i] * scale[j]", "result[i, j] *= scale[i]"),
     ),
     *_in(
-        "mechanics/unloading.py",
+        "heart/finite_elements/unloading.py",
         f"{MECHANICS}/test_statics_unloading.py::test_the_tangent_at_fixed_loaded_positions_is_exact_but_for_the_supports",
         (
             "loaded positions move",
@@ -159,7 +167,7 @@ MUTANTS = (
         ("not pulled back", 'np.einsum("eaibk,ekj->eaibj", blocks[..., :3], F)', "blocks[..., :3]"),
     ),
     *_in(
-        "mechanics/sphere.py",
+        "heart/sphere/body.py",
         SPHERE,
         ("fibres without leverage", "viscous + stretch * self._tension()[0]", "viscous + self._tension()[0]"),
         ("radial viscosity's sign", "plane * stretch - 2.0 * radial", "plane * stretch + 2.0 * radial"),
@@ -177,7 +185,7 @@ MUTANTS = (
         ("gradient doubled", "gradient[a, i] -= cross / 6.0", "gradient[a, i] -= cross / 3.0"),
     ),
     *_in(
-        "electrophysiology/eikonal.py",
+        "heart/activation/eikonal.py",
         EIKONAL,
         ("speed across not squared", "(np.eye(3) - along) / ratio**2", "(np.eye(3) - along) / ratio"),
         ("the earlier root", "(b + np.sqrt(discriminant)) / a", "(b - np.sqrt(discriminant)) / a"),
@@ -188,14 +196,14 @@ MUTANTS = (
         ),
     ),
     *_in(
-        "circulation/windkessel.py",
+        "heart/circulation/elements.py",
         f"{CIRCULATION}/test_windkessel.py",
         ("no run-off", "/ (1.0 + dt / tau), (q_L", ", (q_L"),
         ("venous pressure dropped", "(inflow + P_ve / R_p)", "inflow"),
         ("no inertance", " - Z_c * q_L / (1.0 + theta)", ""),
     ),
     *_in(
-        "branch.py",
+        "roles/laws.py",
         f"{CIRCULATION}/test_valves.py",
         ("valves open backwards", "way = 0 if drop > 0.0 else 2", "way = 0 if drop < 0.0 else 2"),
         (
@@ -206,7 +214,7 @@ MUTANTS = (
         ("blood weighs half", "np.sqrt(2.0 / BLOOD_DENSITY)", "np.sqrt(4.0 / BLOOD_DENSITY)"),
     ),
     *_in(
-        "branch.py",
+        "roles/laws.py",
         f"{CIRCULATION}/test_narrowing.py",
         ("a narrowing takes a quarter", "np.sqrt(1.0 + 4.0 * laws", "np.sqrt(1.0 + laws"),
         (
@@ -216,12 +224,12 @@ MUTANTS = (
         ),
     ),
     *_in(
-        "load.py",
+        "roles/laws.py",
         f"{CIRCULATION}/test_enclosure.py",
         ("a load's slope without its scale", "slope += rise / scale", "slope += rise"),
     ),
     *_in(
-        "circulation/enclosure.py",
+        "heart/circulation/enclosure.py",
         f"{CIRCULATION}/test_enclosure.py",
         ("loads pull", "self._step.forces(x) + self._body", "self._step.forces(x) - self._body"),
         (
@@ -231,17 +239,17 @@ MUTANTS = (
         ),
     ),
     *_in(
-        "circulation/network.py",
+        "heart/circulation/network.py",
         COMPILED,
         ("no waves in the arteries", "rows[:, 0] += self._arterial", "rows[:, 0] += 0.0"),
     ),
     *_in(
-        "sphere/beat.py",
+        "heart/sphere/beat.py",
         f"{CIRCULATION}/test_enclosure.py",
         ("nothing presses on spheres", "p[v] += pressure", "p[v] += 0.0 * pressure"),
     ),
     *_in(
-        "sphere/step.py",
+        "heart/sphere/step.py",
         COMPILED,
         (
             "the Windkessel takes the wave for flow",
@@ -250,9 +258,9 @@ MUTANTS = (
         ),
     ),
     *_in(
-        "circulation/circuit.py",
+        "heart/circulation/circuit.py",
         f"{CIRCULATION}/test_circuit.py",
-        ("compliance forgotten", "gap += stored * (p[j] - system[j, ABOUT])", "gap += 0.0"),
+        ("compliance forgotten", "residual += storage * (p[j] - system[j, REFERENCE])", "residual += 0.0"),
         ("the full step in any case", "            share *= 0.5\n", ""),
     ),
     *_in(
@@ -261,7 +269,7 @@ MUTANTS = (
         ("deviations from the centre, not the mean", "deviation = z - mean", "deviation = z - z[0]"),
     ),
     *_in(
-        "calibration/scaling.py",
+        "calibration/design.py",
         UNSCENTED,
         ("points too near", "np.sqrt(self.spread(n)) *", "1.0 *"),
         ("no extra weight of the centre", "covariance[0] += 1 - self.a**2 + self.b", "covariance[0] += 0.0"),
@@ -272,7 +280,7 @@ MUTANTS = (
         ),
     ),
     *_in(
-        "calibration/simplex.py",
+        "calibration/design.py",
         "tests/calibration/test_simplex.py",
         (
             "corners too near",
@@ -282,13 +290,13 @@ MUTANTS = (
         ("a lost corner is the centre", "filled[index] = corners * z[0] - ", "filled[index] = z[0] - 0.0 * "),
     ),
     *_in(
-        "calibration/iterated.py",
+        "calibration/alternatives.py",
         "tests/calibration/test_iterated.py",
         ("the prior moves along", "(prior.mean - around.mean) @ slope", "0.0 * prior.mean @ slope"),
         ("points never shrink", "spread *= shrink**2", "spread *= 1.0"),
     ),
     *_in(
-        "calibration/smoother.py",
+        "calibration/alternatives.py",
         "tests/calibration/test_alternatives.py",
         ("noise not inflated", "np.sqrt(assimilations) * np.linalg", "1.0 * np.linalg"),
     ),
@@ -303,32 +311,40 @@ MUTANTS = (
         ),
     ),
     *_in(
-        "mechanics/passive/stiffened.py",
+        "heart/muscle/stiffened.py",
         f"{MECHANICS}/test_stiffened.py",
         ("an added energy not isochoric", "(A[i] - third * Ci[i])", "A[i]"),
         ("an added tangent without curvature", "b * slope[i] * slope[j] + a * bent", "a * bent"),
         ("a sphere's stiffening forgets its own bend", " + first * curve", ""),
     ),
     *_in(
-        "electrophysiology/control.py",
+        "heart/muscle/control.py",
         "tests/electrophysiology/test_control.py",
-        ("a tail from the activation on", "np.maximum(each - self.duration, 0.0)", "each"),
+        ("a tail from the activation on", "np.maximum(duration - self.duration, 0.0)", "duration"),
         ("a tail hastens", "rate = rate - self.k_RS", "rate = rate + self.k_RS"),
     ),
     *_in(
-        "mechanics/body.py",
+        "heart/finite_elements/body.py",
         MUSCLE,
         ("nothing is late on a mesh", "tissue.delays()[reference.segments]", "0.0 * reference.segments"),
         ("nothing is scarred on a mesh", "1.0 - tissue.losses()", "1.0 - 0.0 * tissue.losses()"),
     ),
     *_in(
-        "sphere/step.py",
+        "heart/sphere/step.py",
         MUSCLE,
-        ("nothing is scarred in a compiled beat", "fibres[at.KEPT, i] * available(", "1.0 * available("),
+        (
+            "nothing is scarred in a compiled beat",
+            "fibres[rows.KEPT, i] * available_fraction(",
+            "1.0 * available_fraction(",
+        ),
     ),
     *_in(
         "geometry/territory.py",
         "tests/geometry/test_territory.py",
-        ("a territory does not fade", "(_reach(away, share) - away) / BORDER", "_reach(away, share) - away"),
+        (
+            "a territory does not fade",
+            "(_reach(distance, share) - distance) / BORDER",
+            "_reach(distance, share) - distance",
+        ),
     ),
 )

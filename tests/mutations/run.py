@@ -5,12 +5,13 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from heartfit.core.pages import render_page
 from tests.mutations.mutants import MUTANTS, Mutant
 
 ROOT = Path(__file__).parents[2]
@@ -18,16 +19,6 @@ PARTS = ("src", "tests", "config", "docs", "resources", "pyproject.toml")
 PASSED, FAILED = 0, 1
 TIMEOUT = 900.0  # s
 PAGE = ROOT / "docs" / "mutations.md"
-
-HEADER = """# Mutations
-
-Each row is one change to a kernel, made in a copy of the sources, and the first test that fails of it. One that
-survived would be a test that is missing. This page is written by `python3 study.py mutations`, half an hour; a test
-asserts that every mutant of the list is in it and was caught, and that the text it changes still stands in the sources.
-
-| mutant | of | instead of | caught by |
-|---|---|---|---|
-"""
 
 
 class MutationError(RuntimeError):
@@ -122,6 +113,11 @@ def row(verdict: Verdict) -> str:
     return f"| {mutant.what} | `{mutant.file}`: {new} | {old} | {caught} |\n"
 
 
+def page(rows: Iterable[str]) -> str:
+    """The page of all mutants."""
+    return render_page("mutations", rows="".join(rows))
+
+
 def main(names: list[str]) -> int:
     """Write the page, or print the rows of the named mutants; 1 if one survives."""
     chosen = tuple(mutant for mutant in MUTANTS if not names or mutant.what in names)
@@ -131,5 +127,5 @@ def main(names: list[str]) -> int:
         survived += not verdict.caught_by
         sys.stderr.write(rows[-1])
     if not names:
-        PAGE.write_text(HEADER + "".join(rows))
+        PAGE.write_text(page(rows))
     return int(survived > 0)

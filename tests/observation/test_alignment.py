@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 
-from heartfit.observation.alignment import fit_shift, root_mean_square
-from heartfit.observation.curve import Curve
+from heartfit.observation.curve import Curve, fit_shift, root_mean_square
 
 PERIOD = 0.8
 

@@ -6,10 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.coordinates import LeftVentricularAxes
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
+from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.observation.comparison import Comparison, compare_motions
 from heartfit.observation.curve import Curve
 from heartfit.observation.operator import PressureFeatures, VolumeFeatures
@@ -23,7 +22,7 @@ FEATURES = {"lv_volume": VolumeFeatures(frames=12)}
 
 def affine(mesh: VentricularMesh, matrix: np.ndarray, shift: np.ndarray | None = None) -> Motion:
     """Every phase the share SHARE of an affine map about the apex, given in septal, anterior, axial components."""
-    axes = LeftVentricularAxes.of(mesh)
+    axes = LeftVentricularAxes.from_mesh(mesh)
     frame = np.array([axes.septal, axes.anterior, axes.axis])
     local = (mesh.points - axes.apex) @ frame.T
     moved = [local + share * (local @ (matrix - np.eye(3)).T) for share in SHARE]
@@ -121,7 +120,7 @@ def test_a_segment_is_the_mean_over_its_volume(ventricle: VentricularMesh) -> No
     before, after = ((x[inside[:, 1:]] - x[inside[:, :1]]).swapaxes(1, 2) for x in (start, positions[5]))
     F = after @ np.linalg.inv(before)
     E = 0.5 * (F.swapaxes(1, 2) @ F - np.eye(3))
-    axis = LeftVentricularAxes.of(ventricle).axis
+    axis = LeftVentricularAxes.from_mesh(ventricle).axis
     expected = np.average(axis @ E @ axis, weights=np.linalg.det(before))
     assert found[5, DIRECTIONS.index("longitudinal"), 13] == pytest.approx(expected)
 
@@ -150,14 +149,14 @@ def test_a_catheter_adds_the_observations_of_pressure(ventricle: VentricularMesh
 
 def test_motions_that_cannot_be_compared_are_refused(ventricle: VentricularMesh, compared: Callable) -> None:
     motion = contraction(ventricle, 0.8, 0.8)
-    with pytest.raises(InputError, match="the registered motion has 5 nodes"):
+    with pytest.raises(InputError, match=r"\b5 nodes"):
         compared(motion, replace(motion, positions=motion.positions[:, :5]))
-    with pytest.raises(InputError, match="12 true and 11 registered frames"):
+    with pytest.raises(InputError, match=r"\b12\b.*\b11\b"):
         compared(motion, Motion(TIMES[:11], PERIOD, motion.positions[:11]))
-    with pytest.raises(InputError, match=r"up to 0\.01 s apart"):
+    with pytest.raises(InputError, match=r"\b0\.01 s"):
         compared(motion, replace(motion, times=TIMES + 0.01))
-    with pytest.raises(InputError, match="no AHA segments"):
+    with pytest.raises(InputError, match="AHA"):
         segment_strain(replace(ventricle, segments=None), motion)
     without = replace(ventricle, segments=np.where(ventricle.segments == 5, 6, ventricle.segments))
-    with pytest.raises(InputError, match="no tetrahedron lies in segment 5"):
+    with pytest.raises(InputError, match=r"segment 5\b"):
         segment_strain(without, motion)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.observation.curve import Curve
 
 TIMES = np.arange(25) * 0.033
@@ -23,7 +23,7 @@ def test_resampling_at_its_own_frames_changes_nothing() -> None:
 @pytest.mark.parametrize(
     ("times", "values", "period", "message"),
     [
-        (TIMES[:7], VOLUME[:7], 0.825, "7 samples; expected at least 8"),
+        (TIMES[:7], VOLUME[:7], 0.825, r"\b7\b.*\b8\b"),
         (TIMES[::-1], VOLUME, 0.825, "sort the samples"),
         (TIMES, np.where(TIMES[4] == TIMES, np.nan, VOLUME), 0.825, r"values\[4\] = nan"),
         (TIMES, VOLUME, TIMES[-1], "repeats the first"),
@@ -37,12 +37,12 @@ def test_bad_samples_are_named(times: np.ndarray, values: np.ndarray, period: fl
 
 
 def test_millilitres_are_not_cubic_metres() -> None:
-    with pytest.raises(InputError, match="probably mL taken for m"):
+    with pytest.raises(InputError, match="mL"):
         Curve.of_volume(TIMES, VOLUME * 1e6, 0.825)
 
 
 @pytest.mark.parametrize(
-    ("peak", "hint"), [(16.0, "kPa or mmHg"), (120e3, "mmHg taken for kPa"), (-1e6, "check the numbers")]
+    ("peak", "hint"), [(16.0, "kPa or mmHg"), (120e3, "mmHg.*kPa"), (-1e6, "check the numbers")]
 )
 def test_impossible_pressures_are_named(peak: float, hint: str) -> None:
     with pytest.raises(InputError, match=hint):

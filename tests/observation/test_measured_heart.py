@@ -6,10 +6,8 @@ import pandas as pd
 import pytest
 
 from heartfit.observation.curve import Curve
-from heartfit.observation.measurement import observe_measured
-from heartfit.observation.noise import frame_noise
-from heartfit.observation.operator import VolumeFeatures
-from heartfit.observation.vector import operators
+from heartfit.observation.measurement import frame_noise, observe_measured
+from heartfit.observation.operator import VolumeFeatures, operators
 
 
 @pytest.fixture

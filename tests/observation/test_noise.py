@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from heartfit.observation.curve import Curve
-from heartfit.observation.noise import frame_noise, measure
+from heartfit.observation.measurement import frame_noise, measure
 from heartfit.observation.operator import VolumeFeatures
 
 PERIOD = 0.829

@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 from scipy.stats import binomtest
 
-from heartfit.errors import InputError
-from heartfit.observation.coverage import Share, coverage
+from heartfit.core.errors import InputError
 from heartfit.observation.curve import Curve
-from heartfit.observation.noise_model import NoiseModel
-from heartfit.observation.operator import VolumeFeatures
-from heartfit.observation.pair import Pair, Reading
+from heartfit.observation.noise_model import NoiseModel, Share, coverage
+from heartfit.observation.operator import Pair, Reading, VolumeFeatures
 
 NAMES = ("V_min", "q_max", "q_min")
 BIAS = np.array([0.04, -0.2, -0.15])
@@ -46,7 +44,7 @@ def pair(seed: int) -> Pair:
 
 
 def model(sequences: int, first: int = 0) -> NoiseModel:
-    return NoiseModel.of([pair(first + seed) for seed in range(sequences)], PROTOCOL, FRAMES)
+    return NoiseModel.from_pairs([pair(first + seed) for seed in range(sequences)], PROTOCOL, FRAMES)
 
 
 def test_planted_bias_and_covariance_are_found_within_their_sampling_error() -> None:
@@ -73,7 +71,7 @@ def test_what_is_known_of_the_error_is_taken_off_exactly() -> None:
         volume = {"lv_volume": replace(seen, values=seen.values - np.ptp(seen.values) * share)}
         return Pair(Reading(volume, truth(each.measured, BIAS)), each.measured)
 
-    known = NoiseModel.of([alike(seed) for seed in range(20)], PROTOCOL, FRAMES)
+    known = NoiseModel.from_pairs([alike(seed) for seed in range(20)], PROTOCOL, FRAMES)
     fresh = alike(77)
     assert known.corrected(fresh.measured) == pytest.approx(fresh.true.observations)
     found = known.corrected_curve(fresh.measured.curves["lv_volume"])
@@ -90,9 +88,9 @@ def test_a_shrunken_motion_has_one_error_whatever_the_heart() -> None:
     def shrunken(seed: int) -> Pair:
         true = pair(seed).true.curves["lv_volume"]
         seen = replace(true, values=true.values[0] - (1.0 - s) * (true.values[0] - true.values))
-        return Pair(*(Reading.of({"lv_volume": curve}, features) for curve in (true, seen)))
+        return Pair(*(Reading.from_curves({"lv_volume": curve}, features) for curve in (true, seen)))
 
-    found = NoiseModel.of([shrunken(seed) for seed in range(20)], PROTOCOL, FRAMES)
+    found = NoiseModel.from_pairs([shrunken(seed) for seed in range(20)], PROTOCOL, FRAMES)
     strokes = [np.ptp(pair(seed).true.curves["lv_volume"].values) for seed in range(20)]
     assert max(strokes) > 1.5 * min(strokes)
     assert found.observations.mean == pytest.approx(
@@ -122,12 +120,12 @@ def test_few_sequences_widen_everything_as_their_number_says() -> None:
     assert few.covariance(seen)[0, 0] == pytest.approx(plain * 21 / 20, rel=1e-12, abs=0.0)
     low, high = few.interval(seen)["q_min"]
     assert low < few.corrected(seen)["q_min"] < high < 0.0
-    assert np.log(low / high) == pytest.approx(2.0 * scatter.reach()[2])
+    assert np.log(low / high) == pytest.approx(2.0 * scatter.half_width()[2])
     low, high = few.interval(seen)["V_min"]
     assert (low + high) / 2.0 == pytest.approx(few.corrected(seen)["V_min"])
-    assert high - low == pytest.approx(2.0 * stroke * scatter.reach()[0], rel=1e-12, abs=0.0)
+    assert high - low == pytest.approx(2.0 * stroke * scatter.half_width()[0], rel=1e-12, abs=0.0)
     low_curve, high_curve = few.curve_interval(volume)
-    assert high_curve - low_curve == pytest.approx(2.0 * stroke * few.curve.reach(), abs=1e-12)
+    assert high_curve - low_curve == pytest.approx(2.0 * stroke * few.curve.half_width(), abs=1e-12)
     assert few.curve_covariance(volume) == pytest.approx(stroke**2 * few.curve.predictive, rel=1e-12, abs=0.0)
 
 
@@ -141,7 +139,7 @@ def test_a_peak_pressure_is_compared_with_the_range_of_the_pressure() -> None:
         curves = each.measured.curves | {"lv_pressure": wave}
         return Pair(replace(each.true, observations=true), Reading(curves, observed))
 
-    known = NoiseModel.of([recorded(seed) for seed in range(20)], PROTOCOL, FRAMES)
+    known = NoiseModel.from_pairs([recorded(seed) for seed in range(20)], PROTOCOL, FRAMES)
     assert known.observations.mean[3] == pytest.approx(0.03)
     fresh = recorded(40)
     assert known.corrected(fresh.measured)["P_max"] == pytest.approx(fresh.true.observations["P_max"])
@@ -178,23 +176,23 @@ def test_phases_without_error_do_not_count_as_covered() -> None:
 @pytest.mark.parametrize("covered", [0, 1, 12, 23, 24])
 def test_the_interval_of_a_share_is_clopper_and_pearsons(covered: int) -> None:
     exact = binomtest(covered, 24).proportion_ci(0.95, "exact")
-    found = Share.of(covered, 24)
+    found = Share.from_count(covered, 24)
     assert (found.low, found.high) == pytest.approx((exact.low, exact.high))
 
 
 def test_what_the_model_cannot_know_is_refused() -> None:
-    with pytest.raises(InputError, match="19 sequences; expected at least 20"):
+    with pytest.raises(InputError, match=r"\b19\b.*\b20\b"):
         model(19)
-    with pytest.raises(InputError, match="0 sequences"):
-        NoiseModel.of([], PROTOCOL)
+    with pytest.raises(InputError, match=r"\b0\b.*\b20\b"):
+        NoiseModel.from_pairs([], PROTOCOL)
     known = model(20)
-    with pytest.raises(InputError, match="19 sequences; expected at least 20"):
+    with pytest.raises(InputError, match=r"\b19\b.*\b20\b"):
         replace(known, observations=replace(known.observations, count=19))
-    with pytest.raises(InputError, match="knows nothing of P_max; expected V_min, q_max, q_min"):
+    with pytest.raises(InputError, match=r"P_max.*V_min, q_max, q_min"):
         known.covariance(replace(pair(0).measured, observations={"V_min": 60e-6, "P_max": 16e3}))
-    with pytest.raises(InputError, match=r"snr is 10\.0, the model was made for 30\.0"):
+    with pytest.raises(InputError, match=r"snr.*10\.0.*30\.0"):
         known.require_protocol(PROTOCOL | {"snr": 10.0})
-    with pytest.raises(InputError, match="phases is None, the model was made for 25"):
+    with pytest.raises(InputError, match=r"phases.*None.*\b25\b"):
         replace(known, protocol={**PROTOCOL, "phases": 25}).require_protocol(PROTOCOL)
     known.require_protocol(dict(PROTOCOL))
 
@@ -202,8 +200,8 @@ def test_what_the_model_cannot_know_is_refused() -> None:
 def test_sequences_that_were_not_observed_alike_are_refused() -> None:
     pairs = [pair(seed) for seed in range(20)]
     wrong = replace(pairs[3].measured, observations=pairs[3].measured.observations | {"q_max": -1e-4})
-    with pytest.raises(InputError, match=r"sequence 3 has q_max = -0\.0001 for a true"):
-        NoiseModel.of([*pairs[:3], replace(pairs[3], measured=wrong), *pairs[4:]], PROTOCOL)
+    with pytest.raises(InputError, match=r"\b3\b.*q_max.*-0\.0001"):
+        NoiseModel.from_pairs([*pairs[:3], replace(pairs[3], measured=wrong), *pairs[4:]], PROTOCOL)
     lacking = replace(pairs[5].true, observations={"V_min": 6e-5})
-    with pytest.raises(InputError, match="sequence 5 has the observations V_min"):
-        NoiseModel.of([*pairs[:5], replace(pairs[5], true=lacking), *pairs[6:]], PROTOCOL)
+    with pytest.raises(InputError, match=r"\b5\b.*V_min"):
+        NoiseModel.from_pairs([*pairs[:5], replace(pairs[5], true=lacking), *pairs[6:]], PROTOCOL)

@@ -6,21 +6,19 @@ No error is normal here, and those of noise and delay depend on the heart; the i
 import numpy as np
 import pytest
 
-from heartfit.cohort.hidden_heart import draw_heart
-from heartfit.errors import InputError
-from heartfit.mechanics.sphere import Sphere
+from heartfit.core.errors import InputError
+from heartfit.heart.simulation import Numerics
+from heartfit.heart.sphere.body import Sphere
+from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.observation.beat import beat_curves
-from heartfit.observation.coverage import coverage
 from heartfit.observation.curve import Curve
-from heartfit.observation.noise_model import NoiseModel
-from heartfit.observation.operator import VolumeFeatures
-from heartfit.observation.pair import Pair, Reading
-from heartfit.observation.sensor_scatter import sensor_scatter
-from heartfit.simulation import Numerics
-from heartfit.sphere.simulation import simulate_spheres
+from heartfit.observation.noise_model import NoiseModel, coverage
+from heartfit.observation.operator import Pair, Reading, VolumeFeatures
+from heartfit.observation.scatter import sensor_scatter
+from heartfit.synthetic.volunteer import draw_heart
 
 FEATURES = {"lv_volume": VolumeFeatures(25)}
-SPHERES = (Sphere.of(80e-6, 130e-6), Sphere.of(90e-6, 45e-6))
+SPHERES = (Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6))
 NUMERICS = Numerics(time_step=5e-3, max_beats=6, drift=0.01)
 
 
@@ -36,7 +34,7 @@ def imaged(volume: Curve, rng: np.random.Generator) -> Pair:
     true, late = volume.resampled(25), volume.shifted(-delay).resampled(25)
     values = true.values[0] - (1.0 - shrinkage) * (true.values[0] - late.values)
     seen = Curve(true.times, values + 0.7e-6 * rng.standard_normal(25), true.period)
-    return Pair(*(Reading.of({"lv_volume": curve}, FEATURES) for curve in (true, seen)))
+    return Pair(*(Reading.from_curves({"lv_volume": curve}, FEATURES) for curve in (true, seen)))
 
 
 def test_intervals_hold_the_truth_of_90_to_99_percent_of_fresh_beats(volumes: list[Curve]) -> None:
@@ -45,7 +43,7 @@ def test_intervals_hold_the_truth_of_90_to_99_percent_of_fresh_beats(volumes: li
     for seed in range(20):
         rng = np.random.default_rng(seed)
         pairs = [imaged(volumes[number], rng) for number in rng.permutation(48)]
-        for name, share in coverage(NoiseModel.of(pairs[:24], {}), pairs[24:]).items():
+        for name, share in coverage(NoiseModel.from_pairs(pairs[:24], {}), pairs[24:]).items():
             shares.setdefault(name, []).append(share.covered)
     for name, found in shares.items():
         assert 0.90 < np.mean(found) < 0.99, name
@@ -54,7 +52,7 @@ def test_intervals_hold_the_truth_of_90_to_99_percent_of_fresh_beats(volumes: li
 def test_the_bias_taken_off_brings_fresh_beats_nearer_to_the_truth(volumes: list[Curve]) -> None:
     rng = np.random.default_rng(1)
     pairs = [imaged(volume, rng) for volume in volumes]
-    model = NoiseModel.of(pairs[:24], {})
+    model = NoiseModel.from_pairs(pairs[:24], {})
     true, raw, left = (
         np.array([list(observed(pair).values()) for pair in pairs[24:]])
         for observed in (
@@ -76,5 +74,5 @@ def test_the_sensors_of_the_images_are_found_with_their_scatter(volumes: list[Cu
     assert delay == pytest.approx(0.005, abs=3.0 * 0.004 / np.sqrt(48))
     assert smoothing < 0.01  # none was planted
     assert found.sd[[0, 2]] == pytest.approx([0.04, 0.004], rel=3.0 / np.sqrt(2 * 48))
-    with pytest.raises(InputError, match="1 sequences; expected two or more"):
+    with pytest.raises(InputError, match=r"\b1 sequences"):
         sensor_scatter([imaged(volumes[0], rng)])

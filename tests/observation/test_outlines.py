@@ -3,17 +3,15 @@
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
+from heartfit.geometry.carry import nearest_on_surface
 from heartfit.geometry.cavity import Cavity
-from heartfit.geometry.nearest import nearest_on_surface
 from heartfit.geometry.surface import LabelledSurface
-from heartfit.imaging.grid import Grid
-from heartfit.observation.cine import compare_cine
-from heartfit.observation.outlines import Outline, outlines
-from heartfit.observation.short_axis_volume import left_volumes, modified_simpson
-from heartfit.observation.wall_points import wall_points
-from heartfit.registration.slices import SliceMotion
-from heartfit.verification.specimen import SHAPE
+from heartfit.imaging.registration.slices import SliceMotion
+from heartfit.imaging.sequence import Grid
+from heartfit.observation.cine import compare_cine, left_ventricular_volumes, modified_simpson
+from heartfit.observation.outlines import Outline, outlines, wall_points
+from verification.specimen import SHAPE
 
 FRAMES = 8
 GRID = Grid(
@@ -149,8 +147,8 @@ def test_simpsons_rule_is_exact_for_half_an_ellipsoid_but_for_the_trapezia() -> 
 def test_volumes_from_slices_are_those_of_the_surface(surface: LabelledSurface, motion: SliceMotion) -> None:
     """The base lies at k = 0 here, so slices run against the axis; 9 mm apart they miss about a per cent."""
     positions = moved(surface)
-    found = left_volumes(surface, positions, GRID, outlines(surface, positions, motion))
-    true = [Cavity.of(surface, "lv_endo").volume(points) for points in positions]
+    found = left_ventricular_volumes(surface, positions, GRID, outlines(surface, positions, motion))
+    true = [Cavity.from_endocardium(surface, "lv_endo").volume(points) for points in positions]
     assert found["surface"] == pytest.approx(true)
     assert found["cut"] == pytest.approx(true, rel=0.02)
     for name in ("registered", "registered, ends at rest"):
@@ -161,7 +159,7 @@ def test_ends_at_rest_miss_the_descent_of_the_base(surface: LabelledSurface, mot
     sunk = 1.9e-3
     positions = moved(surface, sunk)
     every = outlines(surface, positions, motion)
-    found = left_volumes(surface, positions, GRID, every)
+    found = left_ventricular_volumes(surface, positions, GRID, every)
     areas = [outline.carried_area[-1] for outline in every if outline.surface == "lv_endo"]
     gained = found["registered, ends at rest"][-1] - found["registered"][-1]
     assert gained == pytest.approx(sunk * areas[0] - 2.0 / 3.0 * sunk * areas[-1], rel=1e-6)
@@ -175,7 +173,7 @@ def test_a_comparison_holds_every_slice_and_refuses_what_does_not_belong_togethe
     left = [outline.slice for outline in cine.outlines if outline.surface == "lv_endo"]
     assert [wall.slice for wall in cine.walls] == left
     assert cine.end_systole == FRAMES - 1
-    with pytest.raises(InputError, match="8 frames, 7 phases"):
+    with pytest.raises(InputError, match=r"\b8\b.*\b7\b"):
         compare_cine(surface, positions[1:], times[1:], 0.8, motion)
-    with pytest.raises(InputError, match="no slice cuts the left ventricle"):
+    with pytest.raises(InputError, match=r"slice.*left ventricle"):
         compare_cine(surface, positions + np.array([0.0, 0.0, 0.5]), times, 0.8, motion)

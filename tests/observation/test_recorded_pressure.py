@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.observation.recorded_pressure import PressureTrace, average_beats
 
 PERIOD, RATE, UPSTROKE = 0.83, 500.0, 0.092
@@ -86,12 +86,12 @@ def test_zero_is_the_trigger():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: average_beats(trace(with_ecg=False), PERIOD), "nothing says when one begins"),
-        (lambda: average_beats(trace(), 1.1), r"the beats are 0\.83. s long, those of the images 1\.100 s"),
-        (lambda: trace(rate=40.0), "expected at most 0.02 s"),
+        (lambda: average_beats(trace(with_ecg=False), PERIOD), "neither trigger nor upstroke"),
+        (lambda: average_beats(trace(), 1.1), r"0\.83. s.*1\.100 s"),
+        (lambda: trace(rate=40.0), "0.02 s"),
         (lambda: PressureTrace(np.array([0.0, 0.01, 0.01]), np.full(3, 1e3)), "expected increasing times"),
         (lambda: PressureTrace(np.arange(9) * 0.01, np.full(9, np.nan)), "not finite"),
-        (lambda: PressureTrace(np.arange(9) * 0.01, np.linspace(0.0, 16.0, 9)), "kPa or mmHg taken for Pa"),
+        (lambda: PressureTrace(np.arange(9) * 0.01, np.linspace(0.0, 16.0, 9)), "kPa or mmHg.*Pa"),
     ],
 )
 def test_what_is_no_recording_is_refused(make, message):

@@ -5,27 +5,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
-from heartfit.heart import Heart
-from heartfit.mechanics.sphere import Sphere
-from heartfit.observation.beat import beat_curves
-from heartfit.observation.beat_phases import PHASES, BeatPhases
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics
+from heartfit.heart.sphere.body import Sphere
+from heartfit.heart.sphere.simulation import simulate_spheres
+from heartfit.observation.beat import PHASES, BeatPhases, beat_curves
 from heartfit.observation.comparison import Comparison, compare_motions
 from heartfit.observation.curve import Curve
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.operator import VolumeFeatures
-from heartfit.observation.residual import ROUGHNESS, case_residual, residuals
+from heartfit.observation.residual import SIMULATION_ROUGHNESS, case_residual, residuals, strain_residual
 from heartfit.observation.scatter import Scatter
 from heartfit.observation.strain import DIRECTIONS
-from heartfit.observation.strain_residual import strain_residual
-from heartfit.simulation import Numerics
-from heartfit.sphere.simulation import simulate_spheres
 
 
 @pytest.fixture(scope="module")
 def beat(spherical_heart: Heart) -> dict[str, Curve]:
-    sphere = Sphere.of(80e-6, 130e-6)
+    sphere = Sphere.from_volumes(80e-6, 130e-6)
     return beat_curves(simulate_spheres(spherical_heart, [sphere], Numerics(time_step=5e-3)))
 
 
@@ -35,19 +32,22 @@ def measured(beat: dict[str, Curve]) -> dict[str, Curve]:
 
 
 def test_the_valves_divide_the_beat(beat: dict[str, Curve]) -> None:
-    phases = BeatPhases.of(beat)
+    phases = BeatPhases.from_curves(beat)
     steps = np.mod(np.diff([*phases.starts, phases.starts[0]]), phases.period)
     assert steps.sum() == pytest.approx(phases.period), "each follows the one before, once round"
     spans = phases.spans()
     assert {name for name, _, _ in spans} == set(PHASES)
     assert sum(end - start for _, start, end in spans) == pytest.approx(phases.period)
     middles = np.array([0.5 * (start + end) for _, start, end in spans])
-    assert phases.at(middles) == [name for name, _, _ in spans]
+    assert phases.names_at(middles) == [name for name, _, _ in spans]
 
 
 def test_the_volume_falls_in_ejection_only_and_rises_in_filling(beat: dict[str, Curve]) -> None:
-    phases, rate = BeatPhases.of(beat), np.gradient(beat["lv_volume"].values, beat["lv_volume"].times)
-    named = np.array(phases.at(beat["lv_volume"].times))
+    phases, rate = (
+        BeatPhases.from_curves(beat),
+        np.gradient(beat["lv_volume"].values, beat["lv_volume"].times),
+    )
+    named = np.array(phases.names_at(beat["lv_volume"].times))
     assert rate[named == "ejection"].mean() < -100e-6
     assert rate[named == "early filling"].mean() > rate[named == "diastasis"].mean() > 0.0
     assert rate[named == "atrial systole"].mean() > rate[named == "diastasis"].mean()
@@ -61,8 +61,8 @@ def test_a_beat_leaves_nothing_of_itself(beat: dict[str, Curve], measured: dict[
 
 
 def test_the_worst_is_named_with_its_sign(beat: dict[str, Curve], measured: dict[str, Curve]) -> None:
-    phases, volume = BeatPhases.of(beat), measured["lv_volume"]
-    early = np.array([name == "early filling" for name in phases.at(volume.times)])
+    phases, volume = BeatPhases.from_curves(beat), measured["lv_volume"]
+    early = np.array([name == "early filling" for name in phases.names_at(volume.times)])
     fuller = replace(volume, values=volume.values + 9e-6 * early)
     worst = case_residual(measured | {"lv_volume": fuller}, {"same": beat}, []).misfits()[0]
     assert (worst.curve, worst.phase) == ("lv_volume", "early filling")
@@ -77,7 +77,9 @@ def test_the_noise_model_gives_bias_and_deviation_of_each_phase(measured: dict[s
     (volume,) = residuals({"lv_volume": measured["lv_volume"]}, {}, [model])
     stroke = np.ptp(measured["lv_volume"].values)
     assert volume.measured == pytest.approx(measured["lv_volume"].values - stroke * bias)
-    assert volume.noise == pytest.approx(np.hypot(stroke * sd * np.sqrt(1.05), ROUGHNESS["volume"]))
+    assert volume.noise == pytest.approx(
+        np.hypot(stroke * sd * np.sqrt(1.05), SIMULATION_ROUGHNESS["volume"])
+    )
 
 
 def test_a_failed_beat_leaves_no_residual(measured: dict[str, Curve]) -> None:

@@ -5,11 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat, motion_of
 from heartfit.geometry.coordinates import LeftVentricularAxes
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
-from heartfit.observation.shape import Shape, shape_of
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.heart.beat import Beat, nodal_motion
+from heartfit.observation.shape import Shape, motion_shape
 
 SHARE = np.linspace(0.0, 1.0, 8)
 
@@ -23,13 +22,13 @@ def _turned(x: np.ndarray, angle: np.ndarray) -> np.ndarray:
 @pytest.fixture
 def seen(ventricle: VentricularMesh) -> Callable[[Callable], Shape]:
     """The shape of a motion given, at a share (0 to 1) of its end, in coordinates along the ventricle's axes."""
-    axes = LeftVentricularAxes.of(ventricle)
+    axes = LeftVentricularAxes.from_mesh(ventricle)
     frame = np.array([axes.septal, axes.anterior, axes.axis])
     local = (ventricle.points - axes.apex) @ frame.T
 
     def look(moved: Callable[[np.ndarray, float], np.ndarray]) -> Shape:
         positions = np.array([axes.apex + moved(local, share) @ frame for share in SHARE])
-        return shape_of(ventricle, Motion(0.1 * SHARE, 0.8, positions))
+        return motion_shape(ventricle, Motion(0.1 * SHARE, 0.8, positions))
 
     return look
 
@@ -61,7 +60,9 @@ def test_a_heart_that_shrinks_evenly_does_so_in_every_quantity(
     assert shape.shortening == pytest.approx(0.1 * SHARE)
     assert shape.thickening == pytest.approx(-0.1 * SHARE)
     assert shape.volume == pytest.approx(np.tile((1.0 - 0.1 * SHARE) ** 3, (3, 1)).T)
-    away = LeftVentricularAxes.of(ventricle).away(ventricle.points[np.unique(ventricle.surfaces["lv_endo"])])
+    away = LeftVentricularAxes.from_mesh(ventricle).away(
+        ventricle.points[np.unique(ventricle.surfaces["lv_endo"])]
+    )
     inner = np.linalg.norm(away, axis=1).max()
     assert inner < shape.inward[-1] / 0.1 < inner + 0.015
 
@@ -69,7 +70,7 @@ def test_a_heart_that_shrinks_evenly_does_so_in_every_quantity(
 def test_a_torsion_is_twist_positive_counter_clockwise_seen_from_the_apex(
     seen: Callable, ventricle: VentricularMesh
 ) -> None:
-    length = LeftVentricularAxes.of(ventricle).length
+    length = LeftVentricularAxes.from_mesh(ventricle).length
 
     def moved(x: np.ndarray, share: float) -> np.ndarray:
         return _turned(x, 0.4 * share * (x[:, 2] / length - 1.0))
@@ -83,8 +84,8 @@ def test_a_beat_starts_at_its_trigger_and_is_refused_without_its_nodes() -> None
     time = np.linspace(0.0, 0.8, 17)
     positions = np.tile(time[:, None, None], (1, 4, 3))
     beat = Beat(time, {}, {}, {}, period=0.8, trigger=0.2, positions=positions)
-    motion = motion_of(beat)
+    motion = nodal_motion(beat)
     assert motion.times == pytest.approx(time[:-1])
     assert motion.positions[:, 0, 0] == pytest.approx(np.mod(time[:-1] + 0.2, 0.8), abs=1e-9)
     with pytest.raises(ValueError, match="keep_positions"):
-        motion_of(Beat(time, {}, {}, {}, period=0.8, trigger=0.2))
+        nodal_motion(Beat(time, {}, {}, {}, period=0.8, trigger=0.2))

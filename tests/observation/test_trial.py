@@ -3,15 +3,14 @@
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat
-from heartfit.cohort.catheter import Catheter
-from heartfit.cohort.scanner import Scanner
-from heartfit.geometry.motion import Motion
-from heartfit.geometry.prepare import prepare
-from heartfit.io.comparisons import write_comparison
+from heartfit.geometry.fibres import prepare
+from heartfit.geometry.mesh import Motion
+from heartfit.heart.beat import Beat
+from heartfit.imaging.registration.track import FreeForm
+from heartfit.io.noise_models import write_comparison
 from heartfit.observation.operator import PressureFeatures, VolumeFeatures
-from heartfit.observation.trial import try_acquisition
-from heartfit.registration.track import FreeForm
+from heartfit.synthetic.cine import try_acquisition
+from heartfit.synthetic.scanner import Catheter, Scanner
 
 FRAMES, PERIOD = 8, 0.8
 SMALLEST, MISSED = 0.88**3, 0.25  # volume left at its smallest; share of the stroke that may be missed

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
-from heartfit.observation.volumes import cavity_volumes
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.observation.shape import cavity_volumes
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 SQUARES = [

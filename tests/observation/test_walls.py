@@ -6,15 +6,14 @@ import numpy as np
 import pytest
 
 from heartfit.geometry.coordinates import LeftVentricularAxes
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
-from heartfit.observation.walls import (
-    LEAD,
-    Walls,
-    delay_of_shortening,
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.observation.strain import (
+    PRE_TRIGGER,
+    WallMotion,
     early_stretch,
     septal_flash,
-    walls_of,
+    shortening_delay,
+    wall_motion,
 )
 
 PERIOD = 0.8
@@ -33,9 +32,9 @@ SEPTAL = {-0.02: 0.01, 0.30: -0.15, 0.6: 0.0}
 LATERAL = {0.0: 0.0, 0.10: 0.12, 0.43: -0.15, 0.6: -0.05}
 
 
-def walls(septal: dict[float, float]) -> Walls:
+def walls(septal: dict[float, float]) -> WallMotion:
     strains = curve(SEPTAL), curve(LATERAL)
-    return Walls(TIMES, curve(septal), np.zeros(160), *strains, CAVITY)
+    return WallMotion(TIMES, curve(septal), np.zeros(160), *strains, CAVITY)
 
 
 def test_a_flash_is_found_with_its_size_its_time_and_its_rebound() -> None:
@@ -64,12 +63,12 @@ def test_a_heart_that_also_moves_as_a_whole_flashes_by_as_much() -> None:
 
 def test_stretch_and_delay_are_those_of_the_curves() -> None:
     assert early_stretch(walls(FLASHING)) == pytest.approx(0.12)
-    assert delay_of_shortening(walls(FLASHING)) == pytest.approx(0.13)
+    assert shortening_delay(walls(FLASHING)) == pytest.approx(0.13)
 
 
-def test_the_beat_is_seen_from_before_the_trigger_in_order() -> None:
-    seen = walls(FLASHING).from_before_the_trigger()
-    assert seen.times == pytest.approx(TIMES - LEAD)
+def test_the_beat_is_seen_starting_before_trigger_in_order() -> None:
+    seen = walls(FLASHING).starting_before_trigger()
+    assert seen.times == pytest.approx(TIMES - PRE_TRIGGER)
     assert seen.septal[30:] == pytest.approx(curve(FLASHING)[:130])
 
 
@@ -77,19 +76,19 @@ def test_the_beat_is_seen_from_before_the_trigger_in_order() -> None:
 def test_what_moves_to_the_left_moves_the_septum_inward_and_the_lateral_wall_outward(
     ventricle: VentricularMesh, shift: float
 ) -> None:
-    axes, share = LeftVentricularAxes.of(ventricle), np.linspace(0.0, 1.0, 10)
+    axes, share = LeftVentricularAxes.from_mesh(ventricle), np.linspace(0.0, 1.0, 10)
     positions = ventricle.points - shift * share[:, None, None] * axes.septal
-    seen = walls_of(ventricle, Motion(0.08 * np.arange(10), PERIOD, positions))
+    seen = wall_motion(ventricle, Motion(0.08 * np.arange(10), PERIOD, positions))
     assert seen.septal == pytest.approx(shift * share)
     assert seen.lateral == pytest.approx(-shift * share)
     assert seen.septal_strain == pytest.approx(np.zeros(10), abs=1e-12)
 
 
 def test_what_shrinks_about_the_axis_shortens_both_walls_as_much(ventricle: VentricularMesh) -> None:
-    axes, shares = LeftVentricularAxes.of(ventricle), np.linspace(0.0, 1.0, 10)
+    axes, shares = LeftVentricularAxes.from_mesh(ventricle), np.linspace(0.0, 1.0, 10)
     away = axes.away(ventricle.points)
     positions = np.array([ventricle.points - 0.2 * share * away for share in shares])
-    seen = walls_of(ventricle, Motion(0.08 * np.arange(10), PERIOD, positions))
+    seen = wall_motion(ventricle, Motion(0.08 * np.arange(10), PERIOD, positions))
     strain = 0.5 * ((1.0 - 0.2 * shares) ** 2 - 1.0)
     for found in (seen.septal_strain, seen.lateral_strain):
         assert found == pytest.approx(strain, abs=1e-9)

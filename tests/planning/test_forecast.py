@@ -1,9 +1,17 @@
-"""A forecast is what was measured, as often as it will be."""
+"""Forecasts multiply measured costs with numbers of units."""
 
-from heartfit.planning.footprint import Footprint, footprints, place_of
-from heartfit.planning.forecast import Subjects, each, forecast, whole
-from heartfit.planning.need import Need
-from heartfit.planning.page import forecast_page
+from heartfit.study.forecast import (
+    Footprint,
+    Subjects,
+    footprints,
+    forecast,
+    forecast_page,
+    part_per_subject,
+    total_of,
+    unit_of,
+)
+from heartfit.study.need import Need
+from tests.printed import numbers_in, rows_of
 
 ROWS = [
     Need("compile_kernels", "study", "", 1, 1.0, 30.0, 30.0, 300.0),
@@ -19,7 +27,7 @@ PRINTS = [Footprint("study", "", 100, 10.0), Footprint("point", "virtual", 4, 0.
 SUBJECTS = Subjects(100, "virtual", 2, 18)
 
 
-def test_each_level_is_counted_as_often_as_it_will_be():
+def test_parts_multiply_with_the_number_of_their_units():
     parts = {part.per: part for part in forecast(ROWS, PRINTS, SUBJECTS)}
     assert (parts["study"].jobs, parts["study"].seconds) == (5, 50.0)
     assert (parts["case"].jobs, parts["case"].seconds) == (100, 200.0)
@@ -27,25 +35,25 @@ def test_each_level_is_counted_as_often_as_it_will_be():
     assert (parts["point"].files, parts["point"].megabytes) == (7200, 900.0)
 
 
-def test_what_only_some_cases_had_is_counted_by_its_share_and_what_is_asked_for_not_at_all():
+def test_optional_parts_of_cases_count_with_their_share_and_jobs_on_request_not_at_all():
     setting = next(part for part in forecast(ROWS, PRINTS, SUBJECTS) if part.per == "setting")
     assert (setting.jobs, setting.seconds) == (200 + 50, 200.0 + 200.0)
 
 
-def test_a_subject_adds_what_the_study_does_not_have_once():
+def test_a_subject_adds_all_parts_but_those_of_the_study():
     parts = forecast(ROWS, PRINTS, SUBJECTS)
-    assert whole(parts).jobs == 5 + 100 * each(parts, SUBJECTS).jobs
-    assert each(parts, SUBJECTS).jobs == 1 + 2.5 + 18
+    assert total_of(parts).jobs == 5 + 100 * part_per_subject(parts, SUBJECTS).jobs
+    assert part_per_subject(parts, SUBJECTS).jobs == 1 + 2.5 + 18
 
 
-def test_the_page_says_the_sum_and_the_days():
+def test_the_page_states_total_and_days():
     page = forecast_page(forecast(ROWS, PRINTS, SUBJECTS), SUBJECTS, 10)
-    assert page.startswith("100 virtual subjects, 2 settings, 18 sigma points each\n")
-    assert "| all | 2155 | 3.18 | 7300 | 0.91 |" in page
-    assert "0.0133 days on 10 CPUs." in page
+    assert numbers_in(page.splitlines()[0]) == [100.0, 2.0, 18.0]
+    assert rows_of(page)["all"] == ["2155", "3.18", "7300", "0.91"]
+    assert [0.0133, 10.0] in [numbers_in(line) for line in page.splitlines()]
 
 
-def test_files_belong_to_what_their_name_says():
+def test_paths_determine_unit_and_kind_of_subject():
     kinds, settings = {"leak1": "virtual", "mine": "measured"}, {"paper"}
     places = {
         "kernels.json": ("study", ""),
@@ -56,11 +64,13 @@ def test_files_belong_to_what_their_name_says():
         "leak1/paper/calibration/beats/12.csv": ("point", "virtual"),
         "logs/leak1/paper/simulate_point_12.log": ("point", "virtual"),
     }
-    assert {name: place_of(name, kinds, settings) for name in places} == places
+    assert {name: unit_of(name, kinds, settings) for name in places} == places
 
 
-def test_footprints_are_means_over_what_there_was():
+def test_footprints_are_means_over_units():
     beats = [(f"{case}/paper/calibration/beats/{n}.json", 1000) for case in ("a1", "a2") for n in range(9)]
     logs = [(f"logs/{case}/paper/simulate_point_{n}.log", 500) for case in ("a1", "a2") for n in range(9)]
-    found = footprints([*beats, *logs, ("kernels.json", 10)], {"a1": "virtual", "a2": "virtual"}, {"paper"})
-    assert found == [Footprint("point", "virtual", 2.0, 0.0015), Footprint("study", "", 1.0, 1e-5)]
+    averages = footprints(
+        [*beats, *logs, ("kernels.json", 10)], {"a1": "virtual", "a2": "virtual"}, {"paper"}
+    )
+    assert averages == [Footprint("point", "virtual", 2.0, 0.0015), Footprint("study", "", 1.0, 1e-5)]

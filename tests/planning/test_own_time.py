@@ -1,8 +1,8 @@
-"""How large a graph may be follows from what Snakemake takes for it."""
+"""Size of a graph, limited by Snakemake's own time for it."""
 
 import pytest
 
-from heartfit.planning.own_time import SHARE, OwnTime, largest_shard
+from heartfit.study.need import OWN_TIME_SHARE, OwnTime, largest_shard
 
 OWN = OwnTime(start=3.0, job=0.01, square=1e-6)
 
@@ -12,9 +12,9 @@ def test_the_largest_graph_just_stays_below_the_share(cpus):
     size = largest_shard(30.0, 150.0, cpus, OWN)
 
     def share(subjects):
-        return OWN.of(30.0 * subjects) / (150.0 * subjects / cpus)
+        return OWN.seconds(30.0 * subjects) / (150.0 * subjects / cpus)
 
-    assert share(size) <= SHARE < share(size + 1)
+    assert share(size) <= OWN_TIME_SHARE < share(size + 1)
 
 
 def test_more_cpus_ask_for_smaller_graphs_until_none_is_small_enough():

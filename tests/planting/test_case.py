@@ -5,16 +5,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.heart import Heart
-from heartfit.mechanism import registered
-from heartfit.planting import case as cases
-from heartfit.planting.campaign import Campaign, Plan, Reloaded
-from heartfit.planting.case import plant
-from heartfit.planting.effects import Inadmissible, draw_effect, plantable
-from heartfit.planting.hidden import draw_hidden
-from heartfit.planting.outsiders import OUTSIDERS, joined
+from heartfit.heart.heart import Heart
+from heartfit.roles import registered
+from heartfit.synthetic import case as cases
+from heartfit.synthetic.campaign import (
+    Inadmissible,
+    PlantedPlan,
+    PlantingCampaign,
+    Reloaded,
+    draw_effect,
+    plantable,
+)
+from heartfit.synthetic.case import plant
+from heartfit.synthetic.hidden import draw_hidden
+from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY, add_effect
 
-LEAK = Plan(7, "single", ("MitralRegurgitation",), 2.0)
+LEAK = PlantedPlan(7, "single", ("MitralRegurgitation",), 2.0)
 
 
 def values(planted, curve="lv_volume"):
@@ -23,7 +29,7 @@ def values(planted, curve="lv_volume"):
 
 def test_a_plan_gives_the_same_case_and_another_seed_another():
     assert np.array_equal(values(plant(LEAK)), values(plant(LEAK)))
-    other = plant(Plan(8, "single", LEAK.names, 2.0))
+    other = plant(PlantedPlan(8, "single", LEAK.names, 2.0))
     assert not np.array_equal(values(other)[:20], values(plant(LEAK))[:20])
 
 
@@ -39,7 +45,7 @@ def test_the_answer_says_what_was_planted_and_the_curves_do_not():
 
 
 def test_a_second_condition_is_the_same_heart_fuller():
-    planted = plant(Plan(7, "none", reloaded=True))
+    planted = plant(PlantedPlan(7, "none", reloaded=True))
     rest, fuller = (planted.curves[name]["lv_volume"].values.max() for name in ("rest", "legs_raised"))
     assert fuller > rest
 
@@ -49,10 +55,10 @@ def test_the_recording_at_rest_does_not_know_of_another_condition():
 
 
 def test_a_pressure_that_no_reader_takes_is_drawn_anew(monkeypatch):
-    calm = plant(Plan(8, "none"))
+    calm = plant(PlantedPlan(8, "none"))
     lowest = values(calm, "lv_pressure").min()
-    monkeypatch.setattr(cases, "PRESSURES", (lowest + 1.0, 40e3))
-    again = plant(Plan(8, "none"))
+    monkeypatch.setattr(cases, "PRESSURE_RANGE", (lowest + 1.0, 40e3))
+    again = plant(PlantedPlan(8, "none"))
     assert again.answer.rejected["recorded pressure"] >= 1
     assert values(again, "lv_pressure").min() > lowest
 
@@ -79,17 +85,17 @@ def test_the_kick_that_every_heart_has_is_not_planted():
     assert "AtrialKick" not in plantable()
 
 
-@pytest.mark.parametrize("outsider", OUTSIDERS, ids=lambda cls: cls.__name__)
+@pytest.mark.parametrize("outsider", OUT_OF_LIBRARY, ids=lambda cls: cls.__name__)
 def test_an_outsider_is_not_in_the_library_and_is_seen(outsider):
     assert outsider.__name__ not in registered()
-    without = plant(Plan(3, "none"))
-    planted = plant(Plan(3, "outside", (outsider.__name__,), 2.5))
+    without = plant(PlantedPlan(3, "none"))
+    planted = plant(PlantedPlan(3, "outside", (outsider.__name__,), 2.5))
     moved = max(np.ptp(values(planted, c)) / np.ptp(values(without, c)) for c in ("lv_volume", "lv_pressure"))
     assert planted.answer.effects[0].name == outsider.__name__
     assert np.isfinite(moved)
 
 
-@pytest.mark.parametrize("outsider", OUTSIDERS, ids=lambda cls: cls.__name__)
+@pytest.mark.parametrize("outsider", OUT_OF_LIBRARY, ids=lambda cls: cls.__name__)
 def test_an_outsider_that_is_off_changes_no_bit_of_a_heart(outsider):
     hidden = draw_hidden(np.random.default_rng(2))
     off = outsider().turned_off()
@@ -100,7 +106,7 @@ def test_an_outsider_that_is_off_changes_no_bit_of_a_heart(outsider):
 
 
 def test_a_second_twitch_is_a_second_share_of_the_depolarisation():
-    control = joined(Heart(), OUTSIDERS[-1](share=0.4)).tissue.control
+    control = add_effect(Heart(), OUT_OF_LIBRARY[-1](share=0.4)).tissue.control
     start = np.linspace(0.0, 0.8, 801)
     _, attach = control.mean(start, 1e-3, np.zeros(1), 0.829)
     second = attach[(start > 0.625) & (start < 0.71)]
@@ -109,7 +115,7 @@ def test_a_second_twitch_is_a_second_share_of_the_depolarisation():
 
 def test_what_no_patient_resembles_is_counted_and_drawn_anew(monkeypatch):
     monkeypatch.setattr(cases, "EJECTION_FRACTION", (0.55, 0.8))
-    planted = [plant(Plan(seed, "none")) for seed in range(6)]
+    planted = [plant(PlantedPlan(seed, "none")) for seed in range(6)]
     assert sum(each.answer.rejected.get("ejection fraction", 0) for each in planted) > 0
     fractions = [1.0 - values(each).min() / values(each).max() for each in planted]
     assert min(fractions) > 0.5
@@ -118,8 +124,8 @@ def test_what_no_patient_resembles_is_counted_and_drawn_anew(monkeypatch):
 def test_a_seed_that_never_gives_a_patient_is_told(monkeypatch):
     monkeypatch.setattr(cases, "PEAK", (0.0, 1.0))
     monkeypatch.setattr(cases, "ATTEMPTS", 3)
-    with pytest.raises(RuntimeError, match="seed 1: 3 draws"):
-        plant(Plan(1, "none"))
+    with pytest.raises(RuntimeError, match=r"seed 1\b.*\b3\b"):
+        plant(PlantedPlan(1, "none"))
 
 
 def test_a_mechanism_that_refuses_its_draw_is_inadmissible():
@@ -129,7 +135,7 @@ def test_a_mechanism_that_refuses_its_draw_is_inadmissible():
 
 
 def test_a_campaign_plants_what_it_says_with_a_seed_each():
-    plans = Campaign(1000, 4, 2, 1, 3, (2.0, 2.5), 2.5).plans(("A", "B", "C"), ("X",))
+    plans = PlantingCampaign(1000, 4, 2, 1, 3, (2.0, 2.5), 2.5).plans(("A", "B", "C"), ("X",))
     kinds = [plan.kind for plan in plans]
     assert {kind: kinds.count(kind) for kind in set(kinds)} == {
         "none": 4,
@@ -143,7 +149,9 @@ def test_a_campaign_plants_what_it_says_with_a_seed_each():
 
 
 def test_some_nulls_and_singles_of_one_size_are_measured_under_another_loading_too():
-    plans = Campaign(1000, 4, 2, 1, 3, (2.0, 2.5), 2.5, Reloaded(3, 5, 2.0)).plans(("A", "B", "C"), ("X",))
+    plans = PlantingCampaign(1000, 4, 2, 1, 3, (2.0, 2.5), 2.5, Reloaded(3, 5, 2.0)).plans(
+        ("A", "B", "C"), ("X",)
+    )
     marked = [plan for plan in plans if plan.reloaded]
     assert [plan.kind for plan in marked].count("none") == 3
     assert [plan.scales for plan in marked if plan.kind == "single"] == [2.0] * 5
@@ -151,7 +159,7 @@ def test_some_nulls_and_singles_of_one_size_are_measured_under_another_loading_t
 
 
 def test_the_first_cases_are_those_of_the_whole_campaign():
-    campaign = Campaign(1000, 30, 1, 1, 4, (2.0,), 2.5)
+    campaign = PlantingCampaign(1000, 30, 1, 1, 4, (2.0,), 2.5)
     (first, second, *_), (few,) = campaign.batches(3), campaign.batches(3, first=3)
     assert few == first
     assert [plan.seed for plan in first + second] == list(range(1000, 1006))

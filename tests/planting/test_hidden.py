@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from heartfit.circulation.valves import OrificeValve
+from heartfit.heart.circulation.elements import OrificeValve
+from heartfit.heart.simulation import Numerics
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
-from heartfit.planting.hidden import NUMERICS, SIZE, draw_hidden
-from heartfit.simulation import Numerics
+from heartfit.synthetic.hidden import NUMERICS, SIZE, draw_hidden
 
 HEARTS = [draw_hidden(np.random.default_rng(seed)) for seed in range(24)]
 
@@ -49,7 +49,7 @@ def test_deviates_are_standard_normal_but_cut_off():
 
 def test_size_alone_changes_no_pressure(monkeypatch):
     def beat_of(size):
-        monkeypatch.setattr("heartfit.planting.hidden.SIZE", SIZE if size else 0.0)
+        monkeypatch.setattr("heartfit.synthetic.hidden.SIZE", SIZE if size else 0.0)
         return draw_hidden(np.random.default_rng(0)).beat()
 
     other, same = beat_of(True), beat_of(False)
@@ -67,4 +67,4 @@ def _size_deviate():
 def test_an_effect_changes_the_beat_and_a_load_fills_the_heart():
     leaking = HEARTS[0].with_effects([MitralRegurgitation(area=0.3e-4)])
     assert leaking.beat().flow["MitralRegurgitation"].max() > 1e-5
-    assert HEARTS[0].loaded(1.5).beat().volume["lv"].max() > HEARTS[0].beat().volume["lv"].max() + 2e-6
+    assert HEARTS[0].with_preload(1.5).beat().volume["lv"].max() > HEARTS[0].beat().volume["lv"].max() + 2e-6

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from heartfit.geometry.motion import Motion
+from heartfit.geometry.mesh import Motion
 from heartfit.mechanisms.catheter_offset import CatheterOffset
 from heartfit.mechanisms.image_shrinkage import ImageShrinkage
 from heartfit.mechanisms.image_trigger_delay import ImageTriggerDelay
-from heartfit.planting.imaging import distorted
+from heartfit.synthetic.ventricles import distort_motion
 
 PERIOD = 0.8
 TIMES = np.arange(40) * PERIOD / 40
@@ -22,14 +22,14 @@ MOTION = Motion(TIMES, PERIOD, path(TIMES))
 
 
 def test_a_late_trigger_shows_every_node_where_it_was():
-    late = distorted(MOTION, [ImageTriggerDelay(0.05)])
+    late = distort_motion(MOTION, [ImageTriggerDelay(0.05)])
     assert late.positions == pytest.approx(path(TIMES - 0.05))
 
 
 def test_motion_that_is_lost_is_lost_of_every_node():
-    half = distorted(MOTION, [ImageShrinkage(0.5)])
+    half = distort_motion(MOTION, [ImageShrinkage(0.5)])
     assert half.positions == pytest.approx(0.5 * (path(TIMES) + path(TIMES[:1])))
 
 
 def test_a_catheter_moves_no_image():
-    assert distorted(MOTION, [CatheterOffset(500.0)]) is MOTION
+    assert distort_motion(MOTION, [CatheterOffset(500.0)]) is MOTION

@@ -4,13 +4,13 @@ from math import comb
 
 import pytest
 
-from heartfit.diagnosis.cause import Cause
-from heartfit.observation.coverage import Share
-from heartfit.planting.case import Answer
-from heartfit.planting.effects import Effect
-from heartfit.planting.rates import RATES, doubt
-from heartfit.planting.scoring import Scored
-from heartfit.planting.trial import Finding
+from heartfit.discovery.sphere_model.cause import Cause
+from heartfit.observation.noise_model import Share
+from heartfit.synthetic.campaign import Effect
+from heartfit.synthetic.case import Answer
+from heartfit.synthetic.rates import RATES, binomial_p_value
+from heartfit.synthetic.scoring import Scored
+from heartfit.synthetic.trial import ScoredDiagnosis
 
 
 def answer(kind, *names, scales=2.0):
@@ -19,7 +19,7 @@ def answer(kind, *names, scales=2.0):
 
 
 def found(verdict, *names):
-    return Finding(verdict, tuple(Cause(name, 9.0, 1.8, "m^2", (1.5, 2.5)) for name in names))
+    return ScoredDiagnosis(verdict, tuple(Cause(name, 9.0, 1.8, "m^2", (1.5, 2.5)) for name in names))
 
 
 def case(kind, planted, verdict, *said, scales=2.0):
@@ -62,17 +62,17 @@ COUNTS = {
 
 
 def test_every_rate_counts_its_cases():
-    shares = {rate.name: rate.counted(CASES) for rate in RATES}
+    shares = {rate.name: rate.share_of(CASES) for rate in RATES}
     counts = {name: (round(each.covered * each.sequences), each.sequences) for name, each in shares.items()}
     assert counts == COUNTS
 
 
 def test_a_rate_of_no_case_says_nothing():
-    assert {rate.counted([]) for rate in RATES} == {None}
+    assert {rate.share_of([]) for rate in RATES} == {None}
 
 
 def test_targets_are_met_or_missed_by_the_share_itself():
-    met = {rate.name: rate.met(rate.counted(CASES)) for rate in RATES if rate.target is not None}
+    met = {rate.name: rate.meets_target(rate.share_of(CASES)) for rate in RATES if rate.target is not None}
     assert met == {
         "false alarms of nulls": False,
         "singles detected at 2 scales": True,
@@ -89,7 +89,7 @@ def test_doubt_is_the_tail_of_the_binomial(count, at_most):
     claim, n = 0.3, 16
     worse = range(count, n + 1) if at_most else range(count + 1)
     tail = sum(comb(n, k) * claim**k * (1.0 - claim) ** (n - k) for k in worse)
-    assert doubt(Share.of(count, n), claim, at_most) == pytest.approx(tail)
+    assert binomial_p_value(Share.from_count(count, n), claim, at_most) == pytest.approx(tail)
 
 
 def test_amplitudes_are_compared_from_where_the_effect_is_off():
@@ -101,5 +101,5 @@ def test_amplitudes_are_compared_from_where_the_effect_is_off():
 
 
 def test_what_is_said_is_the_name_where_one_is_given():
-    assert [each.said for each in CASES[:5]] == ["none", "insufficient", "unknown", "Leak", "Leak"]
-    assert CASES[9].said == "two"
+    assert [each.conclusion for each in CASES[:5]] == ["none", "insufficient", "unknown", "Leak", "Leak"]
+    assert CASES[9].conclusion == "two"

@@ -5,16 +5,16 @@ from dataclasses import replace
 
 import pytest
 
-from heartfit.diagnosis import library
-from heartfit.io.findings import read_planted, write_findings
-from heartfit.io.planted import seal, write_planted
+from heartfit.discovery.sphere_model import forward_model as library
+from heartfit.io.planted import read_planted, write_findings
 from heartfit.io.scores import read_scored
-from heartfit.mechanism import registered
-from heartfit.planting.campaign import Plan
-from heartfit.planting.case import plant
-from heartfit.planting.trial import Finding, found
+from heartfit.io.seals import seal, write_planted
+from heartfit.roles import registered
+from heartfit.synthetic.campaign import PlantedPlan
+from heartfit.synthetic.case import plant
+from heartfit.synthetic.trial import ScoredDiagnosis, diagnose_recording
 
-CASE = plant(Plan(11, "single", ("CatheterOffset",), 2.5))
+CASE = plant(PlantedPlan(11, "single", ("CatheterOffset",), 2.5))
 WATCHED = []
 
 
@@ -36,7 +36,7 @@ def diagnosed(folder):
     """The verdict, and every file that was opened for it."""
     WATCHED[:] = ["watching"]
     (recording,) = read_planted(folder / "measured").values()
-    finding = found(recording)
+    finding = diagnose_recording(recording)
     opened = WATCHED[1:]
     WATCHED.clear()
     return replace(finding, seconds=0.0), opened
@@ -55,7 +55,7 @@ def test_no_answer_is_opened_and_none_is_needed(tmp_path, small_library):
 
 def test_the_scorer_opens_it_and_the_watch_notices(tmp_path):
     write_planted(CASE, tmp_path / "measured", tmp_path / "sealed")
-    write_findings(tmp_path / "findings.json", {"11": Finding("none")}, "")
+    write_findings(tmp_path / "findings.json", {"11": ScoredDiagnosis("none")}, "")
     WATCHED[:] = ["watching"]
     (scored,) = read_scored([tmp_path / "findings.json"], [tmp_path / "sealed"])
     opened = WATCHED[1:]

@@ -1,15 +1,15 @@
 """A heart on trial: one search says what volume and pressure show, and what another condition leaves of it."""
 
 import pytest
+
+from heartfit.discovery.sphere_model import forward_model as library
+from heartfit.discovery.sphere_model.diagnose import SearchedRecording
+from heartfit.roles import registered
+from heartfit.synthetic.campaign import PlantedPlan
+from heartfit.synthetic.trial import CONDITION, VOLUME, diagnose_by_data
 from tests.diagnosis.hearts import recorded
 
-from heartfit.diagnosis import library
-from heartfit.diagnosis.case import Case
-from heartfit.mechanism import registered
-from heartfit.planting.campaign import Plan
-from heartfit.planting.trial import CONDITION, VOLUME, found_by_data
-
-OFFSET = Plan(11, "single", ("CatheterOffset",), 2.5)
+OFFSET = PlantedPlan(11, "single", ("CatheterOffset",), 2.5)
 
 
 @pytest.fixture(autouse=True)
@@ -17,15 +17,15 @@ def searched(monkeypatch):
     """The recordings that were searched; instruments cost no simulation."""
     few = {name: registered()[name] for name in ("CatheterOffset", "ImageShrinkage")}
     monkeypatch.setattr(library, "registered", lambda: few)
-    recordings, search = [], Case.searched
+    recordings, search = [], SearchedRecording.search
     monkeypatch.setattr(
-        Case, "searched", lambda each, *given: recordings.append(each) or search(each, *given)
+        SearchedRecording, "search", lambda each, *given: recordings.append(each) or search(each, *given)
     )
     return recordings
 
 
 def test_less_and_more_data_are_searched_where_there_are_more(searched):
-    said = found_by_data(recorded(OFFSET), {"legs_raised": recorded(OFFSET, "legs_raised")})
+    said = diagnose_by_data(recorded(OFFSET), {"legs_raised": recorded(OFFSET, "legs_raised")})
     assert [len(each.curves) for each in searched] == [2, 1], "a condition is never searched"
     assert set(said.other) == {VOLUME, CONDITION}
     assert said.other[VOLUME].verdict == "insufficient"

@@ -5,23 +5,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.cohort.protocol import Protocol
-from heartfit.cohort.scanner import Scanner
-from heartfit.cohort.template import Template
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.cavity import Cavity
+from heartfit.heart.simulation import Numerics
+from heartfit.imaging.registration.track import FreeForm
 from heartfit.io.configuration import read_study
-from heartfit.planting import imaging, ventricles
-from heartfit.planting.campaign import Plan
-from heartfit.planting.imaging import Imaging
-from heartfit.planting.ventricles import Ventricles
-from heartfit.registration.track import FreeForm
-from heartfit.simulation import Numerics
+from heartfit.personalise.numerics import Protocol
+from heartfit.synthetic import ventricles
+from heartfit.synthetic import ventricles as imaging
+from heartfit.synthetic.campaign import PlantedPlan
+from heartfit.synthetic.scanner import Scanner
+from heartfit.synthetic.ventricles import Imaging, Ventricles
+from heartfit.synthetic.volunteer import Template
 
 CONFIG = Path(__file__).parents[2] / "config"
 COARSE = Numerics(time_step=0.02, max_beats=1, drift=1.0)
-SOUND = Plan(5, "none")
-LEAK = Plan(5, "single", ("MitralRegurgitation",), 3.0)
+SOUND = PlantedPlan(5, "none")
+LEAK = PlantedPlan(5, "single", ("MitralRegurgitation",), 3.0)
 
 
 SCANNER = Scanner(voxel=4e-3, slice_thickness=4e-3, subvoxel=2e-3, subframes=1)
@@ -57,7 +57,7 @@ def test_the_volume_is_that_of_the_mesh_that_followed_the_images(sound):
     mesh, case = sound
     volume = case.curves["rest"]["lv_volume"]
     assert len(volume.times) in range(25, 31)
-    assert Cavity.of(mesh, "lv_endo").volume(mesh.points) == pytest.approx(volume.values[0])
+    assert Cavity.from_endocardium(mesh, "lv_endo").volume(mesh.points) == pytest.approx(volume.values[0])
     assert 0.0 < case.answer.volume_noise < 0.05
 
 

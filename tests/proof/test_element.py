@@ -5,32 +5,30 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat
-from heartfit.configuration.generator import Pressures
-from heartfit.configuration.numerics import TimeScheme
-from heartfit.configuration.setting import Setting
-from heartfit.diagnosis.rivals import Rival
+from heartfit.discovery.refit.model import Model
+from heartfit.discovery.refit.target import MeasuredCase
 from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart.beat import Beat
 from heartfit.observation.beat import beat_curves
-from heartfit.proof.element import contest, rivals_of
-from heartfit.proof.model import Model
-from heartfit.proof.target import MeasuredCase
-from heartfit.tables.element_table import element_table
+from heartfit.personalise.numerics import Pressures, TimeScheme
+from heartfit.personalise.setting import Setting
+from heartfit.results.discovery import element_table
+from heartfit.synthetic.element import CompetingModel, compare_extensions, competing_extensions
 
 LOCKING = Setting.model_validate(
     {"element": "p1", "estimate": ("sigma_0",), "prior": {"sigma_0": {"mean": 240e3}}}
 ).with_prior({})
 PARAMETERS = {"sigma_0": 255e3}
-NONE, ELEMENT, LEAK = rivals_of(LOCKING, "mixed", "MitralRegurgitation")
+NONE, ELEMENT, LEAK = competing_extensions(LOCKING, "mixed", "MitralRegurgitation")
 
 
 @pytest.fixture(scope="module")
-def rivals(ventricle: VentricularMesh) -> Mapping[str, Rival]:
+def rivals(ventricle: VentricularMesh) -> Mapping[str, CompetingModel]:
     scheme = TimeScheme(time_step=0.02, max_beats=1, drift=0.99)
     model = Model(ventricle, 0.8, Pressures(lv=1000.0, rv=500.0), scheme)
-    extensions = rivals_of(LOCKING, "mixed", "MitralRegurgitation")
+    extensions = competing_extensions(LOCKING, "mixed", "MitralRegurgitation")
     case = _measured(model(extensions[ELEMENT], PARAMETERS))
-    return {each.name: each for each in contest(case, model, extensions, 4)}
+    return {each.name: each for each in compare_extensions(case, model, extensions, 4)}
 
 
 def _measured(beat: Beat) -> MeasuredCase:
@@ -38,21 +36,21 @@ def _measured(beat: Beat) -> MeasuredCase:
     volume, pressure = (curves[name].resampled(25) for name in ("lv_volume", "lv_pressure"))
     volume = type(volume)(volume.times, volume.values + 1e-6 * rng.standard_normal(25), volume.period)
     pressure = type(volume)(pressure.times, pressure.values + 100.0 * rng.standard_normal(25), volume.period)
-    return MeasuredCase.of({"lv_volume": volume, "lv_pressure": pressure}, [])
+    return MeasuredCase.from_curves({"lv_volume": volume, "lv_pressure": pressure}, [])
 
 
-def test_the_element_is_named_and_no_leak(rivals: Mapping[str, Rival]) -> None:
+def test_the_element_is_named_and_no_leak(rivals: Mapping[str, CompetingModel]) -> None:
     factors = dict(zip(rivals, element_table([*rivals.values()], PARAMETERS)["ln Bayes factor"], strict=True))
     assert factors[NONE] == 0.0
     assert factors[ELEMENT] > 5.0
     assert factors[ELEMENT] > factors[LEAK] + 5.0
 
 
-def test_the_right_element_gains_where_nothing_was_fitted(rivals: Mapping[str, Rival]) -> None:
+def test_the_right_element_gains_where_nothing_was_fitted(rivals: Mapping[str, CompetingModel]) -> None:
     assert not rivals[NONE].gains
     assert all(gain.ratio < 0.8 for gain in rivals[ELEMENT].gains)
 
 
-def test_with_the_right_element_the_parameter_is_found(rivals: Mapping[str, Rival]) -> None:
+def test_with_the_right_element_the_parameter_is_found(rivals: Mapping[str, CompetingModel]) -> None:
     assert rivals[ELEMENT].parameters["sigma_0"] == pytest.approx(PARAMETERS["sigma_0"], rel=0.05)
     assert rivals[NONE].parameters["sigma_0"] > 1.15 * PARAMETERS["sigma_0"]

@@ -6,25 +6,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.beat import Beat, failed_beat
 from heartfit.calibration.unscented import CalibrationError
-from heartfit.configuration.setting import Setting
-from heartfit.mechanics.sphere import Sphere
+from heartfit.discovery.refit.model import Extension
+from heartfit.discovery.refit.refit import Refit, continue_refit, refit
+from heartfit.discovery.refit.target import BIN, BLOCK, MeasuredCase, Split, Target, average_bins, covariance
+from heartfit.discovery.refit.verdict import causes_of
+from heartfit.heart.beat import Beat, failed_beat
+from heartfit.heart.simulation import Numerics
+from heartfit.heart.sphere.body import Sphere
+from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.scatter import Scatter
-from heartfit.proof.extension import Extension
-from heartfit.proof.noise import covariance
-from heartfit.proof.refit import Refit, continued, refit
-from heartfit.proof.split import BIN, BLOCK, Split, Target, binned
-from heartfit.proof.target import MeasuredCase
-from heartfit.proof.verdict import sized
-from heartfit.simulation import Numerics
-from heartfit.sphere.simulation import simulate_spheres
+from heartfit.personalise.setting import Setting
 
 PERIOD = 0.8
-SPHERE = Sphere.of(110e-6, 200e-6)
+SPHERE = Sphere.from_volumes(110e-6, 200e-6)
 PLAIN = Setting.model_validate(
     {"element": "sphere", "estimate": ("sigma_0", "R_p"), "prior": {"sigma_0": {"mean": 150e3}}}
 ).with_prior({})
@@ -37,7 +35,7 @@ def run(extension: Extension, parameters: Mapping[str, float]) -> Beat:
 
 
 def shown(area: float, contractility: float = 160e3) -> dict[str, Curve]:
-    leaking = Extension.by(PLAIN, "MitralRegurgitation")
+    leaking = Extension.from_names(PLAIN, "MitralRegurgitation")
     values = {"sigma_0": contractility, "R_p": 1.1e8, "MitralRegurgitation.area": area}
     return beat_curves(run(leaking, leaking.parameters(leaking.start(0.0)) | values))
 
@@ -50,7 +48,7 @@ def case() -> MeasuredCase:
         "lv_volume": replace(volume, values=volume.values + 0.5e-6 * rng.standard_normal(25)),
         "lv_pressure": replace(pressure, values=pressure.values + 100.0 * rng.standard_normal(200)),
     }
-    return MeasuredCase.of(noisy, [])
+    return MeasuredCase.from_curves(noisy, [])
 
 
 def target(case: MeasuredCase) -> Target:
@@ -59,7 +57,7 @@ def target(case: MeasuredCase) -> Target:
 
 @pytest.fixture(scope="module")
 def refits(case: MeasuredCase) -> tuple[Refit, Refit]:
-    none, extended = Extension(PLAIN), Extension.by(PLAIN, "MitralRegurgitation")
+    none, extended = Extension(PLAIN), Extension.from_names(PLAIN, "MitralRegurgitation")
     return refit(none, run, target(case), 20), refit(extended, run, target(case), 20)
 
 
@@ -73,17 +71,17 @@ def test_no_sample_is_fitted_and_held_out_at_once(case: MeasuredCase) -> None:
 
 
 def test_the_right_ventricle_is_never_fitted(case: MeasuredCase) -> None:
-    split = Split.of({**case.curves, "rv_volume": case.curves["lv_volume"]})
+    split = Split.from_curves({**case.curves, "rv_volume": case.curves["lv_volume"]})
     assert "rv_volume" not in split.fitted
     assert split.held["rv_volume"].times.size == 25
 
 
 def test_bins_are_means_and_few_samples_keep_their_number() -> None:
     times = np.arange(200) * 0.004
-    means = binned(Curve(times, times, 0.8))
+    means = average_bins(Curve(times, times, 0.8))
     assert means.times == pytest.approx(means.values)
     assert np.diff(means.times).max() < 0.013
-    assert binned(Curve(times[::10], times[::10], 0.8)).times.size == 20
+    assert average_bins(Curve(times[::10], times[::10], 0.8)).times.size == 20
 
 
 def test_the_noise_of_images_is_that_of_their_phases(case: MeasuredCase) -> None:
@@ -101,7 +99,7 @@ def test_the_noise_of_images_is_that_of_their_phases(case: MeasuredCase) -> None
 
 def test_the_refit_finds_the_leak_and_the_heart_that_has_it(refits: tuple[Refit, Refit]) -> None:
     none, extended = refits
-    (cause,) = sized(Extension.by(PLAIN, "MitralRegurgitation"), extended, {})
+    (cause,) = causes_of(Extension.from_names(PLAIN, "MitralRegurgitation"), extended, {})
     assert cause.interval[0] < AREA < cause.interval[1]
     assert cause.amplitude == pytest.approx(AREA, rel=0.25)
     assert extended.objective < none.objective - 10.0
@@ -123,7 +121,7 @@ def test_one_unscented_step_then_a_beat_a_step_until_none_promises_more(
 
 
 def test_what_a_setting_holds_fixed_is_freed_about_its_heart() -> None:
-    freed = Extension.by(PLAIN, "MitralRegurgitation").freeing()
+    freed = Extension.from_names(PLAIN, "MitralRegurgitation").with_free_parameters()
     held, heart = {each.name for each in freed.freed}, PLAIN.base_heart(PERIOD).parameters()
     assert "circulation.systemic.tau" in held
     assert "circulation.systemic.R_p" not in held, "estimated already"
@@ -139,12 +137,17 @@ def test_a_heart_that_contracts_for_shorter_is_given_a_leak_where_that_is_frozen
     plain = Extension(PLAIN)
     off = plain.parameters(plain.start()) | {"tissue.control.duration": 0.30}
     curves = beat_curves(run(plain, off))
-    sound = MeasuredCase.of({name: curves[name].resampled(50) for name in ("lv_volume", "lv_pressure")}, [])
+    sound = MeasuredCase.from_curves(
+        {name: curves[name].resampled(50) for name in ("lv_volume", "lv_pressure")}, []
+    )
     frozen, freed = (
         [refit(each, run, target(sound), 30).log_evidence for each in (none, leak)]
         for none, leak in (
-            (plain, Extension.by(PLAIN, "MitralRegurgitation")),
-            (plain.freeing(), Extension.by(PLAIN, "MitralRegurgitation").freeing()),
+            (plain, Extension.from_names(PLAIN, "MitralRegurgitation")),
+            (
+                plain.with_free_parameters(),
+                Extension.from_names(PLAIN, "MitralRegurgitation").with_free_parameters(),
+            ),
         )
     )
     assert frozen[1] - frozen[0] > 5.0
@@ -155,7 +158,7 @@ def test_an_extension_is_found_from_where_the_model_without_it_ended(
     case: MeasuredCase, refits: tuple[Refit, Refit]
 ) -> None:
     none, extended = refits
-    found = continued(Extension.by(PLAIN, "MitralRegurgitation"), run, target(case), 20, none)
+    found = continue_refit(Extension.from_names(PLAIN, "MitralRegurgitation"), run, target(case), 20, none)
     assert found.converged
     assert found.objective == pytest.approx(extended.objective, abs=1.0)
     assert found.log_evidence == pytest.approx(extended.log_evidence, abs=1.5)
@@ -165,9 +168,11 @@ def test_an_extension_is_found_from_where_the_model_without_it_ended(
 def test_an_effect_that_is_not_there_ends_off_where_the_model_without_it_ended() -> None:
     plain = Extension(PLAIN)
     curves = beat_curves(run(plain, plain.parameters(np.array([0.5, -0.5]))))
-    sound = MeasuredCase.of({name: curves[name].resampled(50) for name in ("lv_volume", "lv_pressure")}, [])
+    sound = MeasuredCase.from_curves(
+        {name: curves[name].resampled(50) for name in ("lv_volume", "lv_pressure")}, []
+    )
     none = refit(plain, run, target(sound), 20)
-    found = continued(Extension.by(PLAIN, "MitralRegurgitation"), run, target(sound), 20, none)
+    found = continue_refit(Extension.from_names(PLAIN, "MitralRegurgitation"), run, target(sound), 20, none)
     assert found.estimate[-1] == pytest.approx(0.0, abs=0.05)
     assert found.objective < none.objective + 0.3
     assert found.log_evidence < none.log_evidence
@@ -188,7 +193,7 @@ def test_a_model_that_does_not_beat_is_refused(case: MeasuredCase) -> None:
 
 
 def test_amplitudes_are_off_at_zero_and_one_scale_at_one() -> None:
-    extension = Extension.by(PLAIN, "MitralRegurgitation", "CatheterOffset")
+    extension = Extension.from_names(PLAIN, "MitralRegurgitation", "CatheterOffset")
     assert extension.names == ("sigma_0", "R_p", "MitralRegurgitation.area", "CatheterOffset.offset")
     off, on = extension.parameters(extension.start(0.0)), extension.parameters(extension.start())
     assert off["MitralRegurgitation.area"] == 0.0

@@ -6,24 +6,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.diagnosis import recentred as recentred_module
-from heartfit.diagnosis.cause import Diagnosis
-from heartfit.diagnosis.centre import HUMAN, Centre
-from heartfit.diagnosis.recentred import recentred
-from heartfit.diagnosis.recording import Recording
-from heartfit.discovery.rules import CENTRED, RULES, STRICT, Rules
-from heartfit.errors import InputError
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
-from heartfit.mechanics.sphere import Sphere
+from heartfit.core.errors import InputError
+from heartfit.discovery.inference.decide import CENTRED_RULES, DEFAULT_RULES, STRICT_RULES, Rules
+from heartfit.discovery.refit.model import ObservedBeat
+from heartfit.discovery.refit.target import MeasuredCase
+from heartfit.discovery.refit.verdict import Proof
+from heartfit.discovery.sphere_model import recentred as centred_search
+from heartfit.discovery.sphere_model import recentred as recentred_module
+from heartfit.discovery.sphere_model.cause import Diagnosis
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, NominalHeart
+from heartfit.discovery.sphere_model.recentred import fit_nominal_heart
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.heart.simulation import Numerics
+from heartfit.heart.sphere.body import Sphere
+from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
-from heartfit.proof import centred_search
-from heartfit.proof.model import Shown
-from heartfit.proof.proof import Proof
-from heartfit.proof.target import MeasuredCase
-from heartfit.simulation import Numerics
-from heartfit.sphere.simulation import simulate_spheres
 
 PERIOD = 0.8
 TIMES = np.arange(25) * PERIOD / 25
@@ -41,9 +40,9 @@ def shrunk(mesh: VentricularMesh, most: float) -> Motion:
 
 @pytest.fixture
 def proof(ventricle: VentricularMesh) -> Proof:
-    case = MeasuredCase.of({"lv_volume": volume(0.0), "rv_volume": volume(0.0)}, [])
-    none = Shown({"lv_volume": volume(8e-6), "rv_volume": volume(4e-6)}, shrunk(ventricle, 0.20))
-    extended = Shown({"lv_volume": volume(2e-6), "rv_volume": volume(4e-6)}, shrunk(ventricle, 0.11))
+    case = MeasuredCase.from_curves({"lv_volume": volume(0.0), "rv_volume": volume(0.0)}, [])
+    none = ObservedBeat({"lv_volume": volume(8e-6), "rv_volume": volume(4e-6)}, shrunk(ventricle, 0.20))
+    extended = ObservedBeat({"lv_volume": volume(2e-6), "rv_volume": volume(4e-6)}, shrunk(ventricle, 0.11))
     return Proof(case, ventricle, shrunk(ventricle, 0.10), none, extended)
 
 
@@ -60,7 +59,7 @@ def test_ratios_are_those_of_the_errors_where_nothing_was_fitted(proof: Proof) -
 def test_an_extension_helps_if_all_unseen_curves_together_come_nearer(proof: Proof) -> None:
     assert proof.helps()
     assert not replace(proof, none=proof.extended, extended=proof.none).helps()
-    worse = Shown({"lv_volume": volume(2e-6), "rv_volume": volume(12e-6)}, proof.extended.motion)
+    worse = ObservedBeat({"lv_volume": volume(2e-6), "rv_volume": volume(12e-6)}, proof.extended.motion)
     assert not replace(proof, extended=worse).helps()
 
 
@@ -73,14 +72,14 @@ def test_traces_hold_every_measured_sample(proof: Proof) -> None:
 
 @pytest.fixture(scope="module")
 def beat() -> dict[str, Curve]:
-    heart = HUMAN.heart.with_parameters({"sigma_0": 165e3, "mu": 11e3, "tau": 1.9, "slope": 0.2})
+    heart = ADULT.heart.with_parameters({"sigma_0": 165e3, "mu": 11e3, "tau": 1.9, "slope": 0.2})
     numerics = Numerics(time_step=5e-3, max_beats=8, drift=1e-3)
-    return beat_curves(simulate_spheres(heart, [Sphere.of(1.2e-4, 2.2e-4)], numerics))
+    return beat_curves(simulate_spheres(heart, [Sphere.from_volumes(1.2e-4, 2.2e-4)], numerics))
 
 
 def test_a_centre_follows_the_beat_that_it_is_fitted_to(beat: dict[str, Curve]) -> None:
-    heart = HUMAN.heart.with_parameters({"sigma_0": 260e3})
-    centre = recentred(heart, beat)
+    heart = ADULT.heart.with_parameters({"sigma_0": 260e3})
+    centre = fit_nominal_heart(heart, beat)
     assert centre.wall == pytest.approx(2.2e-4, rel=0.25)
     assert centre.heart.period == heart.period
 
@@ -91,23 +90,25 @@ def test_a_beat_that_no_sphere_has_is_refused(
     monkeypatch.setattr(recentred_module, "ROUNDS", 1)
     volume = beat["lv_volume"]
     humped = beat | {"lv_volume": replace(volume, values=volume.values + 8e-6 * np.sin(40.0 * volume.times))}
-    with pytest.raises(InputError, match="of the beat's lv_volume"):
-        recentred(HUMAN.heart.with_parameters({"sigma_0": 260e3}), humped, ("lv_volume",))
+    with pytest.raises(InputError, match=r"beat.*lv_volume"):
+        fit_nominal_heart(ADULT.heart.with_parameters({"sigma_0": 260e3}), humped, ("lv_volume",))
 
 
 @pytest.fixture
 def searched(monkeypatch: pytest.MonkeyPatch) -> None:
-    def diagnosed(recording: Recording, centre: Centre | None = None, rules: Rules = RULES) -> Diagnosis:
-        about = "sphere" if centre is HUMAN else "adult"
+    def diagnosed(
+        recording: Recording, nominal: NominalHeart | None = None, rules: Rules = DEFAULT_RULES
+    ) -> Diagnosis:
+        about = "sphere" if nominal is ADULT else "adult"
         return Diagnosis("none", (), (), about, (), 0, recording.period, rules.detected)
 
     monkeypatch.setattr(centred_search, "diagnose", diagnosed)
-    monkeypatch.setattr(centred_search, "recentred", lambda *_: HUMAN)
+    monkeypatch.setattr(centred_search, "fit_nominal_heart", lambda *_: ADULT)
 
 
 def said(beats: Sequence[Mapping[str, Curve]]) -> tuple[str, float, float | None]:
-    recording = MeasuredCase.of({"lv_volume": beats[0]["lv_volume"].resampled(25)}, []).recording()
-    found = centred_search.centred_search(recording, HUMAN.heart, beats)
+    recording = MeasuredCase.from_curves({"lv_volume": beats[0]["lv_volume"].resampled(25)}, []).recording()
+    found = centred_search.centred_search(recording, ADULT.heart, beats)
     return found.next_measurement, found.threshold, found.self_test
 
 
@@ -115,22 +116,22 @@ def said(beats: Sequence[Mapping[str, Curve]]) -> tuple[str, float, float | None
 def test_a_search_without_a_centre_asks_for_more(
     monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve]
 ) -> None:
-    def following(*given: object) -> Centre:
+    def following(*given: object) -> NominalHeart:
         if given[2] not in allowed:
             raise InputError("the sphere does not follow")
-        return HUMAN
+        return ADULT
 
-    monkeypatch.setattr(centred_search, "recentred", following)
+    monkeypatch.setattr(centred_search, "fit_nominal_heart", following)
     allowed: list[object] = [("lv_volume",)]
-    assert said([beat]) == ("sphere", CENTRED.detected, None)
+    assert said([beat]) == ("sphere", CENTRED_RULES.detected, None)
     allowed = [()]
-    assert said([beat]) == ("sphere", STRICT.detected, None)
+    assert said([beat]) == ("sphere", STRICT_RULES.detected, None)
     allowed = []
-    assert said([beat]) == ("adult", STRICT.detected, None)
+    assert said([beat]) == ("adult", STRICT_RULES.detected, None)
 
 
 @pytest.mark.usefixtures("searched")
-@pytest.mark.parametrize(("tested", "rules"), [(0.4, CENTRED), (3.1, STRICT)])
+@pytest.mark.parametrize(("tested", "rules"), [(0.4, CENTRED_RULES), (3.1, STRICT_RULES)])
 def test_a_sphere_that_finds_what_nobody_hid_asks_for_more(
     monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve], tested: float, rules: Rules
 ) -> None:

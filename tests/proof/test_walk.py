@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from heartfit.diagnosis.recording import Samples
-from heartfit.geometry.arrays import Floats
-from heartfit.proof.split import Target
-from heartfit.proof.walk import STRIDE, Walk
+from heartfit.core.arrays import Floats
+from heartfit.discovery.inference.descent import Descent, InverseProblem
+from heartfit.discovery.refit.refit import LONGEST_STEP, SCHEDULE
+from heartfit.discovery.refit.target import Target
+from heartfit.discovery.sphere_model.recording import Samples
 
 RNG = np.random.default_rng(5)
 SLOPES = RNG.standard_normal((12, 3))
@@ -25,7 +26,7 @@ def bent(x: Floats) -> Floats:
     return SLOPES @ (x + 0.15 * x**2)
 
 
-def walked(walk: Walk, most: int = 30) -> Walk:
+def walked(walk: Descent, most: int = 30) -> Descent:
     for _ in range(most):
         if walk.ended:
             break
@@ -33,9 +34,16 @@ def walked(walk: Walk, most: int = 30) -> Walk:
     return walk
 
 
-def started(forward, slopes: Floats = SLOPES, lower: Floats = FREE) -> Walk:
-    x = np.zeros(3)
-    return Walk(forward, TARGET, lower, x, forward(x), slopes)
+def started(
+    forward,
+    slopes: Floats = SLOPES,
+    lower: Floats = FREE,
+    target: Target = TARGET,
+    x: Floats | None = None,
+) -> Descent:
+    start = np.zeros(3) if x is None else x
+    problem = InverseProblem(forward, target.values(), target, lower)
+    return Descent(problem, SCHEDULE, start, forward(start), slopes)
 
 
 def test_a_linear_model_ends_at_its_posterior() -> None:
@@ -56,7 +64,7 @@ def test_slopes_that_are_off_are_corrected_on_the_way() -> None:
 
 def test_an_amplitude_that_the_data_push_below_its_bound_stays_there() -> None:
     start = np.array([0.0, 0.3, 0.0])
-    walk = walked(Walk(linear, TARGET, np.array([-np.inf, 0.0, -np.inf]), start, linear(start), SLOPES))
+    walk = walked(started(linear, lower=np.array([-np.inf, 0.0, -np.inf]), x=start))
     assert walk.converged
     assert walk.x[1] == 0.0
 
@@ -69,7 +77,7 @@ def test_what_goes_with_an_amplitude_is_found_anew_where_that_meets_its_bound() 
     stacked, values = np.vstack([alike / 0.05, np.eye(3)]), np.append(target.values() / 0.05, np.zeros(3))
     best = lsq_linear(stacked, values, (lower, np.full(3, np.inf))).x
     start = best + np.array([0.0, 0.5, 0.0])
-    walk = walked(Walk(lambda x: alike @ x, target, lower, start, alike @ start, alike))
+    walk = walked(started(lambda x: alike @ x, alike, lower, target, start))
     assert walk.converged
     assert best[1] == pytest.approx(0.0, abs=1e-6)
     assert walk.x == pytest.approx(best, abs=0.01)
@@ -78,7 +86,7 @@ def test_what_goes_with_an_amplitude_is_found_anew_where_that_meets_its_bound() 
 def test_no_step_is_longer_than_slopes_hold() -> None:
     walk = started(lambda x: 0.1 * linear(x), 0.1 * SLOPES)
     walk.advance()
-    assert np.abs(walk.x).max() <= STRIDE
+    assert np.abs(walk.x).max() <= LONGEST_STEP
 
 
 def test_a_beat_that_fails_shortens_the_step_and_changes_nothing_else() -> None:
@@ -88,10 +96,10 @@ def test_a_beat_that_fails_shortens_the_step_and_changes_nothing_else() -> None:
         asked.append(x)
         return linear(x) if np.abs(x).max() < 0.5 else None
 
-    walk = Walk(failing, TARGET, FREE, np.zeros(3), np.zeros(12), SLOPES)
+    walk = started(failing)
     walk.advance()
     assert not walk.x.any()
-    assert np.array_equal(walk.slopes, SLOPES)
+    assert np.array_equal(walk.jacobian, SLOPES)
     walked(walk)
     assert 0.0 < np.abs(walk.x).max() < 0.5
     assert not walk.converged, "it would go on"

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from heartfit.geometry.carry import boundary_surface, carry_mesh, count_inverted_elements
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.surface import LabelledSurface
-from heartfit.registration.carry import boundary_surface, carry_mesh, inverted_elements
 
 PHASES = 9
 TIMES = np.linspace(0.0, 0.8, PHASES)
@@ -41,7 +41,7 @@ def test_an_affine_motion_of_the_surface_carries_every_node_exactly(
 ) -> None:
     motion = carry_mesh(ventricle, surface, stretched(surface.points), TIMES, PERIOD)
     assert motion.positions == pytest.approx(stretched(ventricle.points), abs=1e-10)
-    assert inverted_elements(ventricle, motion).tolist() == [0] * PHASES
+    assert count_inverted_elements(ventricle, motion).tolist() == [0] * PHASES
     assert motion.period == PERIOD
 
 
@@ -51,7 +51,7 @@ def test_nodes_off_the_surface_keep_their_distance(
     off = ventricle.with_points(ventricle.points + np.array([2e-4, 1e-4, -2e-4]))
     motion = carry_mesh(off, surface, stretched(surface.points), TIMES, PERIOD)
     assert motion.positions[0] == pytest.approx(off.points, abs=1e-15)
-    cavity = Cavity.of(ventricle, "lv_endo")
+    cavity = Cavity.from_endocardium(ventricle, "lv_endo")
     assert cavity.volume(motion.positions[-1]) == pytest.approx(
         cavity.volume(stretched(ventricle.points)[-1]), rel=5e-3
     )
@@ -61,6 +61,6 @@ def test_an_inverted_element_is_counted(ventricle: VentricularMesh, surface: Lab
     motion = carry_mesh(ventricle, surface, stretched(surface.points), TIMES, PERIOD)
     mirrored = motion.positions.copy()
     mirrored[3] *= [1.0, 1.0, -1.0]
-    counts = inverted_elements(ventricle, replace(motion, positions=mirrored))
+    counts = count_inverted_elements(ventricle, replace(motion, positions=mirrored))
     assert counts[3] == len(ventricle.tets)
     assert counts.sum() == counts[3]

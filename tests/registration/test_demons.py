@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from heartfit.registration.demons import Demons, jacobian, register
+from heartfit.imaging.registration.slices import Demons, jacobian, register
 
 
 def texture(shape: tuple[int, ...], shift: tuple[float, ...]) -> np.ndarray:

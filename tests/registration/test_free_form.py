@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
-from heartfit.registration.free_form import minimise
-from heartfit.registration.terms import Linearised
+from heartfit.imaging.registration.terms import Linearised
+from heartfit.imaging.registration.track import minimise
 
 
 @dataclass
@@ -18,7 +18,7 @@ class Squares:
     jacobian: Callable[[np.ndarray], np.ndarray]
     values: list[float] = field(default_factory=list)
 
-    def at(self, coefficients: np.ndarray) -> Linearised:
+    def linearise(self, coefficients: np.ndarray) -> Linearised:
         r, J = self.residual(coefficients.ravel()), self.jacobian(coefficients.ravel())
         self.values.append(float(r @ r))
         shape = coefficients.shape
@@ -65,7 +65,7 @@ def test_it_never_goes_uphill(start: float) -> None:
     steep = Squares(np.arctan, lambda x: np.diag(1.0 / (1.0 + x**2)))
     x, values = np.array([start, -start]), []
     for _ in range(10):
-        values.append(steep.at(x).value)
+        values.append(steep.linearise(x).value)
         x = minimise([steep], x, 1)
     assert (np.diff(values) <= 0.0).all()
     if start <= 3.0:

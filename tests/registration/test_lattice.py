@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from heartfit.registration.lattice import Lattice
+from heartfit.imaging.registration.lattice import Lattice
 
 SHAPES = [(23,), (14, 17), (9, 12, 11)]
 KNOTS = 3.7
@@ -40,7 +40,7 @@ def test_polynomials_up_to_cubic_are_reproduced(shape: tuple[int, ...], degree: 
     places = np.vstack([np.random.default_rng(0).random((50, len(shape))) * last, 0.0 * last, last])
     degrees = tuple((degree + axis) % 4 for axis in range(len(shape)))
     expected = np.prod((places / KNOTS) ** degrees, axis=1)
-    found = lattice.at(coefficients(lattice, degrees), places)
+    found = lattice.evaluate(coefficients(lattice, degrees), places)
     assert found == pytest.approx(np.tile(expected[:, None], len(shape)), rel=1e-10, abs=1e-10)
 
 
@@ -49,15 +49,17 @@ def test_on_a_grid_it_is_what_it_is_at_scattered_places(shape: tuple[int, ...]) 
     lattice = Lattice(shape, KNOTS)
     places = [np.sort(np.random.default_rng(a).random(4 + a)) * (n - 1) for a, n in enumerate(shape)]
     scattered = np.stack(np.meshgrid(*places, indexing="ij"), axis=-1).reshape(-1, len(shape))
-    found = lattice.on(places).displacement(random(lattice, 1))
-    expected = lattice.at(random(lattice, 1), scattered).T.reshape(found.shape)
+    found = lattice.sampling(places).displacement(random(lattice, 1))
+    expected = lattice.evaluate(random(lattice, 1), scattered).T.reshape(found.shape)
     assert found == pytest.approx(expected, abs=1e-6)
 
 
 def test_beyond_the_image_the_displacement_is_that_of_its_edge() -> None:
     lattice = Lattice((9, 12, 11), KNOTS)
     far, edge = np.array([[-4.0, 5.0, 99.0]]), np.array([[0.0, 5.0, 10.0]])
-    assert lattice.at(random(lattice, 0), far) == pytest.approx(lattice.at(random(lattice, 0), edge))
+    assert lattice.evaluate(random(lattice, 0), far) == pytest.approx(
+        lattice.evaluate(random(lattice, 0), edge)
+    )
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -69,8 +71,8 @@ def test_a_displacement_stays_between_its_control_points(shape: tuple[int, ...],
     for axis, count in enumerate(ones.shape[1:], start=1):
         for one in range(count):
             single = np.where((np.arange(count) == one).reshape(-1, *[1] * (len(shape) - axis)), ones, 0.0)
-            assert lattice.on(voxels(shape)).displacement(single).min() > -1e-7
-    assert lattice.on(voxels(shape)).displacement(ones) == pytest.approx(
+            assert lattice.sampling(voxels(shape)).displacement(single).min() > -1e-7
+    assert lattice.sampling(voxels(shape)).displacement(ones) == pytest.approx(
         np.ones((len(shape), *shape)), abs=1e-6
     )
 
@@ -81,7 +83,7 @@ def test_the_derivative_of_a_cubic_is_its_quadratic(shape: tuple[int, ...]) -> N
     lattice = Lattice(shape, KNOTS)
     for axis in range(len(shape)):
         degrees = tuple(3 if a == axis else 1 for a in range(len(shape)))
-        found = lattice.on(voxels(shape), axis).displacement(coefficients(lattice, degrees))
+        found = lattice.sampling(voxels(shape), axis).displacement(coefficients(lattice, degrees))
         xi = np.meshgrid(*[places / KNOTS for places in voxels(shape)], indexing="ij")
         expected = np.prod([3.0 * x**2 / KNOTS if a == axis else x for a, x in enumerate(xi)], axis=0)
         assert found == pytest.approx(np.broadcast_to(expected, found.shape), rel=1e-5, abs=1e-4)
@@ -92,7 +94,10 @@ def test_the_derivative_of_a_cubic_is_its_quadratic(shape: tuple[int, ...]) -> N
 def test_the_transpose_is_the_transpose(shape: tuple[int, ...], along: int | None) -> None:
     """<A d, f> = <d, A' f>, and the diagonal of A' w A is that of the products with unit coefficients."""
     lattice = Lattice(shape, KNOTS)
-    sampling, rng = lattice.on([places[::2] for places in voxels(shape)], along), np.random.default_rng(2)
+    sampling, rng = (
+        lattice.sampling([places[::2] for places in voxels(shape)], along),
+        np.random.default_rng(2),
+    )
     moved = sampling.displacement(random(lattice, 3))
     field = rng.standard_normal(moved.shape)
     back = sampling.transposed(field)

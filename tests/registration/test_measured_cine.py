@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from heartfit.imaging.registration.slices import register_slices, require_unfolded
 from heartfit.io.images import read_images
 from heartfit.io.measured_heart import read_measured_heart, short_axis_images
 from heartfit.observation.outlines import outlines
-from heartfit.registration.slices import register_slices, require_unfolded
 
 FRAMES, SLICES = slice(0, 24, 3), slice(1, 4)
 END_SYSTOLE = 3

@@ -5,12 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from heartfit.geometry.carry import carry_mesh, count_inverted_elements
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.mesher import fill_wall
 from heartfit.geometry.segments import aha_segments
 from heartfit.io.measured_heart import MeasuredHeart, read_measured_heart
-from heartfit.registration.carry import carry_mesh, inverted_elements
 
 MILLILITRE = 1e-6
 CAVITIES = ("lv_endo", "rv_endo")
@@ -47,7 +47,7 @@ def test_the_left_ventricle_has_the_published_mass(
 
 @pytest.mark.measured
 def test_the_surfaces_enclose_the_published_volumes(heart: MeasuredHeart, published: np.ndarray) -> None:
-    cavities = [Cavity.of(heart.surface, name) for name in CAVITIES]
+    cavities = [Cavity.from_endocardium(heart.surface, name) for name in CAVITIES]
     volumes = [[cavity.volume(phase) for cavity in cavities] for phase in heart.positions]
     assert np.array(volumes) == pytest.approx(published[:, 1:], abs=0.02 * MILLILITRE)
     assert heart.times == pytest.approx(published[:, 0], abs=1e-5)
@@ -61,8 +61,8 @@ def test_the_carried_mesh_keeps_the_published_volumes(
 ) -> None:
     motion = carry_mesh(mesh, heart.surface, heart.positions, heart.times, heart.period)
     for column, name in enumerate(CAVITIES, start=1):
-        cavity = Cavity.of(mesh, name)
+        cavity = Cavity.from_endocardium(mesh, name)
         volumes = [cavity.volume(phase) for phase in motion.positions]
         assert volumes == pytest.approx(published[:, column], rel=0.015)
     assert mesh.wall_volume() == pytest.approx(heart.surface.volume(), rel=0.02)
-    assert inverted_elements(mesh, motion).max() <= 5
+    assert count_inverted_elements(mesh, motion).max() <= 5

@@ -3,11 +3,18 @@
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from tests.shrinking import assert_derivative
 
-from heartfit.registration.lattice import Lattice
-from heartfit.registration.level import Level
-from heartfit.registration.terms import Bending, Brightness, FixedImage, Linearised, Term, WallVolume
+from heartfit.imaging.registration.lattice import Lattice
+from heartfit.imaging.registration.terms import (
+    Bending,
+    Brightness,
+    FixedImage,
+    Linearised,
+    PyramidLevel,
+    Term,
+    WallVolume,
+)
+from tests.shrinking import assert_derivative
 
 SHAPE = (18, 20, 19)
 KNOTS = 5.3
@@ -33,7 +40,7 @@ def affine(lattice: Lattice, gradient: np.ndarray) -> np.ndarray:
 
 
 def volume_of(lattice: Lattice, weight: np.ndarray, shrink: int = 2) -> WallVolume:
-    return WallVolume(lattice, Level.of(SHAPE, shrink), weight, WEIGHT)
+    return WallVolume(lattice, PyramidLevel.from_shape(SHAPE, shrink), weight, WEIGHT)
 
 
 def one_voxel(place: tuple[int, int, int]) -> np.ndarray:
@@ -51,7 +58,7 @@ def middle() -> np.ndarray:
 
 def brightness_of(lattice: Lattice, moving: np.ndarray, weight: np.ndarray, shrink: int = 1) -> Brightness:
     fixed = np.random.default_rng(9).random(SHAPE)
-    return Brightness(FixedImage(lattice, Level.of(SHAPE, shrink), fixed, weight), moving)
+    return Brightness(FixedImage(lattice, PyramidLevel.from_shape(SHAPE, shrink), fixed, weight), moving)
 
 
 def ramp() -> np.ndarray:
@@ -61,8 +68,8 @@ def ramp() -> np.ndarray:
 
 def assert_force(term: Term, here: np.ndarray, step: np.ndarray) -> None:
     """The force is minus half the gradient of the value."""
-    slope = -2.0 * (term.at(here).force * step).sum()
-    assert_derivative(lambda c: np.array(term.at(c).value), np.array(slope), here, step)
+    slope = -2.0 * (term.linearise(here).force * step).sum()
+    assert_derivative(lambda c: np.array(term.linearise(c).value), np.array(slope), here, step)
 
 
 def assert_rank_one(part: Linearised, step: np.ndarray) -> None:
@@ -86,9 +93,9 @@ def assert_diagonal(part: Linearised) -> None:
 def test_bending_s_force_and_curvature_are_those_of_its_value(lattice: Lattice, seed: int) -> None:
     term, here, step = Bending(lattice, 2.5), random(lattice, seed), random(lattice, seed + 10)
     assert_force(term, here, step)
-    part = term.at(here)
+    part = term.linearise(here)
     assert part.value == pytest.approx((here * part.curvature(here)).sum(), rel=1e-6)
-    assert part.value == pytest.approx(2.5 * Bending(lattice, 1.0).at(here).value, rel=1e-6)
+    assert part.value == pytest.approx(2.5 * Bending(lattice, 1.0).linearise(here).value, rel=1e-6)
     assert part.diagonal == pytest.approx(2.5 * lattice.bending_diagonal, rel=1e-6)
 
 
@@ -102,21 +109,21 @@ def test_the_wall_s_force_is_minus_half_the_gradient(lattice: Lattice, seed: int
 @pytest.mark.parametrize("seed", range(3))
 def test_the_wall_s_curvature_is_that_of_gauss_and_newton(lattice: Lattice, seed: int) -> None:
     term = volume_of(lattice, one_voxel((9, 8, 10)))
-    assert_rank_one(term.at(random(lattice, seed, 0.7)), random(lattice, seed + 10))
+    assert_rank_one(term.linearise(random(lattice, seed, 0.7)), random(lattice, seed + 10))
 
 
 def test_the_wall_s_diagonal_is_exact_where_it_is_only_stretched(lattice: Lattice) -> None:
     """Along the axes, where volume depends on the slope of each component along its own axis alone."""
     weight = np.random.default_rng(0).random(SHAPE)
-    assert_diagonal(volume_of(lattice, weight).at(affine(lattice, np.diag([1.25, 0.8, 1.1]))))
+    assert_diagonal(volume_of(lattice, weight).linearise(affine(lattice, np.diag([1.25, 0.8, 1.1]))))
 
 
 def test_curvatures_of_voxels_add_up(lattice: Lattice) -> None:
     here, step = random(lattice, 0, 0.5), random(lattice, 1)
     places = [(9, 8, 10), (7, 11, 8), (10, 9, 9)]
     for term_of in (volume_of, lambda lattice, weight: brightness_of(lattice, ramp(), weight)):
-        together = term_of(lattice, sum(one_voxel(place) for place in places)).at(here)
-        apart = [term_of(lattice, one_voxel(place)).at(here) for place in places]
+        together = term_of(lattice, sum(one_voxel(place) for place in places)).linearise(here)
+        apart = [term_of(lattice, one_voxel(place)).linearise(here) for place in places]
         assert together.value == pytest.approx(sum(part.value for part in apart), rel=1e-5)
         for found, parts in (
             (together.curvature(step), [part.curvature(step) for part in apart]),
@@ -133,7 +140,7 @@ def test_what_keeps_every_volume_costs_nothing(lattice: Lattice) -> None:
     turn = Rotation.from_euler("xyz", [0.4, -0.7, 0.3]).as_matrix()
     term = volume_of(lattice, np.ones(SHAPE))
     for gradient in (turn, shear, stretch, turn @ stretch @ shear):
-        part = term.at(affine(lattice, gradient))
+        part = term.linearise(affine(lattice, gradient))
         assert part.value < 1e-8
         assert np.abs(part.force).max() < 1e-3 * part.diagonal.max() * KNOTS
 
@@ -146,7 +153,7 @@ def test_a_dilation_costs_the_square_of_the_volume_it_adds(
     """q (s^3 - 1)^2 for every voxel of the wall, however large the blocks."""
     wall = np.zeros(SHAPE)
     wall[2:8, 4:10, 6:14] = 1.0
-    value = volume_of(lattice, wall, shrink).at(affine(lattice, stretch * np.eye(3))).value
+    value = volume_of(lattice, wall, shrink).linearise(affine(lattice, stretch * np.eye(3))).value
     assert value == pytest.approx(WEIGHT * (stretch**3 - 1.0) ** 2 * wall.sum(), rel=1e-4)
 
 
@@ -156,15 +163,19 @@ def test_the_brightness_force_is_minus_half_the_gradient(lattice: Lattice, shrin
     weight = middle() * np.random.default_rng(3).random(SHAPE)
     term = brightness_of(lattice, ramp(), weight, shrink)
     here, step = random(lattice, 4, 0.5), random(lattice, 5, 0.5)
-    difference = term.at(here + step).value - term.at(here - step).value
-    assert -4.0 * (term.at(here).force * step).sum() == pytest.approx(difference, rel=1e-4)
-    bend = term.at(here + step).value + term.at(here - step).value - 2.0 * term.at(here).value
-    assert 2.0 * (step * term.at(here).curvature(step)).sum() == pytest.approx(bend, rel=1e-3)
+    difference = term.linearise(here + step).value - term.linearise(here - step).value
+    assert -4.0 * (term.linearise(here).force * step).sum() == pytest.approx(difference, rel=1e-4)
+    bend = (
+        term.linearise(here + step).value
+        + term.linearise(here - step).value
+        - 2.0 * term.linearise(here).value
+    )
+    assert 2.0 * (step * term.linearise(here).curvature(step)).sum() == pytest.approx(bend, rel=1e-3)
 
 
 def test_the_brightness_curvature_is_that_of_gauss_and_newton(lattice: Lattice) -> None:
     term = brightness_of(lattice, np.random.default_rng(6).random(SHAPE), one_voxel((9, 8, 10)))
-    part = term.at(random(lattice, 7, 0.5))
+    part = term.linearise(random(lattice, 7, 0.5))
     assert_rank_one(part, random(lattice, 8))
     assert_diagonal(part)
 
@@ -174,9 +185,11 @@ def test_an_image_moved_by_the_displacement_does_not_differ(lattice: Lattice) ->
     shift = np.array([1.5, -0.5, 1.0])
     moving, slope = ramp(), np.array([0.3, -0.2, 0.25])
     weight = middle()
-    fixed = FixedImage(lattice, Level.of(SHAPE, 1), moving + slope @ shift, weight)
+    fixed = FixedImage(lattice, PyramidLevel.from_shape(SHAPE, 1), moving + slope @ shift, weight)
     term = Brightness(fixed, moving)
     moved = np.broadcast_to(shift[:, None, None, None], lattice.zeros().shape)
     assert term.mismatch(moved) == pytest.approx(0.0, abs=1e-4 * np.abs(slope @ shift))
     assert term.mismatch(lattice.zeros()) == pytest.approx(abs(slope @ shift), rel=1e-4)
-    assert term.at(lattice.zeros()).value == pytest.approx(weight.sum() * (slope @ shift) ** 2, rel=1e-4)
+    assert term.linearise(lattice.zeros()).value == pytest.approx(
+        weight.sum() * (slope @ shift) ** 2, rel=1e-4
+    )

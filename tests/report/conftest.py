@@ -1,10 +1,10 @@
 """The page of a small study, made once."""
 
 import pytest
-from tests.report.small_report import study
 
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.report.page import Assets, render
+from heartfit.results.report.page import Assets, render
+from tests.report.small_report import study
 
 ASSETS = Assets("const library = 1;", "const own = 2;", "body { color: black; }")
 HOSTILE = "</script><img src=x onerror=alert(1)>&\u2028"

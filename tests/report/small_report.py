@@ -8,18 +8,17 @@ import pandas as pd
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import Posterior, calibrate
-from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Refitted, Trace
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
-from heartfit.observation.beat_phases import BeatPhases
+from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Refitted, Trace
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.observation.beat import BeatPhases
 from heartfit.observation.curve import Curve
-from heartfit.report.record import CaseRecord, Fit, Printed, Provenance, StudyRecord
-from heartfit.tables.card import Card
-from heartfit.tables.case import CaseResult
+from heartfit.results.card import Card
+from heartfit.results.case import CaseResult
+from heartfit.results.report.record import CaseRecord, FittedCase, Provenance, ReportTable, StudyRecord
 
 PERIOD, FRAMES, SETTING = 0.8, 10, "physical"
 TIMES = np.arange(FRAMES) * PERIOD / FRAMES
-PRIOR = Gaussian.of_relative({"sigma_0": 240e3, "mu": 7e3}, {"sigma_0": 0.2, "mu": 0.3})
+PRIOR = Gaussian.from_relative({"sigma_0": 240e3, "mu": 7e3}, {"sigma_0": 0.2, "mu": 0.3})
 UNITS = {"sigma_0": "Pa", "mu": "Pa.s"}
 WAVE = 0.5 - 0.5 * np.cos(2.0 * np.pi * TIMES / PERIOD)
 
@@ -73,10 +72,10 @@ def beating(mesh: VentricularMesh, least: float) -> Motion:
     return Motion(TIMES, PERIOD, centre + size[:, None, None] * (mesh.points - centre))
 
 
-def fit(mesh: VentricularMesh, case: str, failed: bool = False, found: bool = False) -> Fit:
+def fit(mesh: VentricularMesh, case: str, failed: bool = False, found: bool = False) -> FittedCase:
     card = Card(case, SETTING, posterior(0.0), posterior(2e-6), {} if failed else {"sigma_0": 250e3})
     curves = {} if failed else with_pressure(volumes(63.0))
-    return Fit(
+    return FittedCase(
         result=result(case, ("sigma_0 moved by 3.2: beyond 3 ...",) if failed else ()),
         card=card,
         reference=with_pressure(volumes(90.0)),
@@ -101,6 +100,6 @@ def study(mesh: VentricularMesh, name: str = "heart1", note: str = "") -> StudyR
         "case": [name, "volunteer 1"],
         "V_min (%)": [5.0, 0.35],
     }
-    tables = {"table1": Printed("Errors", pd.DataFrame(rows), note)}
+    tables = {"table1": ReportTable("Errors", pd.DataFrame(rows), note)}
     origin = Provenance({"heart1": "abc"}, {"heart1": "8"}, {"heartfit": "0.1.0"}, {"study": "mesh: {}"})
     return StudyRecord({case.name: case for case in cases}, tables, origin, note)

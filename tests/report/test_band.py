@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.report.small_report import PERIOD, PRIOR, TIMES, WAVE
 
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import sigma_points
 from heartfit.observation.curve import Curve
-from heartfit.report.band import band
+from heartfit.results.report.record import curve_deviation
+from tests.report.small_report import PERIOD, PRIOR, TIMES, WAVE
 
 SLOPES = np.array([2e-5, -1e-5])
 POSTERIOR = Gaussian(PRIOR.names, PRIOR.mean, np.array([[0.01, 0.004], [0.004, 0.02]]))
@@ -21,14 +21,14 @@ def beats() -> list[dict[str, Curve]]:
 
 
 def test_a_linear_map_gives_its_own_band() -> None:
-    found = band(PRIOR, sigma_points(PRIOR), beats(), POSTERIOR, beats()[0])["lv_volume"]
+    found = curve_deviation(PRIOR, sigma_points(PRIOR), beats(), POSTERIOR, beats()[0])["lv_volume"]
     assert found.values == pytest.approx(WAVE * np.sqrt(SLOPES @ POSTERIOR.covariance @ SLOPES), abs=1e-12)
 
 
 def test_one_lost_point_changes_nothing_and_too_many_leave_no_band() -> None:
     points, whole = sigma_points(PRIOR), beats()
     one, none = [*whole[:4], {}], [whole[0], {}, {}, {}, {}]
-    assert band(PRIOR, points, one, POSTERIOR, whole[0])["lv_volume"].values == pytest.approx(
+    assert curve_deviation(PRIOR, points, one, POSTERIOR, whole[0])["lv_volume"].values == pytest.approx(
         WAVE * np.sqrt(SLOPES @ POSTERIOR.covariance @ SLOPES), abs=1e-12
     )
-    assert band(PRIOR, points, none, POSTERIOR, whole[0]) == {}
+    assert curve_deviation(PRIOR, points, none, POSTERIOR, whole[0]) == {}

@@ -5,7 +5,7 @@ import math
 import pandas as pd
 import pytest
 
-from heartfit.report.markup import number, quantity, rows
+from heartfit.results.report.page import number, quantity, rows
 
 
 @pytest.mark.parametrize(

@@ -2,14 +2,15 @@
 
 import json
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 
-import pytest
-from tests.report.conftest import ASSETS, HOSTILE
-from tests.report.small_report import study
-
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.report.page import Assets, data, render
+from heartfit.results.cause_card import verdict_sentence
+from heartfit.results.report.cases import facts, status
+from heartfit.results.report.page import Assets, data, render
+from tests.report.conftest import ASSETS, HOSTILE
+from tests.report.small_report import SETTING, diagnosis, study, volumes
 
 EMPTY = {"meta", "link", "img", "input", "br"}
 
@@ -74,16 +75,35 @@ def test_the_same_results_give_the_same_bytes(ventricle: VentricularMesh, page: 
     assert render(study(ventricle, note=HOSTILE), ASSETS) == page
 
 
-@pytest.mark.parametrize(
-    "said",
-    [
-        "calibrated beat failed",
-        "No pressure was recorded",
-        "Nobody searched this case",
-        "The simulation lacks mitral regurgitation of 0.3 cm²",
-        "refit in three dimensions",
-        "left bundle branch block",
-    ],
-)
-def test_what_is_missing_and_what_was_found_is_said(page: str, said: str) -> None:
-    assert said in page
+def part(page: str, case: str) -> str:
+    """The page's section of a case."""
+    return re.search(rf'<section id="{case}".*?</section>', page, re.DOTALL)[0]
+
+
+def test_a_case_shows_what_became_of_its_fit_and_its_causes(page: str, ventricle: VentricularMesh) -> None:
+    sound, weak = part(page, "heart1"), part(page, "heart2")
+    assert (sound.count('class="good"'), sound.count('class="doubt"')) == (1, 0)
+    assert (weak.count('class="good"'), weak.count('class="doubt"')) == (0, 1)
+    assert [text.count('<article class="cause">') for text in (sound, weak)] == [2, 0]
+    failed = study(ventricle).cases["heart2"].fits[SETTING]
+    completed = replace(failed, result=replace(failed.result, notes=()), calibrated=volumes(63.0))
+    assert status(failed) in weak
+    assert status(completed) in sound
+    assert status(replace(failed, calibrated=volumes(63.0))) not in (status(failed), status(completed))
+    assert sound.count(f'<p class="verdict named">{verdict_sentence(diagnosis())}</p>') == 2
+    refits = [re.search(r"<h4>(.*?)</h4>", article)[1] for article in sound.split("<article")[1:]]
+    assert len(set(refits)) == 2
+
+
+def test_a_case_shows_whose_it_is_how_it_conducts_and_which_curves_it_has(
+    page: str, ventricle: VentricularMesh
+) -> None:
+    cases = study(ventricle).cases
+    for name, case in cases.items():
+        assert " · ".join(facts(case)) in part(page, name)
+    patient, volunteer = (facts(case) for case in cases.values())
+    assert all(one != other for one, other in zip(patient[:2], volunteer[:2], strict=True))
+    assert patient[4] != volunteer[4], "pressure was recorded in the first alone"
+    captions = [re.search(r"<figcaption>(.*?)</figcaption>", part(page, name))[1] for name in cases]
+    assert captions[1].startswith(captions[0])
+    assert len(captions[1]) > len(captions[0]), "pressures of the second are predictions"

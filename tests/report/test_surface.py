@@ -2,17 +2,25 @@
 
 import numpy as np
 import pytest
-from tests.report.small_report import FRAMES
-from tests.report.small_report import beating as shrinking
 
 from heartfit.geometry.coordinates import LeftVentricularAxes
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.report.surface import INSIDE, OUTSIDE, QUANTUM, beating, packed, surface, unpacked
+from heartfit.results.report.surface import (
+    INSIDE,
+    OUTSIDE,
+    QUANTUM,
+    pack,
+    packed_positions,
+    packed_surface,
+    unpack,
+)
+from tests.report.small_report import FRAMES
+from tests.report.small_report import beating as shrinking
 
 
 def test_numbers_survive_the_packing() -> None:
     numbers = np.array([0, -1, 70_000, -2_000_000])
-    assert unpacked(packed(numbers)).tolist() == numbers.tolist()
+    assert unpack(pack(numbers)).tolist() == numbers.tolist()
 
 
 @pytest.mark.parametrize(("part", "names"), [("outside", OUTSIDE), ("inside", INSIDE)])
@@ -21,8 +29,8 @@ def test_triangles_keep_their_size_through_the_beat(
 ) -> None:
     """Distances do not change by another frame: those of the page against those of the mesh."""
     motion = shrinking(ventricle, 0.8)
-    corners = unpacked(surface(ventricle)[part]["triangles"]).reshape(3, -1).T
-    steps = unpacked(beating(ventricle, motion.positions)[part]).reshape(FRAMES, 3, -1)
+    corners = unpack(packed_surface(ventricle)[part]["triangles"]).reshape(3, -1).T
+    steps = unpack(packed_positions(ventricle, motion.positions)[part]).reshape(FRAMES, 3, -1)
     places = QUANTUM * np.cumsum(steps, axis=0).swapaxes(1, 2)
     faces = np.vstack([ventricle.surfaces[name] for name in names])
     for phase in (0, 3):
@@ -35,17 +43,17 @@ def test_triangles_keep_their_size_through_the_beat(
 
 def test_the_axes_are_those_of_the_ventricle(ventricle: VentricularMesh) -> None:
     """x away from the septum, z to the base."""
-    axes = LeftVentricularAxes.of(ventricle)
+    axes = LeftVentricularAxes.from_mesh(ventricle)
     moved = np.array(
         [ventricle.points, ventricle.points + 0.01 * axes.axis, ventricle.points + 0.01 * axes.septal]
     )
-    steps = QUANTUM * unpacked(beating(ventricle, moved)["outside"]).reshape(3, 3, -1).mean(axis=2)
+    steps = QUANTUM * unpack(packed_positions(ventricle, moved)["outside"]).reshape(3, 3, -1).mean(axis=2)
     assert steps[1] == pytest.approx([0.0, 0.0, 0.01], abs=QUANTUM)
     assert steps[2] == pytest.approx([-0.01, 0.0, -0.01], abs=QUANTUM)
 
 
 def test_a_triangle_has_the_segment_of_the_wall_behind_it(ventricle: VentricularMesh) -> None:
-    found = set(unpacked(surface(ventricle)["outside"]["segment"]).tolist())
+    found = set(unpack(packed_surface(ventricle)["outside"]["segment"]).tolist())
     assert found <= set(np.asarray(ventricle.segments).tolist())
     assert 0 in found
     assert len(found) > 10

@@ -5,10 +5,10 @@ import pytest
 
 from heartfit.geometry.parametric import ParametricVentricles
 from heartfit.geometry.surface import LabelledSurface
-from heartfit.imaging.grid import Grid
-from heartfit.segmentation.checks import TO_APEX, TO_RIGHT_VENTRICLE
-from heartfit.segmentation.labels import Segmentation
-from heartfit.segmentation.paint import segmented
+from heartfit.imaging.segmentation.stack import Segmentation
+from heartfit.imaging.segmentation.surface import segment_surface
+from heartfit.imaging.segmentation.wall import TO_APEX, TO_RIGHT_VENTRICLE
+from heartfit.imaging.sequence import Grid
 
 PIXEL, STEP, SLICES = 1.6e-3, 8e-3, 16
 
@@ -37,4 +37,4 @@ def grid() -> Grid:
 
 @pytest.fixture(scope="session")
 def segmentation(ventricles: LabelledSurface, grid: Grid) -> Segmentation:
-    return segmented(ventricles, grid)
+    return segment_surface(ventricles, grid)

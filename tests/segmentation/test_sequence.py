@@ -4,15 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.segmentation.conftest import STEP, axes
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.surface import LabelledSurface
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.sequence import ImageSequence
-from heartfit.segmentation.labels import Segmentation
-from heartfit.segmentation.paint import segmented
-from heartfit.segmentation.sequence import label_images
+from heartfit.imaging.segmentation.stack import Segmentation
+from heartfit.imaging.segmentation.surface import label_images, segment_surface
+from heartfit.imaging.sequence import Grid, ImageSequence
+from tests.segmentation.conftest import STEP, axes
 
 TIMES = 0.1 * np.arange(8)
 
@@ -21,7 +19,7 @@ TIMES = 0.1 * np.arange(8)
 def smaller(ventricles: LabelledSurface, grid: Grid) -> Segmentation:
     """Narrower by a tenth, its base a slice lower, as at end systole."""
     points = (ventricles.points @ axes()) * [0.9, 0.9, 1.0] - [0.0, 0.0, STEP]
-    return segmented(replace(ventricles, points=points @ axes().T), grid)
+    return segment_surface(replace(ventricles, points=points @ axes().T), grid)
 
 
 @pytest.fixture(scope="module")

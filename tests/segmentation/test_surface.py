@@ -5,26 +5,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.ndimage import distance_transform_edt
-from tests.segmentation.conftest import PIXEL, STEP, axes
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
+from heartfit.geometry.carry import nearest_on_surface
 from heartfit.geometry.cavity import Cavity
-from heartfit.geometry.nearest import nearest_on_surface
-from heartfit.geometry.surface import LabelledSurface
-from heartfit.geometry.topology import euler_characteristic, rim_loops
-from heartfit.imaging.grid import Grid
-from heartfit.segmentation.labels import Segmentation
-from heartfit.segmentation.surface import surface_of
-from heartfit.segmentation.wall import Shaping
+from heartfit.geometry.surface import LabelledSurface, euler_characteristic, rim_loops
+from heartfit.imaging.segmentation.stack import Segmentation
+from heartfit.imaging.segmentation.surface import wall_surface
+from heartfit.imaging.segmentation.wall import Shaping
+from heartfit.imaging.sequence import Grid
+from tests.segmentation.conftest import PIXEL, STEP, axes
 
 
 @pytest.fixture(scope="module")
 def found(segmentation: Segmentation) -> LabelledSurface:
-    return surface_of(segmentation)
+    return wall_surface(segmentation)
 
 
 def cavity(surface: LabelledSurface, name: str) -> float:
-    return Cavity.of(surface, name).volume(surface.points)
+    return Cavity.from_endocardium(surface, name).volume(surface.points)
 
 
 def distances(queries: np.ndarray, surface: LabelledSurface, name: str) -> np.ndarray:
@@ -59,7 +58,7 @@ def test_the_wall_is_a_ball_with_one_flat_opening_of_each_cavity(found: Labelled
 def test_a_wall_that_is_not_segmented_has_the_stated_thickness(segmentation: Segmentation) -> None:
     parts = {name: mask for name, mask in segmentation.parts.items() if name != "rv_wall"}
     for thickness in (3e-3, 4.5e-3):
-        surface = surface_of(Segmentation(segmentation.grid, parts), Shaping(right_wall=thickness))
+        surface = wall_surface(Segmentation(segmentation.grid, parts), Shaping(right_wall=thickness))
         free = surface.points[np.unique(surface.surfaces["epi"])]
         to_left, to_right = (distances(free, surface, name) for name in ("lv_endo", "rv_endo"))
         over_right = to_right < 0.7 * to_left
@@ -74,11 +73,11 @@ def test_slices_may_be_numbered_either_way(segmentation: Segmentation, found: La
         replace(given, origin=last, direction=turned),
         {name: mask[::-1] for name, mask in segmentation.parts.items()},
     )
-    assert surface_of(backwards).volume() == pytest.approx(found.volume(), rel=1e-9)
+    assert wall_surface(backwards).volume() == pytest.approx(found.volume(), rel=1e-9)
 
 
 def test_the_base_is_cut_where_it_is_stated(segmentation: Segmentation, found: LabelledSurface) -> None:
-    lower = surface_of(segmentation, Shaping(above_base=0.0))
+    lower = wall_surface(segmentation, Shaping(above_base=0.0))
     height = (lower.points @ axes()[:, 2]).max()
     assert height == pytest.approx(-0.5 * STEP, abs=1e-9)
     assert cavity(lower, "lv_endo") < cavity(found, "lv_endo")
@@ -87,8 +86,8 @@ def test_the_base_is_cut_where_it_is_stated(segmentation: Segmentation, found: L
 def test_a_hole_in_the_wall_is_no_heart(segmentation: Segmentation, grid: Grid) -> None:
     wall = segmentation.parts["lv_wall"].copy()
     wall[6, :, 40:] = False
-    with pytest.raises(InputError, match=r"slice 6, \d+ % .* touch what is no wall"):
-        surface_of(Segmentation(grid, {**segmentation.parts, "lv_wall": wall}))
+    with pytest.raises(InputError, match=r"slice 6, \d+ %"):
+        wall_surface(Segmentation(grid, {**segmentation.parts, "lv_wall": wall}))
 
 
 def test_inflow_and_outflow_of_the_right_ventricle_leave_one_opening(segmentation: Segmentation) -> None:
@@ -97,7 +96,7 @@ def test_inflow_and_outflow_of_the_right_ventricle_leave_one_opening(segmentatio
     last = int(np.flatnonzero(right.any(axis=(1, 2)))[-1])
     rows = np.flatnonzero(right[last].any(axis=1))
     right[last, rows[len(rows) // 3] : rows[len(rows) // 3] + 4] = False
-    surface = surface_of(Segmentation(segmentation.grid, {**segmentation.parts, "rv_cavity": right}))
+    surface = wall_surface(Segmentation(segmentation.grid, {**segmentation.parts, "rv_cavity": right}))
     assert euler_characteristic(surface.triangles) == 2
     assert len(rim_loops(surface.surfaces["rv_endo"])) == 1
 
@@ -109,5 +108,5 @@ def test_what_the_parts_enclose_in_a_slice_is_wall(
     wall = segmentation.parts["lv_wall"].copy()
     j, i = np.unravel_index(distance_transform_edt(wall[11]).argmax(), wall[11].shape)
     wall[10:, j - 1 : j + 2, i - 1 : i + 2] = False
-    surface = surface_of(Segmentation(segmentation.grid, {**segmentation.parts, "lv_wall": wall}))
+    surface = wall_surface(Segmentation(segmentation.grid, {**segmentation.parts, "lv_wall": wall}))
     assert surface.volume() == pytest.approx(found.volume(), rel=2e-3)

@@ -7,10 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 
-from heartfit.calibration.forward import Outcome
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.calibration.unscented import CalibrationError, sigma_points
-from heartfit.sensitivity.covariance import Sensitivity, sensitivity, surrounding
+from heartfit.calibration.sensitivity import Sensitivity, one_at_a_time_scaling, sensitivity
+from heartfit.calibration.unscented import CalibrationError, Outcome, sigma_points
 
 SD = np.array([0.2, 0.3, 0.1])
 SLOPES = np.array([[2.0, -1.0], [0.5, 4.0], [0.0, 3.0]])
@@ -28,14 +27,14 @@ def linear(z: np.ndarray) -> Outcome:
 
 
 def found(sd: np.ndarray = SD, step: float = 1.0, lost: Mapping[int, str] | None = None) -> Sensitivity:
-    prior, scaling = prior_of(sd), surrounding(3, step)
+    prior, scaling = prior_of(sd), one_at_a_time_scaling(3, step)
     points = sigma_points(prior, scaling)
     outcomes = [(lost or {}).get(point.index, linear(point.z)) for point in points]
     return sensitivity(prior, points, outcomes, scaling, NAMES)
 
 
 def test_points_lie_at_the_step_and_not_at_root_n() -> None:
-    plus = sigma_points(prior_of(SD), surrounding(3, 0.5))[1]
+    plus = sigma_points(prior_of(SD), one_at_a_time_scaling(3, 0.5))[1]
     assert plus.z - prior_of(SD).mean == pytest.approx([0.1, 0.0, 0.0])
 
 
@@ -57,14 +56,14 @@ def test_a_failed_beat_is_mirrored_and_named(lost: int) -> None:
 
 
 def test_a_parameter_without_beats_is_refused() -> None:
-    with pytest.raises(CalibrationError, match=r"b\+ \(cold\) and b- \(hot\) both failed"):
+    with pytest.raises(CalibrationError, match=r"b\+ \(cold\).*b- \(hot\)"):
         found(lost={2: "cold", 5: "hot"})
 
 
 def test_an_observation_that_nothing_moves_is_refused() -> None:
-    prior, scaling = prior_of(SD), surrounding(3, 1.0)
+    prior, scaling = prior_of(SD), one_at_a_time_scaling(3, 1.0)
     points = sigma_points(prior, scaling)
-    with pytest.raises(CalibrationError, match="no parameter changes EF"):
+    with pytest.raises(CalibrationError, match=r"parameter.*\bEF\b"):
         sensitivity(prior, points, [linear(point.z) for point in points], scaling, (*NAMES, "EF"))
 
 

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from heartfit.calibration.forward import Outcome
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.sensitivity.sobol import SobolError, indices_of, sobol_indices
+from heartfit.calibration.sobol import SobolError, indices_of, sobol_indices
+from heartfit.calibration.unscented import Outcome
 
-PRIOR = Gaussian.of_relative({"a": 2.0, "b": 3.0, "K": 1e6}, {"a": 0.2, "b": 0.1, "K": 0.25})
+PRIOR = Gaussian.from_relative({"a": 2.0, "b": 3.0, "K": 1e6}, {"a": 0.2, "b": 0.1, "K": 0.25})
 SAMPLES, BLOCK = 128, 5
 
 
@@ -65,10 +65,10 @@ def test_a_lost_output_takes_its_block_with_it_and_is_counted(planted: Outcome, 
 
 def test_many_lost_outputs_stop_the_study() -> None:
     lost: dict[int, Outcome] = {BLOCK * block: {"Z": float("inf")} for block in range(8)}
-    with pytest.raises(SobolError, match=r"8 of 128 base samples .* the first: Z not finite"):
+    with pytest.raises(SobolError, match=r"8 of 128\b.*Z not finite"):
         sobol_indices(PRIOR, Linear(lost), SAMPLES, seed=0)
 
 
 def test_an_observation_that_nothing_moves_is_refused() -> None:
-    with pytest.raises(SobolError, match="no parameter changes Z"):
+    with pytest.raises(SobolError, match=r"parameter.*\bZ\b"):
         indices_of(PRIOR, [{"Z": 1.0}] * (16 * BLOCK), seed=0)

@@ -8,8 +8,8 @@ import pytest
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import Posterior, calibrate
-from heartfit.tables.card import Card
-from heartfit.tables.groups import Groups
+from heartfit.results.card import Card
+from heartfit.results.case import Groups
 
 OBSERVATIONS = ("V_min", "q_max", "q_min", "P_max", "dPdt_max", "dPdt_min")
 SLOPES = {  # of ln Z by ln p, with the signs of a heart
@@ -53,7 +53,7 @@ def card(case: str, setting: str = "physical") -> Card:
     sick = case in GROUPS.patients
     names = list(SLOPES)[: 7 if sick else 4]
     seen = OBSERVATIONS[: 6 if sick else 3]
-    prior = Gaussian.of_relative({name: MEANS[name] for name in names}, dict.fromkeys(names, 0.25))
+    prior = Gaussian.from_relative({name: MEANS[name] for name in names}, dict.fromkeys(names, 0.25))
     ratios = dict(zip(SLOPES, (*TRUTHS.get(case, (1.0,) * 4), 1.0, 1.0, 1.0), strict=True))
     truth = {name: 0.9 * MEANS[name] * ratio for name, ratio in ratios.items()}
     noise = np.diag(np.square(NOISE[: len(seen)]))

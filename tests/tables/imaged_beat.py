@@ -2,10 +2,8 @@
 
 import numpy as np
 
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.sequence import ImageSequence
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.imaging.sequence import Grid, ImageSequence
 
 FRAMES, SYSTOLE, PERIOD = 8, 3, 0.8
 

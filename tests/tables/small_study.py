@@ -1,6 +1,6 @@
 """Two volunteers, a measured heart and a patient, as the records that the tables are made of."""
 
-from heartfit.tables.case import CaseResult
+from heartfit.results.case import CaseResult
 
 
 def result(name: str, sigma_0: float, observed: dict[str, float], setting: str = "physical") -> CaseResult:

@@ -7,12 +7,12 @@ import pytest
 from matplotlib.figure import Figure
 
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.tables.activation_figure import nodal_means, plot_activation, segment_means
-from heartfit.tables.bullseye import draw_bullseye
-from heartfit.tables.painting import Side, half, paint, surface
+from heartfit.results.activation import ONSETS, nodal_means, plot_activation, segment_means
+from heartfit.results.drawing import Viewpoint, cut_surface, draw_bullseye, paint, wall_polygons
+from tests.printed import numbers_in
 
 RED = np.array([1.0, 0.0, 0.0])
-FRONT = Side(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), np.zeros(3))
+FRONT = Viewpoint(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), np.zeros(3))
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
@@ -43,10 +43,10 @@ def test_near_polygons_are_painted_last_and_those_that_face_away_not_at_all() ->
 
 def test_a_half_lies_behind_its_cut_and_is_closed(ventricle: VentricularMesh) -> None:
     times, normal, origin = nodal_means(ventricle), np.array([0.0, 1.0, 0.0]), ventricle.points.mean(axis=0)
-    polygons = half(ventricle, times, origin, normal)
+    polygons = cut_surface(ventricle, times, origin, normal)
     assert max(((each[:, :3] - origin) @ normal).max() for each in polygons) < 1e-12
     assert np.abs(sum(area_vector(each[:, :3], each[:, 4:7].mean(axis=0)) for each in polygons)).max() < 1e-12
-    assert len(polygons) < len(surface(ventricle, times))
+    assert len(polygons) < len(wall_polygons(ventricle, times))
 
 
 def area_vector(corners: np.ndarray, outward: np.ndarray) -> np.ndarray:
@@ -74,5 +74,7 @@ def test_the_anterior_wall_is_on_top_and_the_septum_on_the_left() -> None:
 def test_the_title_tells_onset_and_duration(ventricle: VentricularMesh) -> None:
     figure = plot_activation(ventricle, "healthy", "volunteer1")
     total = 1e3 * np.max(np.asarray(ventricle.activation))
-    assert figure.get_suptitle() == f"volunteer1: onset on both sides; active throughout after {total:.0f} ms"
+    assert ONSETS["healthy"] in figure.get_suptitle()
+    assert numbers_in(figure.get_suptitle()) == [round(total)]
+    assert ONSETS["lbbb"] in plot_activation(ventricle, "lbbb", "volunteer1").get_suptitle()
     assert f"{segment_means(ventricle)[8]:.0f}" in texts(figure)

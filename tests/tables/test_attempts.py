@@ -5,11 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.diagnosis.cause import Attempt, Cause, Gain, Refitted, Trace
-from heartfit.errors import InputError
-from heartfit.io.attempts import read_attempt, write_attempt
-from heartfit.tables.attempts_figure import plot_attempts
-from heartfit.tables.attempts_table import attempts_table
+from heartfit.core.errors import InputError
+from heartfit.discovery.sphere_model.cause import Attempt, Cause, Gain, Refitted, Trace
+from heartfit.io.refits import read_attempt, write_attempt
+from heartfit.results.attempts import attempts_table, plot_attempts
 
 TIMES = np.arange(8) * 0.1
 

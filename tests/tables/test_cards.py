@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.tables.card import cards
-from heartfit.tables.card_figure import plot_card, plot_cards
-from heartfit.tables.cards_table import ALL, cards_table, coverage_table
+from heartfit.results.card import POOLED, cards, cards_table, coverage_table
+from heartfit.results.card_figure import plot_card, plot_cards
 
 
 def test_a_card_knows_places_and_cover_in_prior_deviations(cohort):
@@ -46,7 +45,7 @@ def test_coverage_counts_hearts_with_a_truth(cohort):
         replace(card, truth={name: 1e3 * value for name, value in card.truth.items()}) for card in cohort[:2]
     ]
     table = coverage_table([*wrong, *cohort[2:]]).set_index(["posterior", "parameter"])
-    found = table.loc[("noise and fixed", ALL)]
+    found = table.loc[("noise and fixed", POOLED)]
     assert found["hearts"] == 6, "the measured heart has no truth"
     assert found["covered (%)"] == pytest.approx(100 * 4 / 6, abs=0.1)
     assert found["from (%)"] < found["covered (%)"] < found["to (%)"]
@@ -65,7 +64,11 @@ def test_the_figure_shows_each_parameter_and_direction(cohort):
     assert [bar.get_width() for bar in right.patches] == pytest.approx(cohort[0].seen.reduction)
     prior = left.patches[:4]
     assert [bar.get_width() for bar in prior] == pytest.approx([3.92] * 4)
-    assert any(text.get_text().endswith(", covered") for text in left.texts)
+    truths = {name: 1e3 * value for name, value in cohort[0].truth.items()}
+    missed = plot_card(replace(cohort[0], truth=truths)).axes[0]
+    assert {text.get_text().rsplit(",")[-1] for text in left.texts}.isdisjoint(
+        text.get_text().rsplit(",")[-1] for text in missed.texts
+    )
     assert "3 of 4" in figure.get_suptitle()
 
 

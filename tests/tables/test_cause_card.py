@@ -5,12 +5,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Trace
-from heartfit.diagnosis.departure import departures
-from heartfit.diagnosis.recording import UNSEARCHED
-from heartfit.observation.beat_phases import BeatPhases
-from heartfit.tables.cause_card import card, missed, sentence, sized, spoken
-from heartfit.tables.cause_figure import plot_cause
+from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Trace, departures
+from heartfit.discovery.sphere_model.recording import UNSEARCHED
+from heartfit.observation.beat import BeatPhases
+from heartfit.results.cause_card import (
+    CURVES,
+    alternatives_text,
+    departure_sentence,
+    markdown_card,
+    mechanism_with_size,
+    spaced_name,
+    verdict_sentence,
+)
+from heartfit.results.cause_figure import plot_cause
+from tests.printed import numbers_in
 
 LEAK = Cause("MitralRegurgitation", 12.0, 3e-5, "m^2", (2e-5, 4e-5))
 DELAY = Cause("CatheterDelay", 11.0, 0.02, "s", (0.01, 0.03))
@@ -41,68 +49,119 @@ def diagnosis(verdict, mechanisms=(), **other):
     return Diagnosis(verdict, mechanisms, simulations=10, period=0.8, threshold=5.0, **{**kept, **other})
 
 
-@pytest.mark.parametrize(
-    ("verdict", "mechanisms", "expected"),
-    [
-        ("none", (), "nothing is missing"),
-        ("named", (LEAK,), "lacks mitral regurgitation of 0.3 cm² (95 % interval 0.2 to 0.4)."),
-        ("two", (LEAK, DELAY), "and catheter delay of 20 ms"),
-        ("group", (LEAK, DELAY), "one of mitral regurgitation, catheter delay"),
-        ("unknown", (), "no mechanism of the library"),
-        ("insufficient", (), "cannot tell"),
-    ],
-)
-def test_each_verdict_is_a_sentence(verdict, mechanisms, expected):
-    assert expected in sentence(diagnosis(verdict, mechanisms))
+VERDICTS = {
+    "none": (),
+    "named": (LEAK,),
+    "two": (LEAK, DELAY),
+    "group": (LEAK, DELAY),
+    "unknown": (),
+    "insufficient": (),
+}
+"""Mechanisms that a diagnosis of each verdict names."""
+SENTENCES = {
+    verdict: verdict_sentence(diagnosis(verdict, causes)).lower() for verdict, causes in VERDICTS.items()
+}
 
 
-def test_what_no_search_looked_at_is_not_called_explained():
+def test_each_verdict_has_its_own_sentence():
+    assert len(set(SENTENCES.values())) == len(VERDICTS)
+
+
+@pytest.mark.parametrize("verdict", VERDICTS)
+def test_a_sentence_names_the_mechanisms_of_its_verdict_and_no_other(verdict):
+    shown = {cause.name for cause in (LEAK, DELAY) if spaced_name(cause.name) in SENTENCES[verdict]}
+    assert shown == {cause.name for cause in VERDICTS[verdict]}
+
+
+def test_a_sentence_gives_sizes_with_intervals_but_not_of_a_group():
+    numbers = {verdict: set(numbers_in(text)) for verdict, text in SENTENCES.items()}
+    assert {0.3, 0.2, 0.4} <= numbers["named"] < numbers["two"]
+    assert {20.0, 10.0, 30.0} <= numbers["two"]
+    assert not any(numbers[verdict] for verdict in ("none", "group", "unknown", "insufficient"))
+
+
+def test_a_curve_that_departs_and_was_not_searched_is_excepted():
     departing = diagnosis(
         "none", traces=(replace(TRACE, curve="rv_volume"),), unsearched={"rv_volume": "no right side"}
     )
-    assert "but for the right ventricular volume, which was not searched" in sentence(departing)
-    assert "explains the recording: " in sentence(replace(departing, unsearched={}))
-    assert "RV volume (not searched) too low" in plot_cause(departing).axes[1].get_title()
+    searched = replace(departing, unsearched={})
+    assert CURVES["rv_volume"] in verdict_sentence(departing)
+    assert CURVES["rv_volume"] not in verdict_sentence(searched)
+    titles = [plot_cause(found).axes[1].get_title() for found in (departing, searched)]
+    assert titles[0] != titles[1]
+    assert [numbers_in(title) for title in titles] == [[4.7], [4.7]]
 
 
 def test_units_are_clinical():
-    assert sized(DELAY) == "catheter delay of 20 ms (95 % interval 10 to 30)"
-    assert spoken("MitralRegurgitation") == "mitral regurgitation"
+    assert {20.0, 10.0, 30.0} <= set(numbers_in(mechanism_with_size(DELAY)))
+    assert "ms" in mechanism_with_size(DELAY)
+    assert "cm²" in mechanism_with_size(LEAK)
+    assert spaced_name("MitralRegurgitation") == "mitral regurgitation"
 
 
-def test_what_is_missed_has_size_sign_and_phase():
-    (found,) = departures(diagnosis("unknown"))
-    assert missed(found) == (
-        "left ventricular volume: simulated 4.7 ± 1 mL too low in early filling, 4.7 standard deviations, "
-        "480 ms after the trigger."
-    )
+def test_a_departure_has_size_sign_phase_and_time():
+    (departure,) = departures(diagnosis("unknown"))
+    assert (departure.curve, departure.phase) == ("lv_volume", "early filling")
+    assert departure.size == pytest.approx(-4.70e-6, abs=1e-8)
+    assert departure.deviations == pytest.approx(-4.70, abs=1e-2)
+    assert departure.time == pytest.approx(0.48)
+    text = departure_sentence(departure)
+    assert [text.count(part) for part in (CURVES["lv_volume"], "early filling", "mL", " low")] == [1, 1, 1, 1]
+    assert {4.7, 1.0, 480.0} <= set(numbers_in(text))
+
+
+def test_a_departure_upwards_within_noise_or_without_phases_is_told_apart():
+    (higher,) = departures(diagnosis("unknown", traces=(replace(TRACE, lacking=-BUMP),)))
+    assert higher.deviations == pytest.approx(4.70, abs=1e-2)
+    assert " high" in departure_sentence(higher)
     (sound,) = departures(diagnosis("none", traces=(replace(TRACE, lacking=0.4 * BUMP),)))
-    assert missed(sound) == "left ventricular volume: nothing beyond its noise."
+    assert not sound.clear
+    assert CURVES["lv_volume"] in departure_sentence(sound)
+    assert numbers_in(departure_sentence(sound)) == []
     (timeless,) = departures(diagnosis("unknown", phases=None))
-    assert "too low, 4.7" in missed(timeless)
+    assert timeless.phase == ""
+    assert "early filling" not in departure_sentence(timeless)
+    assert 4.7 in numbers_in(departure_sentence(timeless))
 
 
-def test_what_was_not_searched_is_told():
-    told = card(diagnosis("none", unsearched=UNSEARCHED), "case 1")
-    assert "- right ventricular volume: not searched, the sphere" in told
+def bullets(text):
+    """Items of the lists of a card."""
+    return [line for line in text.splitlines() if line.startswith("- ")]
 
 
-def test_the_card_tells_withdrawn_names_alternatives_and_gains():
+def test_a_curve_that_was_not_searched_is_listed_with_the_reason():
+    listed = bullets(markdown_card(diagnosis("none", unsearched=UNSEARCHED), "case 1"))
+    for curve, reason in UNSEARCHED.items():
+        assert [line for line in listed if CURVES[curve] in line and reason in line]
+
+
+def test_the_card_lists_alternatives_gains_and_withdrawn_names():
     gain = Gain("lv_volume", "legs raised", 4e-6, 2e-6, 0.5, (0.4, 0.7))
-    told = card(diagnosis("group", (LEAK, DELAY), alternatives=(("CatheterDelay",),), gain=(gain,)), "case 1")
-    assert "- catheter delay" in told
-    assert "error times 0.50 (95 % interval 0.40 to 0.70)" in told
-    assert "withdrawn" in card(diagnosis("unknown", withdrawn=("CatheterDelay",)), "case 1")
+    group = diagnosis("group", (LEAK, DELAY), alternatives=(("CatheterDelay",),), gain=(gain,))
+    listed = bullets(markdown_card(group, "case 1"))
+    assert f"- {spaced_name('CatheterDelay')}" in listed
+    (gained,) = [line for line in listed if "legs raised" in line]
+    assert {0.5, 0.4, 0.7} <= set(numbers_in(gained))
+    withdrawn = markdown_card(diagnosis("unknown", withdrawn=("CatheterDelay",)), "case 1")
+    assert spaced_name("CatheterDelay") in withdrawn
+    assert spaced_name("CatheterDelay") not in markdown_card(diagnosis("unknown"), "case 1")
 
 
-def test_what_is_unknown_is_beside_the_best_of_the_library():
-    assert "mitral regurgitation, the best of it" in card(diagnosis("unknown"), "case 1")
+def test_where_the_cause_is_unknown_the_best_of_the_library_is_named():
+    assert spaced_name("MitralRegurgitation") in alternatives_text(diagnosis("unknown"))
+    assert spaced_name("MitralRegurgitation") not in alternatives_text(diagnosis("none"))
 
 
 def test_the_figure_has_a_row_for_each_curve_and_the_threshold():
-    figure = plot_cause(diagnosis("named", (LEAK,)))
-    curves, residuals, ranking = figure.axes
-    assert ranking.get_xlabel() == "ln Bayes factor\nover none"
-    assert {line.get_label() for line in curves.lines} >= {"measured", "simulated", "with the cause"}
-    assert residuals.get_title() == "LV volume too low in early filling: 4.7 sd"
+    curves, residuals, ranking = plot_cause(diagnosis("named", (LEAK,))).axes
+    assert set(ranking.lines[0].get_xdata()) == {5.0}
+    assert [len(bar.get_yticklabels()) for bar in (ranking,)] == [2]
+    assert labelled(curves) == labelled(plot_cause(diagnosis("unknown")).axes[0]) + 1 == 3
+    assert numbers_in(residuals.get_title()) == [4.7]
+    assert "early filling" in residuals.get_title()
     assert "IVC" in {text.get_text() for text in residuals.texts}
+
+
+def labelled(axes):
+    """Number of curves in the legend."""
+    return sum(not str(line.get_label()).startswith("_") for line in axes.lines)

@@ -4,15 +4,18 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.sequence import ImageSequence
+from heartfit.imaging.sequence import Grid, ImageSequence
 from heartfit.observation.cine import CineComparison
 from heartfit.observation.curve import Curve
 from heartfit.observation.operator import VolumeFeatures
-from heartfit.observation.outlines import Outline
-from heartfit.observation.wall_points import WallPoints
-from heartfit.tables.cine_figures import plot_outlines, plot_volumes
-from heartfit.tables.cine_tables import outline_table, short_axis_volume_table, wall_table
+from heartfit.observation.outlines import Outline, WallPoints
+from heartfit.results.cine import (
+    outline_table,
+    plot_outlines,
+    plot_volumes,
+    short_axis_volume_table,
+    wall_table,
+)
 
 FRAMES, ES = 8, 3
 NORMAL = np.array([0.0, 0.0, 1.0])

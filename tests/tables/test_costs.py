@@ -2,7 +2,7 @@
 
 import pytest
 
-from heartfit.tables.costs import OTHERS, WHOLE, Cost, cost_table, plot_costs, stage_of
+from heartfit.results.costs import OTHER_STAGE, WHOLE_STUDY, Cost, cost_table, plot_costs, stage_of
 
 COSTS = [
     Cost("volunteer1/paper/simulate_point_0", 60.0, 55.0, 300.0),
@@ -12,37 +12,37 @@ COSTS = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("job", "stage"),
-    [
-        ("compile_kernels", "kernels"),
-        ("templates/calibrator", "meshes"),
-        ("patient1/build_mesh", "meshes"),
-        ("lbbb1/record_pressure", "true beats"),
-        ("volunteer3/image_volunteer", "images"),
-        ("patient1/register_cine", "registration"),
-        ("lbbb2/physical/simulate_point_14", "calibration"),
-        ("lbbb2/physical/simulate_calibrated", "calibration"),
-        ("sensitivity/paper/simulate_surrounding_3", "sensitivity"),
-        ("registration_error/baseline/try_7", "registration error"),
-        ("cover_spheres", "spheres"),
-        ("volunteer1/paper/plot_case", OTHERS),
-        ("make_tables", OTHERS),
-    ],
-)
-def test_a_job_belongs_to_the_stage_that_its_name_says(job: str, stage: str) -> None:
-    assert stage_of(job) == stage
+STAGES = {
+    "compile_kernels": "kernels",
+    "templates/calibrator": "meshes",
+    "patient1/build_mesh": "meshes",
+    "lbbb1/record_pressure": "true beats",
+    "volunteer3/image_volunteer": "images",
+    "patient1/register_cine": "registration",
+    "lbbb2/physical/simulate_point_14": "calibration",
+    "lbbb2/physical/simulate_calibrated": "calibration",
+    "sensitivity/paper/simulate_surrounding_3": "sensitivity",
+    "registration_error/baseline/try_7": "registration error",
+    "cover_spheres": "spheres",
+    "volunteer1/paper/plot_case": OTHER_STAGE,
+    "make_tables": OTHER_STAGE,
+}
+"""Stage of a job by its name."""
+
+
+def test_a_job_belongs_to_the_stage_that_its_name_says() -> None:
+    assert {job: stage_of(job) for job in STAGES} == STAGES
 
 
 def test_stages_are_summed_from_the_dearest_and_the_paper_stands_beside_them() -> None:
     table = cost_table(COSTS).set_index("stage")
-    assert list(table.index) == ["calibration", "meshes", OTHERS, WHOLE]
+    assert list(table.index) == ["calibration", "meshes", OTHER_STAGE, WHOLE_STUDY]
     assert table.loc["calibration"].tolist() == pytest.approx(
         [2, 100.0, 93.0, 100.0 / 1.08, 320.0, 100.0 / 108.0]
     )
-    assert table.loc[WHOLE, "jobs"] == len(COSTS)
-    assert table.loc[WHOLE, "wall (s)"] == pytest.approx(108.0)
-    assert table.loc[WHOLE, "of the paper's 9 x 20 min (%)"] == pytest.approx(1.0)
+    assert table.loc[WHOLE_STUDY, "jobs"] == len(COSTS)
+    assert table.loc[WHOLE_STUDY, "wall (s)"] == pytest.approx(108.0)
+    assert table.loc[WHOLE_STUDY, "of the paper's 9 x 20 min (%)"] == pytest.approx(1.0)
 
 
 def test_the_figure_has_two_bars_for_each_stage() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from heartfit.tables.discovery_table import Proved, discovery_table
+from heartfit.results.discovery import DiscoveryResult, discovery_table
 
 CAUSE = {
     "verdict": "named",
@@ -26,7 +26,7 @@ PLANTED = [("MitralRegurgitation", 0.45e-4, "m^2")]
 
 def test_a_row_says_what_was_planted_what_was_named_and_what_it_gains() -> None:
     before = {"sigma_0": 220e3, "R_p": 1e8 * np.exp(0.2), "K": 5e5}
-    case = Proved("leak1", "physical", CAUSE, before, dict(TRUTH), PLANTED, TRUTH)
+    case = DiscoveryResult("leak1", "physical", CAUSE, before, dict(TRUTH), PLANTED, TRUTH)
     row = discovery_table([case]).iloc[0]
     assert row["planted"] == "MitralRegurgitation 0.45 cm²"
     assert row["named"] == "MitralRegurgitation 0.4 cm² (0.3 cm² to 0.5 cm²)"
@@ -38,7 +38,7 @@ def test_a_row_says_what_was_planted_what_was_named_and_what_it_gains() -> None:
 
 def test_where_nothing_is_named_the_best_of_the_ranking_is_told() -> None:
     cause = CAUSE | {"verdict": "none", "mechanisms": [], "ranking": {"unknown": 1.5, "Pericardium": 0.3}}
-    row = discovery_table([Proved("sound1", "physical", cause, {}, {}, [], {})]).iloc[0]
+    row = discovery_table([DiscoveryResult("sound1", "physical", cause, {}, {}, [], {})]).iloc[0]
     assert (row["planted"], row["named"], row["best of the ranking"], row["ln BF"]) == (
         "",
         "",

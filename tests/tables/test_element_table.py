@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from heartfit.diagnosis.cause import Gain
-from heartfit.diagnosis.rivals import Rival
+from heartfit.discovery.sphere_model.cause import Gain
 from heartfit.io.tables import write_figure
 from heartfit.observation.curve import Curve
-from heartfit.tables.element_figure import plot_element
-from heartfit.tables.element_table import element_table
+from heartfit.results.discovery import element_table, plot_element
+from heartfit.synthetic.element import CompetingModel
 
 TIMES = np.arange(25) * 0.032
 VOLUME = Curve(TIMES, 1e-4 + 3e-5 * np.cos(2.0 * np.pi * TIMES / 0.8), 0.8)
@@ -16,7 +15,7 @@ CURVES = {"lv_volume": VOLUME, "lv_pressure": PRESSURE}
 
 
 def rival(name, evidence, contractility, gains=()):
-    return Rival(name, evidence, 80.0, 57, 23, {"sigma_0": contractility}, CURVES, gains)
+    return CompetingModel(name, evidence, 80.0, 57, 23, {"sigma_0": contractility}, CURVES, gains)
 
 
 GAIN = Gain("lv_volume", "frames", 2e-6, 1e-6, 0.5, (0.4, 0.7))

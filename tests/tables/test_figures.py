@@ -8,7 +8,7 @@ from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import calibrate
 from heartfit.observation.curve import Curve
 from heartfit.observation.operator import VolumeFeatures
-from heartfit.tables.figures import plot_case, plot_sensitivity
+from heartfit.results.figures import plot_case, plot_sensitivity
 
 PERIOD = 0.8
 
@@ -43,7 +43,7 @@ def test_a_failed_beat_is_left_out() -> None:
 
 
 def test_sensitivities_are_bars_of_every_parameter_and_observation() -> None:
-    prior = Gaussian.of_relative({"sigma_0": 240e3, "mu": 7e3}, {"sigma_0": 0.2, "mu": 0.3})
+    prior = Gaussian.from_relative({"sigma_0": 240e3, "mu": 7e3}, {"sigma_0": 0.2, "mu": 0.3})
     outcomes = [{"V_min": 80 - 20 * point.z[0], "q_max": 400 + point.z[1]} for point in sigma_points(prior)]
     posterior = calibrate(prior, outcomes, outcomes[0])
     bars = plot_sensitivity(posterior, "real").axes[0].patches

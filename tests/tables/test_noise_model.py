@@ -6,13 +6,11 @@ import numpy as np
 import pytest
 
 from heartfit.io.tables import write_figure
-from heartfit.observation.coverage import Share
 from heartfit.observation.curve import Curve
-from heartfit.observation.noise_model import NoiseModel
-from heartfit.observation.pair import Pair, Reading
+from heartfit.observation.noise_model import NoiseModel, Share
+from heartfit.observation.operator import Pair, Reading
 from heartfit.observation.scatter import Scatter
-from heartfit.tables.noise_model_figure import plot_noise_model
-from heartfit.tables.noise_model_table import noise_model_table, sensor_table
+from heartfit.results.noise_model import noise_model_table, plot_noise_model, sensor_table
 
 PHASES = 10
 WAVE = np.sin(np.pi * np.arange(PHASES) / PHASES)
@@ -37,7 +35,7 @@ def pair(shrinkage: float) -> Pair:
 
 
 def test_bias_deviation_and_cover_stand_in_percent() -> None:
-    shares = dict.fromkeys(("V_min", "q_max", "lv_volume"), Share.of(23, 24))
+    shares = dict.fromkeys(("V_min", "q_max", "lv_volume"), Share.from_count(23, 24))
     table = noise_model_table(MODEL, shares).set_index("observation")
     assert table.loc["V_min", ["bias (%)", "sd (%)"]].tolist() == pytest.approx([20.0, 5.0])
     assert table.loc["q_max", ["bias (%)", "sd (%)"]].tolist() == pytest.approx([-20.0, 10.0])
@@ -62,7 +60,7 @@ def test_sensors_stand_in_percent_and_milliseconds() -> None:
 def test_fresh_sequences_are_drawn_in_the_intervals_of_the_model(tmp_path: Path) -> None:
     figure = plot_noise_model(MODEL, [pair(0.1), pair(0.2)])
     observations, errors, volume = figure.axes
-    bar, reach = observations.patches[0], MODEL.observations.reach()[0]
+    bar, reach = observations.patches[0], MODEL.observations.half_width()[0]
     assert bar.get_y() == pytest.approx(100.0 * (0.2 - reach))
     assert bar.get_height() == pytest.approx(200.0 * reach)
     v_min, q_max = (line.get_ydata() for line in observations.get_lines()[:2])

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pandas as pd
 import pytest
-from tests.tables.small_study import CASES
 
-from heartfit.tables.errors_table import PAPER
-from heartfit.tables.groups import Groups
-from heartfit.tables.patients_table import patient_errors, patient_parameters
+from heartfit.results.case import Groups
+from heartfit.results.errors import PAPER
+from heartfit.results.patients import patient_errors, patient_parameters
+from tests.tables.small_study import CASES
 
 GROUPS = Groups(("v1", "v2"), ("real",), ("lbbb1",))
 PUBLISHED = pd.DataFrame(

@@ -2,11 +2,11 @@
 
 import pandas as pd
 import pytest
-from tests.tables.small_study import CASES
 
-from heartfit.tables.errors_table import PAPER
-from heartfit.tables.groups import Groups, Origin
-from heartfit.tables.provenance import numbers_table
+from heartfit.results.case import Groups, Origin
+from heartfit.results.errors import PAPER
+from heartfit.results.provenance import numbers_table
+from tests.tables.small_study import CASES
 
 GROUPS = Groups(("v1", "v2"), ("real",), ("lbbb1",))
 ORIGIN = Origin(

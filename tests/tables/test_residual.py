@@ -3,12 +3,21 @@
 import numpy as np
 import pytest
 
-from heartfit.observation.beat_phases import BeatPhases
-from heartfit.observation.residual import CaseResidual, Misfit, Residual
+from heartfit.observation.beat import BeatPhases
+from heartfit.observation.residual import CaseResidual, Misfit, Residual, StrainResidual
 from heartfit.observation.strain import DIRECTIONS
-from heartfit.observation.strain_residual import StrainResidual
-from heartfit.tables.residual_figure import CONVERGED, ONE_STEP, plot_residual
-from heartfit.tables.residual_table import residual_table, segment_sentence, sentence
+from heartfit.results.residual import (
+    CAUTION,
+    CONVERGED,
+    CURVE_LABELS,
+    ONE_STEP,
+    SEGMENT_NAMES,
+    misfit_sentence,
+    plot_residual,
+    residual_table,
+    segment_misfit_sentence,
+)
+from tests.printed import numbers_in
 
 TIMES = 0.08 * np.arange(10)
 PHASES = BeatPhases(np.array([0.0, 0.06, 0.3, 0.36, 0.55, 0.65]), 0.8)
@@ -33,25 +42,31 @@ def test_one_row_per_sample_and_beat_and_one_per_segment_and_direction() -> None
 
 
 def test_the_sentence_says_which_curve_when_and_which_sign() -> None:
-    assert sentence(Misfit("lv_pressure", "ejection", 512.0, 3.21)) == (
-        "LV pressure in ejection: simulated 0.5 kPa too large (3.2 times its noise)"
+    larger, smaller = (
+        misfit_sentence(Misfit("lv_pressure", "ejection", sign * 512.0, sign * 3.21)) for sign in (1, -1)
     )
+    assert [part for part in (CURVE_LABELS["lv_pressure"], "ejection", "kPa") if part not in larger] == []
+    assert numbers_in(larger) == numbers_in(smaller) == [0.5, 3.2]
+    assert larger != smaller
 
 
 def test_a_segment_is_named_with_its_sign() -> None:
     difference = np.zeros((3, 16))
     difference[DIRECTIONS.index("circumferential"), 15] = -0.1
-    expected = "segment 16, apical lateral, shortens too much by 10 % of its length"
-    assert segment_sentence(StrainResidual(0.3, difference, None)) == expected
+    much, little = (segment_misfit_sentence(StrainResidual(0.3, sign * difference, None)) for sign in (1, -1))
+    assert SEGMENT_NAMES[15] in much
+    assert numbers_in(much) == numbers_in(little) == [16.0, 10.0]
+    assert much != little
     noisy = StrainResidual(0.3, -difference, np.full((3, 16), 0.05))
-    assert segment_sentence(noisy) == f"{expected.replace('much', 'little')} (2.0 times its noise)"
+    assert numbers_in(segment_misfit_sentence(noisy)) == [16.0, 10.0, 2.0]
 
 
 def test_the_figure_has_a_strip_per_curve_and_names_the_worst() -> None:
     figure = plot_residual(FOUND, "volunteer1, physical setting")
-    assert "simulated 4.0 mL too small" in figure.get_suptitle()
-    assert "segment 1, basal anterior, shortens too little by 2 %" in figure.get_suptitle()
-    assert "may be physics" in figure.get_supxlabel()
+    assert misfit_sentence(FOUND.misfits()[0]) in figure.get_suptitle()
+    assert segment_misfit_sentence(STRAIN) in figure.get_suptitle()
+    assert numbers_in(figure.get_suptitle().replace("volunteer1", "")) == [4.0, 2.0, 1.0, 2.0, 2.0]
+    assert figure.get_supxlabel() == CAUTION
     lines = figure.subfigs[0].axes[0].get_lines()
     assert {line.get_label() for line in lines} >= {ONE_STEP, CONVERGED}
 
@@ -59,4 +74,7 @@ def test_the_figure_has_a_strip_per_curve_and_names_the_worst() -> None:
 def test_a_beat_that_failed_is_said_so() -> None:
     nothing = CaseResidual((), None, None)
     assert residual_table(nothing).empty
-    assert "no beat was completed" in plot_residual(nothing, "volunteer1").get_suptitle()
+    figure = plot_residual(nothing, "volunteer1")
+    assert not figure.axes
+    assert figure.get_suptitle().startswith("volunteer1")
+    assert figure.get_suptitle() != "volunteer1"

@@ -7,13 +7,19 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from heartfit.beat import failed_beat
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.io.tables import read_shape, write_table
+from heartfit.heart.beat import failed_beat
+from heartfit.io.tables import read_shape, write_csv
 from heartfit.observation.shape import Shape
-from heartfit.tables.shape_figure import plot_shape
-from heartfit.tables.shape_table import COLUMNS, SPREAD, beat_shape_table, end_systole, shape_table
+from heartfit.results.motion import (
+    COLUMNS,
+    VOLUME_COLUMNS,
+    beat_shape_table,
+    end_systole_table,
+    plot_shape,
+    shape_table,
+)
 
 WAVE = np.sin(np.linspace(0.0, np.pi, 9))
 SHAPE = Shape(
@@ -34,12 +40,12 @@ def test_every_curve_is_printed_once_and_in_its_unit() -> None:
     assert {name for name, _ in COLUMNS.values()} | {"times", "volume"} == {f.name for f in fields(Shape)}
     middle = table.loc[4, list(COLUMNS)].tolist()
     assert middle == pytest.approx([16.0, 11.0, 5.0, 4.0, 50.0, 12.0, 60.0])
-    assert table.loc[4, list(SPREAD)].tolist() == pytest.approx([0.6, 1.0, 1.5])
+    assert table.loc[4, list(VOLUME_COLUMNS)].tolist() == pytest.approx([0.6, 1.0, 1.5])
 
 
 def test_end_systole_is_where_the_ventricle_is_smallest(ventricle: VentricularMesh) -> None:
     nothing = beat_shape_table(ventricle, failed_beat("no equilibrium", 0.8, 0.1, {}))
-    table = end_systole({"measured": shape_table(SHAPE), "calibrated": nothing})
+    table = end_systole_table({"measured": shape_table(SHAPE), "calibrated": nothing})
     row = table.set_index("at end systole").loc["twist (degrees)"]
     assert row["measured"] == pytest.approx(12.0)
     assert row["healthy adults"] == "12.6 ± 1.5"
@@ -48,7 +54,7 @@ def test_end_systole_is_where_the_ventricle_is_smallest(ventricle: VentricularMe
 
 
 def test_what_is_written_is_drawn(tmp_path: Path) -> None:
-    write_table(tmp_path / "shape.csv", shape_table(SHAPE))
+    write_csv(tmp_path / "shape.csv", shape_table(SHAPE))
     shapes = {"measured": shape_table(SHAPE), "calibrated": read_shape(tmp_path / "shape.csv")}
     figure = plot_shape(shapes, "patient")
     assert [axes.get_title() for axes in figure.axes[:7]] == list(COLUMNS)

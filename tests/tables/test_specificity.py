@@ -5,16 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.tables.card import Card
-from heartfit.tables.groups import Groups
-from heartfit.tables.specificity import Comparison, comparisons
-from heartfit.tables.specificity_figure import plot_specificity
-from heartfit.tables.specificity_table import claims_table, specificity_table
+from heartfit.results.card import Card
+from heartfit.results.case import Groups
+from heartfit.results.specificity import PatientComparison, compare_groups
+from heartfit.results.specificity_table import claims_table, plot_specificity, specificity_table
 
 
 @pytest.fixture
-def compared(cohort, groups) -> Comparison:
-    return comparisons(cohort, groups)[0]
+def compared(cohort, groups) -> PatientComparison:
+    return compare_groups(cohort, groups)[0]
 
 
 def test_only_what_is_estimated_in_everybody_is_compared(compared):
@@ -57,12 +56,12 @@ def unseen(card: Card) -> Card:
 
 
 def test_a_difference_that_the_data_do_not_see_is_warned_of(cohort, groups):
-    table = specificity_table(comparisons([unseen(card) for card in cohort], groups))
+    table = specificity_table(compare_groups([unseen(card) for card in cohort], groups))
     assert (table["warning"] != "").all()
     assert table["seen"].dropna().tolist() == pytest.approx([0.0] * 19, abs=1e-9), (
         "nothing is left of what was unshrunk"
     )
-    seen = specificity_table(comparisons(cohort, groups))
+    seen = specificity_table(compare_groups(cohort, groups))
     assert (seen["warning"] == "").all()
 
 
@@ -85,15 +84,17 @@ def test_K_is_held_against_the_true_stiffness(cohort, groups):
         )
         return replace(card, met=met, weighed=weighed)
 
-    found = comparisons([renamed(card) for card in cohort], groups)[0]
-    assert found.ratios("truth", "K") == pytest.approx(comparisons(cohort, groups)[0].ratios("truth", "c_1"))
+    found = compare_groups([renamed(card) for card in cohort], groups)[0]
+    assert found.ratios("truth", "K") == pytest.approx(
+        compare_groups(cohort, groups)[0].ratios("truth", "c_1")
+    )
     assert "K of lbbb2 above" in claims_table([found])["claim"].tolist()
 
 
 def test_one_patient_and_one_volunteer_are_compared_as_well(cohort, groups):
-    small = comparisons(cohort, Groups(groups.volunteers[:1], (), groups.patients[:1]))
+    small = compare_groups(cohort, Groups(groups.volunteers[:1], (), groups.patients[:1]))
     assert specificity_table(small)["least p"].dropna().unique() == pytest.approx([0.5])
-    assert comparisons(cohort, Groups(groups.volunteers)) == []
+    assert compare_groups(cohort, Groups(groups.volunteers)) == []
     assert specificity_table([]).empty
 
 
@@ -101,6 +102,6 @@ def test_the_figure_has_a_panel_per_parameter_and_grey_where_nothing_is_seen(coh
     figure = plot_specificity([compared])
     assert sum(axes.get_visible() for axes in figure.axes) == 4
     assert {axes.get_facecolor()[0] for axes in figure.axes} == {1.0}
-    grey = plot_specificity(comparisons([unseen(card) for card in cohort], groups))
+    grey = plot_specificity(compare_groups([unseen(card) for card in cohort], groups))
     assert all(axes.get_facecolor()[0] < 1.0 for axes in grey.axes)
     assert plot_specificity([]).axes

@@ -6,16 +6,14 @@ import numpy as np
 import pytest
 
 from heartfit.io.tables import write_figure
-from heartfit.tables.race_table import plot_race, race_table
-from heartfit.tables.sphere_coverage import plot_sphere_coverage, sphere_coverage_table
-from heartfit.twins.coverage import Coverage
-from heartfit.twins.race import Mark
+from heartfit.results.race import plot_race, plot_sphere_coverage, race_table, sphere_coverage_table
+from heartfit.synthetic.race import Coverage, MethodScore
 
 MARKS = [
-    *(Mark(heart, "prior", 0, 10.0, 1.0) for heart in range(5)),
-    *(Mark(heart, "unscented, R = 0", 9, float(heart), 0.1 * heart) for heart in range(5)),
-    Mark(5, "unscented, R = 0", 9, np.nan, 9.0),
-    Mark(0, "CMA-ES", 8, 3.0, 0.4),
+    *(MethodScore(heart, "prior", 0, 10.0, 1.0) for heart in range(5)),
+    *(MethodScore(heart, "unscented, R = 0", 9, float(heart), 0.1 * heart) for heart in range(5)),
+    MethodScore(5, "unscented, R = 0", 9, np.nan, 9.0),
+    MethodScore(0, "CMA-ES", 8, 3.0, 0.4),
 ]
 COVERAGES = [
     Coverage(world, way, ("sigma_0", "R_p"), np.array([[0.0, 3.0], [1.0, -1.0], [np.nan, np.nan]]))

@@ -6,11 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from heartfit.io.tables import read_shape, write_table
-from heartfit.observation.walls import Walls, septal_flash
-from heartfit.tables.shape_table import COLUMNS
-from heartfit.tables.walls_figure import plot_walls
-from heartfit.tables.walls_table import flash_table, walls_by_case, walls_table
+from heartfit.io.tables import read_shape, write_csv
+from heartfit.observation.strain import WallMotion, septal_flash
+from heartfit.results.motion import COLUMNS, flash_table, plot_walls, walls_by_case, walls_table
 
 TIMES = 0.01 * np.arange(80)
 WAVE = np.sin(np.pi * np.clip(TIMES / 0.4, 0.0, 1.0))
@@ -19,18 +17,18 @@ FLASH = np.interp(TIMES, [0.0, 0.05, 0.1, 0.3, 0.5, 0.8], [0.0, 4e-3, 3e-3, 5e-3
 NOTHING = pd.DataFrame(columns=["time (s)"])
 
 
-def walls(septal: np.ndarray) -> Walls:
-    return Walls(TIMES, septal, 5e-3 * WAVE, -0.2 * WAVE, -0.1 * WAVE, (150.0 - 70.0 * EJECTED) * 1e-6)
+def walls(septal: np.ndarray) -> WallMotion:
+    return WallMotion(TIMES, septal, 5e-3 * WAVE, -0.2 * WAVE, -0.1 * WAVE, (150.0 - 70.0 * EJECTED) * 1e-6)
 
 
-def shape(each: Walls) -> pd.DataFrame:
+def shape(each: WallMotion) -> pd.DataFrame:
     """The columns of a calibrated shape that its walls need."""
     rest = pd.DataFrame({"time (s)": each.times, "LV volume (mL)": 1e6 * each.cavity})
     return rest.join(walls_table(each))
 
 
 def test_a_calibrated_flash_is_that_of_the_file(tmp_path: Path) -> None:
-    write_table(tmp_path / "shape.csv", shape(walls(FLASH)))
+    write_csv(tmp_path / "shape.csv", shape(walls(FLASH)))
     calibrated = [read_shape(tmp_path / "shape.csv")]
     (motions,) = walls_by_case(["lbbb1"], ["physical"], [walls(FLASH)], [walls(WAVE)], calibrated).values()
     assert list(motions) == ["true", "registered", "physical"]

@@ -1,17 +1,15 @@
 """The page on one's own heart does what it says: its commands are run one after the other in a new folder."""
 
-import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from tests.checkout import ROOT, copy_project, environment_of
 from tests.documentation.blocks import blocks_of
 
-ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "own_heart.md"
-PARTS = ("Snakefile", "config", "resources", "src", "workflow")
 COARSE = "config/smoke.yaml"
 CAUSE = "results/mine/mine/discovery/physical/search/cause.json"
 
@@ -29,11 +27,7 @@ def steps() -> list[str]:
 @pytest.fixture
 def project(tmp_path: Path, measured_heart_folder: Path) -> Path:
     """A copy of the project with the published heart, as fetched, and the commands of an environment."""
-    for part in PARTS:
-        source, ignore = ROOT / part, shutil.ignore_patterns("__pycache__", "bivme_patient1")
-        shutil.copytree(source, tmp_path / part, ignore=ignore) if source.is_dir() else shutil.copy(
-            source, tmp_path
-        )
+    copy_project(tmp_path)
     (tmp_path / "resources" / "bivme_patient1").symlink_to(measured_heart_folder.resolve())
     return tmp_path
 
@@ -47,13 +41,18 @@ def command(step: str) -> list[str]:
         coarse = " ".join(arguments).replace("--configfile", f"--configfile {COARSE}").split()
         return [sys.executable, "-m", "snakemake", "--workflow-profile", "none", "--cores", "2", *coarse]
     assert program == ".venv/bin/heartfit", f"{program} is not run by this test"
-    return [sys.executable, "-c", "import sys; from heartfit.cli import main; sys.exit(main())", *arguments]
+    return [
+        sys.executable,
+        "-c",
+        "import sys; from heartfit.cli.main import main; sys.exit(main())",
+        *arguments,
+    ]
 
 
 @pytest.mark.long
 @pytest.mark.measured
 def test_every_step_of_the_page_ends_well(project: Path) -> None:
-    environment = os.environ | {"PYTHONPATH": str(project / "src")}
+    environment = environment_of(project)
     for step in steps():
         sys.stdout.write(f"$ {step}\n")
         done = subprocess.run(command(step), cwd=project, env=environment, capture_output=True, text=True)

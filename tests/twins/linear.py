@@ -4,16 +4,16 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from heartfit.calibration.forward import Outcome
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.cohort.hidden_heart import OTHERS
-from heartfit.heart import Heart
-from heartfit.twins.draw import Twins
+from heartfit.calibration.unscented import Outcome
+from heartfit.heart.heart import Heart
+from heartfit.synthetic.known_hearts import KnownHeartSampler
+from heartfit.synthetic.volunteer import OTHERS
 
 ESTIMATED = ("sigma_0", "mu", "c_1", "R_p")
 OBSERVED = ("V_min", "q_max", "q_min")
 SLOPES = np.random.default_rng(8).standard_normal((len(ESTIMATED) + len(OTHERS), len(OBSERVED)))
-PATHS = {name: Heart().path_of(name) for name in (*ESTIMATED, *OTHERS)}
+PATHS = {name: Heart().parameter_path(name) for name in (*ESTIMATED, *OTHERS)}
 STANDARD = {name: Heart().parameters()[path] for name, path in PATHS.items()}
 LEVEL = 20.0
 """Size of the observations beside their changes: relative noise then is nearly the same for all hearts."""
@@ -26,10 +26,10 @@ class Linear:
         self.heart = Heart()
         self._scale = np.array([1.0] * len(ESTIMATED) + [unseen] * len(OTHERS))
 
-    def __call__(self, parameters: Sequence[Mapping[str, float]]) -> list[Outcome]:
+    def observe_all(self, parameters: Sequence[Mapping[str, float]]) -> list[Outcome]:
         return [self._seen(each) for each in parameters]
 
-    def observed(self, heart: Heart) -> Outcome:
+    def observe(self, heart: Heart) -> Outcome:
         values = heart.parameters()
         return self._seen({name: values[path] for name, path in PATHS.items()})
 
@@ -43,7 +43,7 @@ class Linear:
         return (self._scale[:, None] * SLOPES)[[[*STANDARD].index(name) for name in names]]
 
 
-def linear_twins(noise: float = 0.01, unseen: float = 1.0) -> Twins:
+def linear_twins(noise: float = 0.01, unseen: float = 1.0) -> KnownHeartSampler:
     means = {name: STANDARD[name] for name in ESTIMATED}
-    prior = Gaussian.of_relative(means, dict.fromkeys(ESTIMATED, 0.2))
-    return Twins(Linear(unseen), prior, dict.fromkeys(OBSERVED, noise), seed=3)  # type: ignore[arg-type]
+    prior = Gaussian.from_relative(means, dict.fromkeys(ESTIMATED, 0.2))
+    return KnownHeartSampler(Linear(unseen), prior, dict.fromkeys(OBSERVED, noise), seed=3)  # type: ignore[arg-type]

@@ -2,18 +2,18 @@
 
 import numpy as np
 import pytest
-from tests.twins.linear import SLOPES, linear_twins
 
-from heartfit.cohort.hidden_heart import OTHER_SPREAD
-from heartfit.twins.coverage import Coverage, cover, fixed_noise
+from heartfit.synthetic.race import Coverage, fixed_noise, sphere_coverage
+from heartfit.synthetic.volunteer import OTHER_SPREAD
+from tests.twins.linear import SLOPES, linear_twins
 
 HEARTS = 150
 
 
 @pytest.fixture(scope="module")
 def pooled():
-    found = cover(linear_twins(noise=0.003, unseen=1.5), HEARTS)
-    return {(each.world, each.way): each.pooled() for each in found}
+    found = sphere_coverage(linear_twins(noise=0.003, unseen=1.5), HEARTS)
+    return {(each.world, each.noise): each.pooled() for each in found}
 
 
 def test_the_noise_suffices_where_nothing_else_is_unknown(pooled) -> None:

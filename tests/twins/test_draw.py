@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from tests.twins.linear import OBSERVED, linear_twins
 
-from heartfit.cohort.hidden_heart import OTHERS
-from heartfit.twins.draw import WORLDS
+from heartfit.synthetic.known_hearts import WORLDS
+from heartfit.synthetic.volunteer import OTHERS
+from tests.twins.linear import OBSERVED, linear_twins
 
 
 def test_a_heart_follows_from_its_number_and_has_one_truth_in_all_worlds() -> None:
@@ -22,7 +22,7 @@ def test_where_nothing_is_unknown_the_observations_are_the_model_s_but_for_noise
     errors = []
     for number in range(200):
         twin = twins.draw(number, "nothing")
-        (true,) = twins.model([twins.prior.physical(twin.truth)])
+        (true,) = twins.model.observe_all([twins.prior.physical(twin.truth)])
         errors.append([twin.observed[name] / true[name] - 1.0 for name in OBSERVED])
     assert np.std(errors, axis=0) == pytest.approx(0.01, rel=0.12)
     assert np.sqrt(np.diag(twin.noise)) == pytest.approx([0.01 * twin.observed[name] for name in OBSERVED])

@@ -2,20 +2,26 @@
 
 import numpy as np
 import pytest
-from tests.twins.linear import linear_twins
 
-from heartfit.calibration.evolution import installed
+from heartfit.calibration.alternatives import has_cma
 from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import calibrate
-from heartfit.twins.race import Problem, errors, methods, race, race_twins
+from heartfit.synthetic.race import (
+    CalibrationProblem,
+    compare_methods,
+    compare_on_spheres,
+    estimate_errors,
+    methods,
+)
+from tests.twins.linear import linear_twins
 
 TWINS = linear_twins()
 TWIN = TWINS.draw(0, "nothing")
-PROBLEM = Problem(TWINS.model, TWINS.prior, TWIN.observed, TWIN.noise, TWIN.truth)
+PROBLEM = CalibrationProblem(TWINS.model.observe_all, TWINS.prior, TWIN.observed, TWIN.noise, TWIN.truth)
 
 
 def test_simulations_are_those_of_the_points_and_stay_within_the_most() -> None:
-    marks = race(PROBLEM, methods(30, 2), 30, heart=7)
+    marks = compare_methods(PROBLEM, methods(30, 2), 30, heart=7)
     counts = {name: [mark.simulations for mark in marks if mark.method == name] for name in marks_of(marks)}
     assert counts.pop("CMA-ES", [8, 16, 24]) == [8, 16, 24]
     assert counts == {
@@ -36,27 +42,29 @@ def test_a_method_that_loses_its_points_is_stopped_and_the_others_go_on() -> Non
     def forward(parameters):
         return ["no beat"] * len(parameters)
 
-    marks = race(Problem(forward, TWINS.prior, TWIN.observed, TWIN.noise, TWIN.truth), methods(30, 2), 30)
-    assert marks_of(marks) == ["prior", "CMA-ES"][: 1 + installed()]
+    marks = compare_methods(
+        CalibrationProblem(forward, TWINS.prior, TWIN.observed, TWIN.noise, TWIN.truth), methods(30, 2), 30
+    )
+    assert marks_of(marks) == ["prior", "CMA-ES"][: 1 + has_cma()]
     assert np.isnan(marks[0].observations)
 
 
 def test_errors_are_zero_at_the_truth_of_an_exact_measurement_and_one_a_deviation_away() -> None:
-    (exact,) = TWINS.model([TWINS.prior.physical(TWIN.truth)])
-    problem = Problem(TWINS.model, TWINS.prior, exact, TWIN.noise, TWIN.truth)
-    assert errors(problem, TWIN.truth) == pytest.approx((0.0, 0.0), abs=1e-9)
-    assert errors(problem, TWIN.truth + TWINS.prior.sd)[1] == pytest.approx(1.0)
+    (exact,) = TWINS.model.observe_all([TWINS.prior.physical(TWIN.truth)])
+    problem = CalibrationProblem(TWINS.model.observe_all, TWINS.prior, exact, TWIN.noise, TWIN.truth)
+    assert estimate_errors(problem, TWIN.truth) == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert estimate_errors(problem, TWIN.truth + TWINS.prior.sd)[1] == pytest.approx(1.0)
 
 
 def test_on_a_linear_map_every_unscented_step_is_the_posterior() -> None:
-    outcomes = TWINS.model([point.parameters for point in sigma_points(TWINS.prior)])
+    outcomes = TWINS.model.observe_all([point.parameters for point in sigma_points(TWINS.prior)])
     posterior = calibrate(TWINS.prior, outcomes, TWIN.observed, TWIN.noise).estimate
-    expected = errors(PROBLEM, posterior.mean)
-    for mark in race(PROBLEM, methods(30, 2), 30):
+    expected = estimate_errors(PROBLEM, posterior.mean)
+    for mark in compare_methods(PROBLEM, methods(30, 2), 30):
         if mark.method in ("unscented, R > 0", "simplex, R > 0"):
             assert (mark.observations, mark.parameters) == pytest.approx(expected, rel=1e-6)
 
 
 def test_hearts_are_numbered() -> None:
-    marks = race_twins(linear_twins(), 2, 30, 1)
+    marks = compare_on_spheres(linear_twins(), 2, 30, 1)
     assert {mark.heart for mark in marks} == {0, 1}

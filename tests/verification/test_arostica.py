@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from heartfit.verification.arostica import END, LAW, SmoothControl, active_stress
-from heartfit.verification.arostica_checks import MAXIMUM, TIME
-from heartfit.verification.convergence import order
+from verification.arostica import END, LAW, MAXIMUM, TIME, SmoothControl, active_stress
+from verification.block_checks import order
 
 
 @pytest.fixture(scope="module")

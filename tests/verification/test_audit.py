@@ -4,21 +4,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.shrinking import assert_derivative
 
-from heartfit.beat import Beat
-from heartfit.heart import Heart
-from heartfit.mechanics.body import FiniteElementBody, Tissue
-from heartfit.verification.audit import audit, energies
-from heartfit.verification.audit_blood import isovolumic_drift, lost_blood
-from heartfit.verification.audit_checks import LONG_STEP, SMALL, apart, reference, watched
-from heartfit.verification.block import cube
+from heartfit.geometry.cube import cube
+from heartfit.heart.beat import Beat
+from heartfit.heart.finite_elements.body import FiniteElementBody, Tissue
+from heartfit.heart.heart import Heart
+from tests.shrinking import assert_derivative
+from verification.audit import audit, energies, isovolumic_drift, lost_blood
+from verification.audit_checks import LONG_STEP, SMALL, max_relative_difference, reference, watched
 
 
 @pytest.mark.parametrize("element", ["p1", "mixed"])
 def test_static_forces_are_the_derivative_of_what_is_stored(element: str) -> None:
     body = FiniteElementBody(cube(2, 0.04), Tissue(element=element))
-    step, rng = body.endless_step(body.rest()), np.random.default_rng(2)
+    step, rng = body.static_step(body.rest()), np.random.default_rng(2)
     scale = np.append(np.full(3, 5e-4), np.full(body.element.dofs - 3, 1e3))
     x, direction = (scale * rng.standard_normal(body.rest().x.shape) for _ in range(2))
 
@@ -38,7 +37,7 @@ def test_an_audit_by_other_parameters_does_not_close(spoilt: str) -> None:
     """The remainder moves by the share of the parameter; round-off of the same states is below 1e-12."""
     seen = watched(LONG_STEP)
     heart = Heart()
-    value = heart.parameters()[heart.path_of(spoilt)]
+    value = heart.parameters()[heart.parameter_path(spoilt)]
     body = FiniteElementBody(reference(), heart.with_parameters({spoilt: 3.0 * value}).tissue)
     other = audit(body, seen.states, heart.period)
     assert abs(other.remainder - seen.audit.remainder) > 1e-8 * seen.audit.ejecting
@@ -69,4 +68,4 @@ def test_isovolumic_drift_is_the_worst_phase() -> None:
 
 def test_curves_are_compared_by_their_largest_value() -> None:
     first, second = {"V": np.array([0.0, 4.0])}, {"V": np.array([1.0, 4.0])}
-    assert apart(first, second) == pytest.approx(0.25)
+    assert max_relative_difference(first, second) == pytest.approx(0.25)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from heartfit.verification.check import AtLeast, Check
+from verification.check import AtLeast, Check
 
 
 @pytest.mark.parametrize(

@@ -4,10 +4,16 @@ import numpy as np
 import pytest
 
 from heartfit.geometry.cavity import Cavity
-from heartfit.geometry.topology import boundary_faces, euler_characteristic
-from heartfit.verification.equilibrium import Balance, equilibrium, pressure_force
-from heartfit.verification.land import bent_beam, contracting_ventricle, inflated_ventricle
-from heartfit.verification.land_meshes import fibre_direction, half_beam, ventricle
+from heartfit.geometry.surface import boundary_faces, euler_characteristic
+from verification.equilibrium import Balance, equilibrium, pressure_force
+from verification.land import (
+    bent_beam,
+    contracting_ventricle,
+    fibre_direction,
+    half_beam,
+    inflated_ventricle,
+    ventricle,
+)
 
 
 def cut_ellipsoid(r_s: float, r_l: float, z: float = 5.0) -> float:
@@ -21,7 +27,7 @@ def test_wall_and_cavity_converge_to_those_of_the_ellipsoids(refined):
     errors = []
     for n in (1, 2):
         mesh = ventricle(8 * n, 4 * n, 2 * n, refined)
-        cavity = 1e9 * Cavity.of(mesh, "lv_endo").volume(mesh.points)
+        cavity = 1e9 * Cavity.from_endocardium(mesh, "lv_endo").volume(mesh.points)
         errors.append([1.0 - cavity / inner, 1.0 - 1e9 * mesh.wall_volume() / (outer - inner)])
     assert (np.log2(np.array(errors[:-1]) / np.array(errors[1:])) > 1.8).all()
 
@@ -47,7 +53,7 @@ def test_fibres_run_along_the_meridian_at_the_surfaces_and_around_at_mid_wall():
 def test_the_force_of_a_pressure_is_the_slope_of_the_volume_and_vanishes_on_a_closed_surface():
     mesh = ventricle(4, 2, 1)
     inside = mesh.points[:, 2] < 4.9e-3
-    gradient = Cavity.of(mesh, "lv_endo").gradient(mesh.points)
+    gradient = Cavity.from_endocardium(mesh, "lv_endo").gradient(mesh.points)
     assert pressure_force(mesh.points, mesh.surfaces["lv_endo"])[inside] == pytest.approx(gradient[inside])
     assert pressure_force(mesh.points, boundary_faces(mesh.tets)).sum(axis=0) == pytest.approx(0.0, abs=1e-18)
 
@@ -77,7 +83,7 @@ def test_a_small_load_bends_the_beam_as_the_theory_of_slender_beams_says():
 def test_the_pressure_alone_makes_the_ventricle_larger_and_the_tension_smaller():
     loads = [inflated_ventricle((4, 2, 1)), contracting_ventricle((4, 2, 1))]
     for loading, sign in zip(loads, (1.0, -1.0), strict=True):
-        cavity = Cavity.of(loading.mesh, "lv_endo")
+        cavity = Cavity.from_endocardium(loading.mesh, "lv_endo")
         moved = loading.mesh.points + equilibrium(loading)[:, :3]
         assert sign * (cavity.volume(moved) - cavity.volume(loading.mesh.points)) > 0.0
 

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.shrinking import assert_derivative
 
-from heartfit.mechanics.assembly import add_stresses
-from heartfit.mechanics.kinematics import COLUMN, ROW, VOIGT, fibre_dyads
-from heartfit.mechanics.passive.mooney_rivlin import MooneyRivlin
-from heartfit.verification.manufactured import FIBRE, Manufactured
+from heartfit.heart.finite_elements.assembly import add_stresses
+from heartfit.heart.finite_elements.kinematics import COLUMN, ROW, VOIGT, fibre_dyads
+from heartfit.heart.muscle.passive import MooneyRivlin
+from tests.shrinking import assert_derivative
+from verification.block import FIBRE, Manufactured
 
 STEP = 1e-30
 

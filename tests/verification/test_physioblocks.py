@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.shrinking import assert_derivative
 
-from heartfit.beat import Beat
-from heartfit.verification.physioblocks import (
+from heartfit.heart.beat import Beat
+from tests.shrinking import assert_derivative
+from verification.physioblocks import (
     ACTIVATION,
     INERTIA,
     PERIOD,

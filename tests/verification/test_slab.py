@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from heartfit.verification.slab import CHASTE_CORNER, SIZE, SPEED, exact, slab
+from verification.slab import CHASTE_CORNER, SIZE, SPEED, exact, slab
 
 GRID = (7, 15, 41)
 SPACING = 0.5e-3

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PARTS = ("Snakefile", "workflow", "config", "resources", "profiles", "src")
+PARTS = ("Snakefile", "workflow", "config", "resources", "profiles", "src", "docs/templates")
 
 
 class Workflow:

@@ -1,11 +1,32 @@
 """The graph of jobs: how many, who reads what, what is done again and what is refused."""
 
+import json
 import re
 
 import pytest
 
 VOLUNTEERS, PATIENTS, SETTINGS = 7, 2, 2
 POINTS_OF_COHORT = SETTINGS * (VOLUNTEERS * 9 + PATIENTS * 15)
+
+
+LIST_RULES = """
+import json
+
+with open("rules.json", "w") as file:
+    json.dump(
+        {
+            item.name: {
+                "log": [str(path) for path in item.log],
+                "benchmark": str(item.benchmark),
+                "resources": list(item.resources),
+                "params": list(item.params.keys()),
+            }
+            for item in workflow.rules
+            if item.script
+        },
+        file,
+    )
+"""
 
 
 def job_counts(output):
@@ -104,7 +125,7 @@ def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(p
 def test_an_edit_of_the_library_repeats_what_rests_on_it_and_nothing_else(drawn):
     workflow, points = drawn
     assert "Nothing to be done" in workflow.snakemake("-n", points).stdout
-    with workflow.edited("src/heartfit/registration/carry.py", "# elsewhere\n"):
+    with workflow.edited("src/heartfit/geometry/carry.py", "# elsewhere\n"):
         assert "Nothing to be done" in workflow.snakemake("-n", points).stdout
     with workflow.edited("src/heartfit/calibration/gaussian.py", "# below\n"):
         assert job_counts(workflow.snakemake("-n", points).stdout)["draw_sigma_points"] == 1
@@ -116,6 +137,43 @@ def test_an_edit_of_the_configuration_repeats_what_it_concerns_and_nothing_else(
     for text, expected in ((elsewhere, "Nothing to be done"), (here, "draw_sigma_points")):
         (workflow.folder / "config" / "other.yaml").write_text(text)
         assert expected in workflow.snakemake("-n", "--configfile", "config/other.yaml", "--", points).stdout
+
+
+def test_every_job_has_a_log_a_benchmark_resources_and_a_code_fingerprint(workflow):
+    workflow.edit("Snakefile", LIST_RULES)
+    run = workflow.snakemake("--list")
+    assert run.returncode == 0, run.stdout
+    rules = json.loads((workflow.folder / "rules.json").read_text())
+    paths = {name: item["benchmark"] for name, item in rules.items()}
+    assert [item["log"] for item in rules.values()] == [
+        [path.replace("results/benchmarks/", "results/logs/").replace(".tsv", ".log")]
+        for path in paths.values()
+    ]
+    assert not [name for name, item in rules.items() if not {"mem_mb", "runtime"} <= {*item["resources"]}]
+    assert [name for name, item in rules.items() if "code" not in item["params"]] == ["fetch_measured_heart"]
+    expected = {
+        "compile_kernels": "compile_kernels",
+        "build_template": "templates/{template}",
+        "build_measured_mesh": "{case}/build_mesh",
+        "simulate_point": "{case}/{setting}/simulate_point_{point}",
+        "simulate_surrounding": "sensitivity/{setting}/simulate_surrounding_{point}",
+        "try_acquisition": "registration_error/{acquisition}/try_{number}",
+        "try_mechanism": "{case}/{setting}/try_mechanism_{mechanism}",
+        "diagnose_planted": "discovery_benchmark/diagnose_planted_{batch}",
+    }
+    without_constraints = {name: re.sub(r",[^}]*", "", paths[name]) for name in expected}
+    assert without_constraints == {name: f"results/benchmarks/{path}.tsv" for name, path in expected.items()}
+
+
+def test_a_rule_without_measured_costs_is_refused_in_one_line(workflow):
+    costs = workflow.folder / "resources" / "costs.tsv"
+    lines = costs.read_text().splitlines(keepends=True)
+    costs.write_text("".join(line for line in lines if not line.startswith("plot_case\t")))
+    run = workflow.snakemake("-n")
+    assert run.returncode != 0
+    refusal = "costs.tsv: no job plot_case; expected its measured costs: state mem_mb and runtime in the rule"
+    assert len([line for line in run.stdout.splitlines() if refusal in line]) == 1
+    assert "Traceback" not in run.stdout
 
 
 def test_no_input_is_ancient(workflow):
@@ -147,6 +205,20 @@ def test_numbers_are_checked_where_it_is_asked_for(workflow, planned):
     assert job_counts(run.stdout)["check_numbers"] == job_counts(run.stdout)["make_tables"] == 1
     job = dict(jobs(run.stdout))["check_numbers"]
     assert inputs(job) == ["results/smoke/tables/numbers.csv", "config/smoke_tolerances.tsv"]
+
+
+def test_a_proof_reads_the_search_and_none_of_its_beats(workflow):
+    proof = "results/lbbb1/discovery/physical/cause.json"
+    run = workflow.snakemake("-n", "--", proof)
+    assert run.returncode == 0, run.stdout
+    assert job_counts(run.stdout)["search_cause"] == 1
+    assert (
+        readers(run.stdout, "/search/cause.json")
+        == readers(run.stdout, "/search/traces.json")
+        == {"prove_cause"}
+    )
+    (read,) = (inputs(job) for rule, job in jobs(run.stdout) if rule == "prove_cause")
+    assert not [name for name in read if "/beats/" in name]
 
 
 def test_answers_are_read_by_the_scorer_only(workflow):

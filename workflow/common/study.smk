@@ -1,48 +1,76 @@
-"""What is studied, by name."""
+"""The configured study: its cases and settings by name, and the element of the study that a job's wildcards select."""
 
+import os
 import re
+from pathlib import Path
 
-from heartfit.tables.groups import Groups, Origin
+from snakemake.exceptions import WorkflowError
+
+from heartfit.core.errors import InputError
+from heartfit.io.configuration import read_configuration
+from heartfit.io.plan import plan_study
+from heartfit.io.run import Run
+from heartfit.io.files import keep_sums
+from heartfit.results.case import Groups, Origin
+
+# one thread per job: Snakemake runs the jobs in parallel
+for library in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
+    os.environ[f"{library}_NUM_THREADS"] = "1"
+
+try:
+    read_configuration(map(Path, workflow.configfiles))  # refuses duplicate keys, which Snakemake accepts
+    PLAN = plan_study(config, thorough=workflow.is_main_process)
+    RUN = Run(PLAN.study.results) if workflow.is_main_process else None  # jobs leave earlier results alone
+except InputError as problem:
+    raise WorkflowError(str(problem)) from None
+for line in [PLAN.left_out, *(RUN.put_in_order() if RUN else [])]:
+    if line:
+        logger.warning(line)
+
+
+onstart:
+    keep_sums(PLAN.study.results)
+
 
 STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources
 SETTINGS = list(STUDY.settings)
+CALIBRATIONS = [(case, setting) for case in CASES for setting in SETTINGS]
+
+# names of cases, by what their data allow
+VIRTUAL = [name for name, case in CASES.items() if case.kind == "virtual"]
+CATHETERISED = [name for name in VIRTUAL if CASES[name].catheter]
 SEGMENTED = [name for name, source in SOURCES.items() if source.segmented]
 FITTED = [name for name, source in SOURCES.items() if not source.segmented]
 IMAGED = [name for name, source in SOURCES.items() if source.images]
-CINE = [name for name in FITTED if name in IMAGED]
+FITTED_WITH_IMAGES = [name for name in FITTED if name in IMAGED]
 RECORDED = [name for name, source in SOURCES.items() if source.pressure]
-VIRTUAL = [name for name, case in CASES.items() if case.kind == "virtual"]
 GROUPS = Groups(
     volunteers=tuple(name for name in VIRTUAL if CASES[name].healthy),
     measured=tuple(name for name in SOURCES if CASES[name].healthy),
     patients=tuple(name for name in VIRTUAL if not CASES[name].healthy),
     measured_patients=tuple(name for name in SOURCES if not CASES[name].healthy),
 )
-DYSSYNCHRONY = [*GROUPS.volunteers[:1], *GROUPS.patients]
-HIDDEN = {
-    "mesh": "heart.vtu",
-    "motion": "motion.npz",
-    "beat": "beat.json",
-    "curves": "beat.csv",
-    "truth": "truth.json",
-}
-CATHETERISED = [name for name in VIRTUAL if CASES[name].catheter]
+SEPTAL_FLASH_CASES = [*GROUPS.volunteers[:1], *GROUPS.patients]
 
-ERROR = STUDY.registration_error
+# virtual image sequences of known motion, numbered by acquisition: the noise model learns from the baseline's
+REGISTRATION_ERROR = STUDY.registration_error
+SEQUENCES = {
+    "baseline": range(REGISTRATION_ERROR.sequences),
+    **{name: range(REGISTRATION_ERROR.varied_sequences) for name in REGISTRATION_ERROR.acquisitions()},
+}
+VALIDATION_SEQUENCES = range(
+    REGISTRATION_ERROR.sequences, REGISTRATION_ERROR.sequences + REGISTRATION_ERROR.fresh
+)
+
+# cases and settings whose heart is refitted and extended in 3-D; those with known truth
 DISCOVERY = STUDY.discovery
-PROVED = [(case, setting) for case in DISCOVERY.cases if case in CASES for setting in DISCOVERY.settings]
-EVALUATED = [(case, setting) for case, setting in PROVED if CASES[case].kind == "virtual"]
-NOISE_MODEL = "<results>/registration_error/noise_model.json"
-TRIED = {
-    "baseline": range(ERROR.sequences),
-    **{acquisition: range(ERROR.varied_sequences) for acquisition in ERROR.acquisitions()},
-}
-TRIALS = [(acquisition, number) for acquisition, numbers in TRIED.items() for number in numbers]
-FRESH = range(ERROR.sequences, ERROR.sequences + ERROR.fresh)
+REFITTED = [(case, setting) for case in DISCOVERY.cases if case in CASES for setting in DISCOVERY.settings]
+REFITTED_VIRTUAL = [(case, setting) for case, setting in REFITTED if CASES[case].kind == "virtual"]
 
-BATCHES = dict(enumerate(STUDY.discovery_benchmark.batches()))
+# cases of the discovery benchmark: batches of spheres, and single ventricles by number
+SPHERE_BATCHES = dict(enumerate(STUDY.discovery_benchmark.batches()))
 VENTRICLES = STUDY.discovery_benchmark.ventricles
-HIDDEN_IN_3D = dict(enumerate(VENTRICLES.plans()))
+VENTRICLE_CASES = dict(enumerate(VENTRICLES.plans()))
 
 
 wildcard_constraints:
@@ -50,6 +78,66 @@ wildcard_constraints:
     setting="|".join(SETTINGS),
     point=r"\d+",
     number=r"\d+",
-    acquisition="|".join(map(re.escape, TRIED)),
+    acquisition="|".join(map(re.escape, SEQUENCES)),
     batch=r"\d+",
     mechanism=r"\w+",
+
+
+def match_any(names):
+    """Wildcard constraint: one of these names; none of them, where the list is empty."""
+    return "|".join(names) or "no-such-case"
+
+
+def case_of(wildcards):
+    return CASES[wildcards.case]
+
+
+def filling_pressures_of(wildcards):
+    """Pressures of a case at end diastole."""
+    return STUDY.filling_pressures(case_of(wildcards))
+
+
+def setting_of(wildcards):
+    """Setting for a case; without the case's pressures where a job has no case."""
+    return STUDY.setting(wildcards.setting, CASES.get(wildcards.get("case")))
+
+
+def perturbed_setting_of(wildcards):
+    """Setting that frees all parameters which are perturbed one at a time about the prior's mean."""
+    return STUDY.perturbation_setting(wildcards.setting)
+
+
+def element_setting(_):
+    """Setting in which two elements are compared; a function, since a study may have none."""
+    return STUDY.element_setting()
+
+
+def template_size_of(wildcards):
+    return STUDY.templates()[wildcards.template]
+
+
+def source_of(wildcards):
+    """Data of a measured case."""
+    return SOURCES[wildcards.case]
+
+
+def source_without_pressure(wildcards):
+    """Data of a measured case that its mesh and motion depend on."""
+    return source_of(wildcards).model_copy(update={"pressure": None})
+
+
+def scanner_of(wildcards):
+    return STUDY.scanner(wildcards.acquisition)
+
+
+def sphere_batch_of(wildcards):
+    return SPHERE_BATCHES[int(wildcards.batch)]
+
+
+def ventricle_case_of(wildcards):
+    return VENTRICLE_CASES[int(wildcards.number)]
+
+
+def results_folder(_):
+    """Folder of all results; a function, since Snakemake's lint takes the text for a hard-coded prefix of outputs."""
+    return STUDY.results

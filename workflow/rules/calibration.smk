@@ -1,17 +1,18 @@
+# compiled once before any beat: many jobs would otherwise compile the same kernels at the same time
+rule compile_kernels:
+    output:
+        "<results>/kernels.json",
+    script:
+        "../scripts/compile_kernels.py"
+
+
 rule draw_sigma_points:
     output:
         "<results>/{case}/{setting}/calibration/points.json",
-    log:
-        "<logs>/{case}/{setting}/draw_sigma_points.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/draw_sigma_points.tsv"
-    resources:
-        **needs("draw_sigma_points"),
     params:
         setting=setting_of,
         transform=STUDY.unscented,
-        stated=stated(setting_of, STUDY.unscented),
-        code=code("draw_sigma_points.py"),
+        stated=configuration_text(setting_of, STUDY.unscented),
     script:
         "../scripts/draw_sigma_points.py"
 
@@ -24,20 +25,13 @@ rule simulate_point:
     output:
         beat="<results>/{case}/{setting}/calibration/beats/{point}.json",
         curves="<results>/{case}/{setting}/calibration/beats/{point}.csv",
-    log:
-        "<logs>/{case}/{setting}/simulate_point_{point}.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/simulate_point_{point}.tsv"
-    resources:
-        **needs("simulate_point"),
     params:
         case=case_of,
         setting=setting_of,
-        pressures=filling_of,
+        pressures=filling_pressures_of,
         scheme=STUDY.numerics,
-        mechanisms=mechanisms_of,
-        stated=stated(case_of, setting_of, STUDY.numerics, filling_of),
-        code=code("simulate_point.py"),
+        mechanisms=setting_mechanisms,
+        stated=configuration_text(case_of, setting_of, STUDY.numerics, filling_pressures_of),
     script:
         "../scripts/simulate_point.py"
 
@@ -51,18 +45,39 @@ rule update_parameters:
         sensitivity="<results>/sensitivity/{setting}/sensitivity.json",
     output:
         multiext("<results>/{case}/{setting}/calibration/posterior", met=".json", weighed="_noise.json"),
-    log:
-        "<logs>/{case}/{setting}/update_parameters.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/update_parameters.tsv"
-    resources:
-        **needs("update_parameters"),
     params:
         setting=setting_of,
-        mechanisms=mechanisms_of,
+        mechanisms=setting_mechanisms,
         operator=STUDY.observation,
         transform=STUDY.unscented,
-        stated=stated(setting_of, STUDY.unscented, STUDY.observation),
-        code=code("update_parameters.py"),
+        stated=configuration_text(setting_of, STUDY.unscented, STUDY.observation),
     script:
         "../scripts/update_parameters.py"
+
+
+rule compare_alternatives:
+    input:
+        kernels="<results>/kernels.json",
+    output:
+        table=table_files("alternatives"),
+        figure=figure_files("alternatives", "alternatives", "Methods"),
+    params:
+        study=STUDY.sphere_study,
+        samplers=STUDY.known_hearts(),
+        stated=configuration_text(STUDY.known_hearts(), STUDY.sphere_study),
+    script:
+        "../scripts/compare_alternatives.py"
+
+
+rule cover_spheres:
+    input:
+        kernels="<results>/kernels.json",
+    output:
+        table=table_files("coverage_sphere"),
+        figure=figure_files("coverage_sphere", "coverage", "Methods"),
+    params:
+        study=STUDY.sphere_study,
+        samplers=STUDY.known_hearts(),
+        stated=configuration_text(STUDY.known_hearts(), STUDY.sphere_study),
+    script:
+        "../scripts/cover_spheres.py"

@@ -1,13 +1,13 @@
 MEASURED_CASE = {
     "measured": "<results>/{case}/curves/measured.csv",
-    "noise": noise_of,
+    "noise": noise_model,
 }
 IMAGED_CASE = MEASURED_CASE | {
     "mesh": "<results>/{case}/geometry/mesh.vtu",
     "registered": "<results>/{case}/registration/motion.npz",
 }
 CALIBRATED_CASE = IMAGED_CASE | {
-    "known": sequences_of_known_truth,
+    "known": noise_training_sequences,
     "beats": calibrated_beats("beat"),
     "motions": calibrated_beats("motion"),
     "fitted": calibrated_beats("fitted"),
@@ -15,22 +15,14 @@ CALIBRATED_CASE = IMAGED_CASE | {
 REFITTED_CASE = IMAGED_CASE | {
     "kernels": "<results>/kernels.json",
 }
-GIVEN = {
+REFIT_PARAMS = {
     "case": case_of,
     "setting": setting_of,
-    "mechanisms": mechanisms_of,
-    "pressures": filling_of,
+    "mechanisms": setting_mechanisms,
+    "pressures": filling_pressures_of,
     "scheme": STUDY.numerics,
     "most_steps": DISCOVERY.most_steps,
-    "stated": stated(case_of, setting_of, STUDY.numerics, filling_of, DISCOVERY),
-}
-ASKED = {
-    "question": DISCOVERY.element,
-    "scheme": STUDY.numerics,
-    "heart": STUDY.cohort.heart,
-    "size": STUDY.virtual_mesh,
-    "pressures": STUDY.end_diastolic_pressure,
-    "steps": DISCOVERY.most_steps,
+    "stated": configuration_text(case_of, setting_of, STUDY.numerics, filling_pressures_of, DISCOVERY),
 }
 
 
@@ -39,18 +31,11 @@ rule plot_residual:
         **CALIBRATED_CASE,
     output:
         table="<results>/{case}/discovery/{setting}/residual.csv",
-        figure=pictured("residual_{case}_{setting}", "residual"),
-    log:
-        "<logs>/{case}/{setting}/plot_residual.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/plot_residual.tsv"
-    resources:
-        **needs("plot_residual"),
+        figure=figure_files("residual_{case}_{setting}", "residual"),
     params:
         setting=setting_of,
-        mechanisms=mechanisms_of,
-        stated=stated(setting_of),
-        code=code("plot_residual.py"),
+        mechanisms=setting_mechanisms,
+        stated=configuration_text(setting_of),
     script:
         "../scripts/plot_residual.py"
 
@@ -62,18 +47,11 @@ rule search_cause:
         kernels="<results>/kernels.json",
     output:
         cause_card("<results>/{case}/discovery/{setting}/search"),
-    log:
-        "<logs>/{case}/{setting}/search_cause.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/search_cause.tsv"
-    resources:
-        **needs("search_cause"),
     params:
         case=case_of,
         setting=setting_of,
-        stated=stated(case_of, setting_of),
-        mechanisms=every_mechanism,
-        code=code("search_cause.py"),
+        stated=configuration_text(case_of, setting_of),
+        mechanisms=library_mechanisms,
     script:
         "../scripts/search_cause.py"
 
@@ -86,15 +64,8 @@ rule refit_case:
             "<results>/{{case}}/discovery/{{setting}}/none/{file}",
             file=("refit.json", "beat.json", "beat.csv", "motion.npz"),
         ),
-    log:
-        "<logs>/{case}/{setting}/refit_case.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/refit_case.tsv"
-    resources:
-        **needs("refit_case"),
     params:
-        **GIVEN,
-        code=code("refit_case.py"),
+        **REFIT_PARAMS,
     script:
         "../scripts/refit_case.py"
 
@@ -102,21 +73,15 @@ rule refit_case:
 rule prove_cause:
     input:
         **REFITTED_CASE,
-        beats=sigma_point_beats,
+        search="<results>/{case}/discovery/{setting}/search/cause.json",
+        traces="<results>/{case}/discovery/{setting}/search/traces.json",
         refit="<results>/{case}/discovery/{setting}/none/refit.json",
     output:
         cause_card("<results>/{case}/discovery/{setting}"),
         "<results>/{case}/discovery/{setting}/refit.json",
-    log:
-        "<logs>/{case}/{setting}/prove_cause.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/prove_cause.tsv"
-    resources:
-        **needs("prove_cause"),
     params:
-        **GIVEN,
-        every=every_mechanism,
-        code=code("prove_cause.py"),
+        **REFIT_PARAMS,
+        every=library_mechanisms,
     script:
         "../scripts/prove_cause.py"
 
@@ -127,16 +92,9 @@ rule try_mechanism:
         refit="<results>/{case}/discovery/{setting}/none/refit.json",
     output:
         "<results>/{case}/discovery/{setting}/trials/{mechanism}.json",
-    log:
-        "<logs>/{case}/{setting}/try_mechanism_{mechanism}.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/try_mechanism_{mechanism}.tsv"
-    resources:
-        **needs("try_mechanism"),
     params:
-        **GIVEN,
-        tried=mechanism_of,
-        code=code("try_mechanism.py"),
+        **REFIT_PARAMS,
+        tried=tried_mechanism,
     script:
         "../scripts/try_mechanism.py"
 
@@ -145,40 +103,35 @@ rule compare_attempts:
     input:
         expand("<results>/{{case}}/discovery/{{setting}}/trials/{mechanism}.json", mechanism=DISCOVERY.trials),
     output:
-        tables=expand("<results>/tables/{{case}}_{{setting}}_trials.{suffix}", suffix=("csv", "md", "tex")),
-        figure=pictured("trials_{case}_{setting}", "trials"),
-    log:
-        "<logs>/{case}/{setting}/compare_attempts.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/compare_attempts.tsv"
-    resources:
-        **needs("compare_attempts"),
-    params:
-        code=code("compare_attempts.py"),
+        tables=table_files("{case}_{setting}_trials"),
+        figure=figure_files("trials_{case}_{setting}", "trials"),
     script:
         "../scripts/compare_attempts.py"
 
 
 rule tabulate_discovery:
     input:
-        causes=[f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in EVALUATED],
-        before=[f"<results>/{case}/discovery/{setting}/none/refit.json" for case, setting in EVALUATED],
-        after=[f"<results>/{case}/discovery/{setting}/refit.json" for case, setting in EVALUATED],
-        truths=[f"<results>/{case}/cohort/truth.json" for case, _ in EVALUATED],
+        causes=[f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in REFITTED_VIRTUAL],
+        before=[f"<results>/{case}/discovery/{setting}/none/refit.json" for case, setting in REFITTED_VIRTUAL],
+        after=[f"<results>/{case}/discovery/{setting}/refit.json" for case, setting in REFITTED_VIRTUAL],
+        truths=[f"<results>/{case}/cohort/truth.json" for case, _ in REFITTED_VIRTUAL],
     output:
-        expand("<results>/tables/discovery.{suffix}", suffix=("csv", "md", "tex")),
-    log:
-        "<logs>/tabulate_discovery.log",
-    benchmark:
-        "<benchmarks>/tabulate_discovery.tsv"
-    resources:
-        **needs("tabulate_discovery"),
+        table_files("discovery"),
     params:
-        proved=EVALUATED,
-        planted=[CASES[case].planted_sizes() for case, _ in EVALUATED],
-        code=code("tabulate_discovery.py"),
+        proved=REFITTED_VIRTUAL,
+        planted=[CASES[case].planted_sizes() for case, _ in REFITTED_VIRTUAL],
     script:
         "../scripts/tabulate_discovery.py"
+
+
+ELEMENT_PARAMS = {
+    "question": DISCOVERY.element,
+    "scheme": STUDY.numerics,
+    "heart": STUDY.cohort.heart,
+    "size": STUDY.virtual_mesh,
+    "pressures": STUDY.end_diastolic_pressure,
+    "steps": DISCOVERY.most_steps,
+}
 
 
 rule compare_elements:
@@ -187,19 +140,12 @@ rule compare_elements:
         template="<results>/templates/calibrator.vtu",
         kernels="<results>/kernels.json",
     output:
-        table=printed("element"),
+        table=table_files("element"),
         figure=expand("<results>/figures/element.{suffix}", suffix=("png", "pdf")),
-    log:
-        "<logs>/compare_elements.log",
-    benchmark:
-        "<benchmarks>/compare_elements.tsv"
-    resources:
-        **needs("compare_elements"),
     params:
-        **ASKED,
-        setting=questioned,
-        mechanisms=every_mechanism,
-        stated=stated(questioned, ASKED),
-        code=code("compare_elements.py"),
+        **ELEMENT_PARAMS,
+        setting=element_setting,
+        mechanisms=library_mechanisms,
+        stated=configuration_text(element_setting, ELEMENT_PARAMS),
     script:
         "../scripts/compare_elements.py"

@@ -1,24 +1,34 @@
-SCORES = ("rates", "mechanisms", "data", "cases")
+# true effects are sealed in a folder of their own, which only the scoring rules read; the diagnosis reads measurements
+SPHERE_DIAGNOSES = {
+    "findings": expand("<results>/discovery_benchmark/findings/{batch}.json", batch=SPHERE_BATCHES),
+    "sealed": expand("<results>/discovery_benchmark/sealed/{batch}", batch=SPHERE_BATCHES),
+}
+VENTRICLE_DIAGNOSES = {
+    "findings": expand(
+        "<results>/discovery_benchmark/ventricles/findings/{number}.json", number=VENTRICLE_CASES
+    ),
+    "sealed": expand("<results>/discovery_benchmark/ventricles/sealed/{number}", number=VENTRICLE_CASES),
+}
+VENTRICLE_MODEL = {
+    "generator": VENTRICLES.generator,
+    "diagnoser": VENTRICLES.diagnoser,
+    "scanner": STUDY.scanner(),
+    "registration": STUDY.registration.free_form(),
+    "standard": STUDY.cohort.heart,
+    "pressures": STUDY.end_diastolic_pressure,
+}
 
 
-# answers are sealed apart from what was measured: diagnose_planted is given the one folder, and never the other
 rule plant_effects:
     input:
         kernels="<results>/kernels.json",
     output:
         measured=directory("<results>/discovery_benchmark/measured/{batch}"),
         sealed=directory("<results>/discovery_benchmark/sealed/{batch}"),
-    log:
-        "<logs>/discovery_benchmark/plant_effects_{batch}.log",
-    benchmark:
-        "<benchmarks>/discovery_benchmark/plant_effects_{batch}.tsv"
-    resources:
-        **needs("plant_effects"),
     params:
-        plans=batch_of,
-        library=every_mechanism,
-        stated=stated(batch_of),
-        code=code("plant_effects.py"),
+        plans=sphere_batch_of,
+        library=library_mechanisms,
+        stated=configuration_text(sphere_batch_of),
     script:
         "../scripts/plant_effects.py"
 
@@ -29,59 +39,99 @@ rule diagnose_planted:
         measured="<results>/discovery_benchmark/measured/{batch}",
     output:
         "<results>/discovery_benchmark/findings/{batch}.json",
-    log:
-        "<logs>/discovery_benchmark/diagnose_planted_{batch}.log",
-    benchmark:
-        "<benchmarks>/discovery_benchmark/diagnose_planted_{batch}.tsv"
-    resources:
-        **needs("diagnose_planted"),
     params:
-        library=every_mechanism,
-        code=code("diagnose_planted.py"),
+        library=library_mechanisms,
     script:
         "../scripts/diagnose_planted.py"
 
 
+rule plant_ventricles:
+    input:
+        generator="<results>/templates/planted.vtu",
+        template="<results>/templates/diagnoser.vtu",
+        kernels="<results>/kernels.json",
+    output:
+        measured=directory("<results>/discovery_benchmark/ventricles/measured/{number}"),
+        sealed=directory("<results>/discovery_benchmark/ventricles/sealed/{number}"),
+        mesh="<results>/discovery_benchmark/ventricles/meshes/{number}.vtu",
+    params:
+        **VENTRICLE_MODEL,
+        plan=ventricle_case_of,
+        library=library_mechanisms,
+        stated=configuration_text(ventricle_case_of, VENTRICLE_MODEL),
+    script:
+        "../scripts/plant_ventricles.py"
+
+
+rule diagnose_ventricles:
+    input:
+        kernels="<results>/kernels.json",
+        measured="<results>/discovery_benchmark/ventricles/measured/{number}",
+        mesh="<results>/discovery_benchmark/ventricles/meshes/{number}.vtu",
+    output:
+        "<results>/discovery_benchmark/ventricles/findings/{number}.json",
+    params:
+        model=VENTRICLES.diagnoser,
+        setting=STUDY.nominal_setting(),
+        pressures=STUDY.end_diastolic_pressure,
+        library=library_mechanisms,
+        stated=configuration_text(VENTRICLES.diagnoser, STUDY.nominal_setting(), STUDY.end_diastolic_pressure),
+    script:
+        "../scripts/diagnose_ventricles.py"
+
+
+rule discovery_ventricles:
+    input:
+        **VENTRICLE_DIAGNOSES,
+        template=page_template("discovery_benchmark_3d"),
+    output:
+        tables=expand(
+            "<results>/discovery_benchmark/ventricles/{name}.csv", name=("rates", "mechanisms", "cases")
+        ),
+        page=f"{VENTRICLES.page}/discovery_benchmark_3d.md",
+        figure=f"{VENTRICLES.page}/figures/discovery_3d.png",
+    params:
+        planned=len(VENTRICLE_CASES),
+    script:
+        "../scripts/discovery_ventricles.py"
+
+
+rule check_ventricles:
+    input:
+        **VENTRICLE_DIAGNOSES,
+        claims=VENTRICLES.claims,
+    output:
+        "<results>/discovery_benchmark/ventricles/checked.csv",
+    script:
+        "../scripts/check_ventricles.py"
+
+
 rule discovery_benchmark:
     input:
-        findings=expand("<results>/discovery_benchmark/findings/{batch}.json", batch=BATCHES),
-        sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=BATCHES),
+        **SPHERE_DIAGNOSES,
         ventricles=f"{VENTRICLES.page}/discovery_benchmark_3d.md",
+        template=page_template("discovery_benchmark"),
     output:
-        tables=expand("<results>/discovery_benchmark/{name}.csv", name=SCORES),
+        tables=expand(
+            "<results>/discovery_benchmark/{name}.csv", name=("rates", "mechanisms", "data", "cases")
+        ),
         page=f"{STUDY.discovery_benchmark.page}/discovery_benchmark.md",
         figures=expand(
             f"{STUDY.discovery_benchmark.page}/figures/discovery_{{name}}.png",
             name=("rates", "confusion", "power"),
         ),
-    log:
-        "<logs>/discovery_benchmark/discovery_benchmark.log",
-    benchmark:
-        "<benchmarks>/discovery_benchmark/discovery_benchmark.tsv"
-    resources:
-        **needs("discovery_benchmark"),
     params:
         planned=STUDY.discovery_benchmark.planned(),
-        code=code("discovery_benchmark.py"),
     script:
         "../scripts/discovery_benchmark.py"
 
 
 rule check_discovery:
     input:
-        findings=expand("<results>/discovery_benchmark/findings/{batch}.json", batch=BATCHES),
-        sealed=expand("<results>/discovery_benchmark/sealed/{batch}", batch=BATCHES),
+        **SPHERE_DIAGNOSES,
         claims=STUDY.discovery_benchmark.claims,
         ventricles="<results>/discovery_benchmark/ventricles/checked.csv",
     output:
         "<results>/discovery_benchmark/checked.csv",
-    log:
-        "<logs>/discovery_benchmark/check_discovery.log",
-    benchmark:
-        "<benchmarks>/discovery_benchmark/check_discovery.tsv"
-    resources:
-        **needs("check_discovery"),
-    params:
-        code=code("check_discovery.py"),
     script:
         "../scripts/check_discovery.py"

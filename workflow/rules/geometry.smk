@@ -1,4 +1,20 @@
-# one mesh of each size, which every virtual heart moves to its own wall
+rule fetch_measured_heart:
+    input:
+        manifest="resources/bivme_patient1.tsv",
+        timing="resources/bivme_patient1_timing.json",
+    output:
+        timing="resources/bivme_patient1/cine/timing.json",
+    resources:
+        mem_mb=200,
+        runtime=10,
+    params:
+        address="https://raw.githubusercontent.com/UOA-Heart-Mechanics-Research/biv-me/"
+        "d01024f8d824a7600cab3daf24b63d202f127d87/",
+    script:
+        "../scripts/fetch_measured_heart.py"
+
+
+# one mesh of each size, which every virtual heart deforms to its own wall
 rule build_template:
     output:
         "<results>/templates/{template}.vtu",
@@ -7,36 +23,26 @@ rule build_template:
     benchmark:
         "<benchmarks>/templates/{template}.tsv"
     wildcard_constraints:
-        template=one_of(STUDY.templates()),
-    resources:
-        **needs("build_template"),
+        template=match_any(STUDY.templates()),
     params:
-        size=template_size,
-        stated=stated(template_size),
-        code=code("build_template.py"),
+        size=template_size_of,
+        stated=configuration_text(template_size_of),
     script:
         "../scripts/build_template.py"
 
 
 rule build_measured_mesh:
     input:
-        files=measured_files,
+        files=wall_files,
     output:
         "<results>/{case}/geometry/mesh.vtu",
-    log:
-        "<logs>/{case}/build_mesh.log",
-    benchmark:
-        "<benchmarks>/{case}/build_mesh.tsv"
     wildcard_constraints:
-        case=one_of(SOURCES),
-    resources:
-        **needs("build_mesh"),
+        case=match_any(SOURCES),
     params:
         case=case_of,
-        source=wall_of,
+        source=source_without_pressure,
         size=STUDY.mesh,
-        stated=stated(case_of, wall_of, STUDY.mesh),
-        code=code("build_measured_mesh.py"),
+        stated=configuration_text(case_of, source_without_pressure, STUDY.mesh),
     script:
         "../scripts/build_measured_mesh.py"
 
@@ -48,18 +54,11 @@ rule build_volunteer_mesh:
         template="<results>/templates/calibrator.vtu",
     output:
         "<results>/{case}/geometry/mesh.vtu",
-    log:
-        "<logs>/{case}/build_mesh.log",
-    benchmark:
-        "<benchmarks>/{case}/build_mesh.tsv"
     wildcard_constraints:
-        case=one_of(VIRTUAL),
-    resources:
-        **needs("build_mesh"),
+        case=match_any(VIRTUAL),
     params:
         case=case_of,
         size=STUDY.virtual_mesh,
-        stated=stated(case_of, STUDY.virtual_mesh),
-        code=code("build_volunteer_mesh.py"),
+        stated=configuration_text(case_of, STUDY.virtual_mesh),
     script:
         "../scripts/build_volunteer_mesh.py"

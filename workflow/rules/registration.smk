@@ -1,47 +1,35 @@
-SOURCE = {"source": wall_of, "stated": stated(wall_of)}
+MEASURED_WALL = {"source": source_without_pressure, "stated": configuration_text(source_without_pressure)}
 
 
 rule take_images:
     input:
-        files=measured_files,
-        images=given_images,
+        files=wall_files,
+        images=source_images,
     output:
         images="<results>/{case}/images/cine.nrrd",
         times="<results>/{case}/images/cine.json",
-    log:
-        "<logs>/{case}/take_images.log",
-    benchmark:
-        "<benchmarks>/{case}/take_images.tsv"
     wildcard_constraints:
-        case=one_of(IMAGED),
+        case=match_any(IMAGED),
     resources:
         mem_mb=1500,
         runtime=5,
     params:
-        **SOURCE,
+        **MEASURED_WALL,
         case=case_of,
-        code=code("take_images.py"),
     script:
         "../scripts/take_images.py"
 
 
 rule register_measured:
     input:
-        files=measured_files,
+        files=wall_files,
         mesh="<results>/{case}/geometry/mesh.vtu",
     output:
         "<results>/{case}/registration/motion.npz",
-    log:
-        "<logs>/{case}/register.log",
-    benchmark:
-        "<benchmarks>/{case}/register.tsv"
     wildcard_constraints:
-        case=one_of(FITTED),
-    resources:
-        **needs("register"),
+        case=match_any(FITTED),
     params:
-        **SOURCE,
-        code=code("register_measured.py"),
+        **MEASURED_WALL,
     script:
         "../scripts/register_measured.py"
 
@@ -54,91 +42,63 @@ rule register_volunteer:
     output:
         motion="<results>/{case}/registration/motion.npz",
         quality="<results>/{case}/registration/quality.json",
-    log:
-        "<logs>/{case}/register.log",
-    benchmark:
-        "<benchmarks>/{case}/register.tsv"
     wildcard_constraints:
-        case=one_of(VIRTUAL),
-    resources:
-        **needs("register"),
+        case=match_any(VIRTUAL),
     params:
         end_diastole=STUDY.registration.end_diastole,
         registration=STUDY.registration.free_form(),
-        stated=stated(STUDY.registration),
-        code=code("register_volunteer.py"),
+        stated=configuration_text(STUDY.registration),
     script:
         "../scripts/register_volunteer.py"
 
 
 rule register_segmented:
     input:
-        files=measured_files,
+        files=wall_files,
         mesh="<results>/{case}/geometry/mesh.vtu",
         images="<results>/{case}/images/cine.nrrd",
         times="<results>/{case}/images/cine.json",
     output:
         motion="<results>/{case}/registration/motion.npz",
         quality="<results>/{case}/registration/quality.json",
-    log:
-        "<logs>/{case}/register.log",
-    benchmark:
-        "<benchmarks>/{case}/register.tsv"
     wildcard_constraints:
-        case=one_of(SEGMENTED),
-    resources:
-        **needs("register"),
+        case=match_any(SEGMENTED),
     params:
-        source=wall_of,
+        source=source_without_pressure,
         registration=STUDY.measured_registration.free_form(),
-        stated=stated(wall_of, STUDY.measured_registration),
-        code=code("register_segmented.py"),
+        stated=configuration_text(source_without_pressure, STUDY.measured_registration),
     script:
         "../scripts/register_segmented.py"
 
 
 rule register_cine:
     input:
-        files=measured_files,
+        files=wall_files,
         images="<results>/{case}/images/cine.nrrd",
     output:
         "<results>/{case}/registration/cine.npz",
-    log:
-        "<logs>/{case}/register_cine.log",
-    benchmark:
-        "<benchmarks>/{case}/register_cine.tsv"
     wildcard_constraints:
-        case=one_of(CINE),
-    resources:
-        **needs("register_cine"),
+        case=match_any(FITTED_WITH_IMAGES),
     params:
-        **SOURCE,
-        code=code("register_cine.py"),
+        **MEASURED_WALL,
     script:
         "../scripts/register_cine.py"
 
 
 rule compare_cine:
     input:
-        files=measured_files,
+        files=wall_files,
         images="<results>/{case}/images/cine.nrrd",
         motion="<results>/{case}/registration/cine.npz",
     output:
-        outlines=printed("{case}_cine_outlines"),
-        wall=printed("{case}_cine_wall"),
-        volume=printed("{case}_cine_volume"),
-        outlines_figure=pictured("{case}_cine_outlines", "cine"),
-        volume_figure=pictured("{case}_cine_volume", "cine"),
-    log:
-        "<logs>/{case}/compare_cine.log",
-    benchmark:
-        "<benchmarks>/{case}/compare_cine.tsv"
+        outlines=table_files("{case}_cine_outlines"),
+        wall=table_files("{case}_cine_wall"),
+        volume=table_files("{case}_cine_volume"),
+        outlines_figure=figure_files("{case}_cine_outlines", "cine"),
+        volume_figure=figure_files("{case}_cine_volume", "cine"),
     wildcard_constraints:
-        case=one_of(CINE),
-    resources:
-        **needs("compare_cine"),
+        case=match_any(FITTED_WITH_IMAGES),
     params:
-        **SOURCE,
-        code=code("compare_cine.py"),
+        **MEASURED_WALL,
     script:
         "../scripts/compare_cine.py"

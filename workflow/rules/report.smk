@@ -1,14 +1,27 @@
 report: "../report/workflow.rst"
 
 
-SHOWN = {
+# reads the benchmarks of all jobs; as input it names the results of the study, a shorter list with the same effect
+rule tabulate_costs:
+    input:
+        study_results(),
+    output:
+        reported_tables("costs"),
+        figure_files("costs", "costs", "Cohort"),
+    params:
+        results=results_folder,
+    script:
+        "../scripts/tabulate_costs.py"
+
+
+REPORTED_FILES = {
     "meshes": expand("<results>/{case}/geometry/mesh.vtu", case=CASES),
     "registered": expand("<results>/{case}/registration/motion.npz", case=CASES),
     "measured": expand("<results>/{case}/curves/measured.csv", case=CASES),
-    "points": [f"<results>/{case}/{setting}/calibration/points.json" for case, setting in CALIBRATED],
+    "points": [f"<results>/{case}/{setting}/calibration/points.json" for case, setting in CALIBRATIONS],
     "calibrated": [
         f"<results>/{case}/{setting}/verification/{file}"
-        for case, setting in CALIBRATED
+        for case, setting in CALIBRATIONS
         for file in ("beat.json", "motion.npz", "errors.json")
     ],
     "noise": [NOISE_MODEL] if VIRTUAL else [],
@@ -16,20 +29,16 @@ SHOWN = {
 }
 
 
-# beside the whole study, which holds the beats and the causes that it shows
+# the results of the study include the beats and the cause cards that the report shows
 rule report_study:
     input:
-        whole_study(),
-        printed("table1", "table2", "table3", "table3_parameters", "plausibility", "costs"),
-        **POSTERIORS,
-        **SHOWN,
-        parts=report_parts,
+        study_results(),
+        table_files("table1", "table2", "table3", "table3_parameters", "plausibility", "costs"),
+        **POSTERIORS_AND_TRUTHS,
+        **REPORTED_FILES,
+        parts=report_templates,
     output:
         "<results>/report.html",
-    log:
-        "<logs>/report_study.log",
-    benchmark:
-        "<benchmarks>/report_study.tsv"
     resources:
         mem_mb=1500,
         runtime=10,
@@ -38,7 +47,6 @@ rule report_study:
         study=STUDY,
         cases=CASES,
         left_out=PLAN.left_out,
-        stated=stated(STUDY, CASES),
-        code=code("report_study.py"),
+        stated=configuration_text(STUDY, CASES),
     script:
         "../scripts/report_study.py"

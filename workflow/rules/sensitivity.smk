@@ -1,20 +1,16 @@
 SENSITIVITY = STUDY.sensitivity
 REFERENCE = CASES[SENSITIVITY.case]
 REFERENCE_MESH = f"<results>/{SENSITIVITY.case}/geometry/mesh.vtu"
-SPHERE = STUDY.sphere()
+SPHERE = STUDY.sphere_setting()
 
 
 use rule draw_sigma_points as draw_surroundings with:
     output:
         "<results>/sensitivity/{setting}/points.json",
-    log:
-        "<logs>/sensitivity/{setting}/draw_surroundings.log",
-    benchmark:
-        "<benchmarks>/sensitivity/{setting}/draw_surroundings.tsv"
     params:
-        setting=surroundings_of,
+        setting=perturbed_setting_of,
         transform=SENSITIVITY,
-        stated=stated(surroundings_of, SENSITIVITY),
+        stated=configuration_text(perturbed_setting_of, SENSITIVITY),
 
 
 use rule simulate_point as simulate_surrounding with:
@@ -25,37 +21,28 @@ use rule simulate_point as simulate_surrounding with:
     output:
         beat="<results>/sensitivity/{setting}/beats/{point}.json",
         curves="<results>/sensitivity/{setting}/beats/{point}.csv",
-    log:
-        "<logs>/sensitivity/{setting}/simulate_surrounding_{point}.log",
-    benchmark:
-        "<benchmarks>/sensitivity/{setting}/simulate_surrounding_{point}.tsv"
     params:
         case=REFERENCE,
-        setting=surroundings_of,
-        pressures=STUDY.filling(REFERENCE),
-        stated=stated(REFERENCE, surroundings_of, STUDY.numerics, STUDY.filling(REFERENCE)),
+        setting=perturbed_setting_of,
+        pressures=STUDY.filling_pressures(REFERENCE),
+        stated=configuration_text(
+            REFERENCE, perturbed_setting_of, STUDY.numerics, STUDY.filling_pressures(REFERENCE)
+        ),
 
 
 rule analyse_sensitivity:
     input:
         points="<results>/sensitivity/{setting}/points.json",
-        beats=surrounding_beats,
+        beats=perturbation_beats,
         limits="resources/plausible_beat.csv",
     output:
         sensitivity="<results>/sensitivity/{setting}/sensitivity.json",
         ranges="<results>/sensitivity/{setting}/ranges.json",
-    log:
-        "<logs>/sensitivity/{setting}/analyse_sensitivity.log",
-    benchmark:
-        "<benchmarks>/sensitivity/{setting}/analyse_sensitivity.tsv"
-    resources:
-        **needs("analyse_sensitivity"),
     params:
-        setting=surroundings_of,
+        setting=perturbed_setting_of,
         study=SENSITIVITY,
         operator=STUDY.observation,
-        stated=stated(surroundings_of, SENSITIVITY, STUDY.observation),
-        code=code("analyse_sensitivity.py"),
+        stated=configuration_text(perturbed_setting_of, SENSITIVITY, STUDY.observation),
     script:
         "../scripts/analyse_sensitivity.py"
 
@@ -66,12 +53,6 @@ rule study_sphere:
         kernels="<results>/kernels.json",
     output:
         "<results>/sensitivity/sobol.json",
-    log:
-        "<logs>/sensitivity/study_sphere.log",
-    benchmark:
-        "<benchmarks>/sensitivity/study_sphere.tsv"
-    resources:
-        **needs("study_sphere"),
     params:
         case=REFERENCE,
         setting=SPHERE,
@@ -79,8 +60,7 @@ rule study_sphere:
         pressures=STUDY.end_diastolic_pressure,
         operator=STUDY.observation,
         scheme=STUDY.numerics,
-        stated=stated(REFERENCE, SPHERE, SENSITIVITY.sphere, STUDY.numerics, STUDY.observation),
-        code=code("study_sphere.py"),
+        stated=configuration_text(REFERENCE, SPHERE, SENSITIVITY.sphere, STUDY.numerics, STUDY.observation),
     script:
         "../scripts/study_sphere.py"
 
@@ -88,22 +68,15 @@ rule study_sphere:
 rule plot_surroundings:
     input:
         points="<results>/sensitivity/{setting}/points.json",
-        beats=surrounding_beats,
+        beats=perturbation_beats,
         sensitivity="<results>/sensitivity/{setting}/sensitivity.json",
     output:
-        curves=pictured("sensitivity_curves_{setting}", "surroundings", "Parameters"),
-        figure=pictured("sensitivity_{setting}", "surroundings", "Parameters"),
-        table=expand("<results>/tables/sensitivity_{{setting}}.{suffix}", suffix=("csv", "md", "tex")),
-    log:
-        "<logs>/sensitivity/{setting}/plot_surroundings.log",
-    benchmark:
-        "<benchmarks>/sensitivity/{setting}/plot_surroundings.tsv"
-    resources:
-        **needs("plot_surroundings"),
+        curves=figure_files("sensitivity_curves_{setting}", "surroundings", "Parameters"),
+        figure=figure_files("sensitivity_{setting}", "surroundings", "Parameters"),
+        table=table_files("sensitivity_{setting}"),
     params:
-        setting=surroundings_of,
+        setting=perturbed_setting_of,
         study=SENSITIVITY,
-        code=code("plot_surroundings.py"),
     script:
         "../scripts/plot_surroundings.py"
 
@@ -114,21 +87,14 @@ rule tabulate_selection:
         ranges=expand("<results>/sensitivity/{setting}/ranges.json", setting=SETTINGS),
         sobol="<results>/sensitivity/sobol.json",
     output:
-        selection=printed("selection"),
-        prior=printed("prior"),
-        sobol=printed("sobol"),
-        bulk_modulus=printed("bulk_modulus"),
-        figure=pictured("sobol", "sobol", "Parameters"),
-    log:
-        "<logs>/sensitivity/tabulate_selection.log",
-    benchmark:
-        "<benchmarks>/sensitivity/tabulate_selection.tsv"
-    resources:
-        **needs("tabulate_selection"),
+        selection=table_files("selection"),
+        prior=table_files("prior"),
+        sobol=table_files("sobol"),
+        bulk_modulus=table_files("bulk_modulus"),
+        figure=figure_files("sobol", "sobol", "Parameters"),
     params:
         settings=SETTINGS,
         estimated=STUDY.estimated(),
         units=SPHERE.units(),
-        code=code("tabulate_selection.py"),
     script:
         "../scripts/tabulate_selection.py"

@@ -8,173 +8,83 @@ ORIGIN = Origin(
 
 rule make_tables:
     input:
-        cases=expand(
-            "<results>/{case}/{setting}/verification/errors.json",
-            case=CASES,
-            setting=SETTINGS,
-        ),
-        truths=expand("<results>/{case}/cohort/truth.json", case=GROUPS.virtual),
+        cases=expand("<results>/{case}/{setting}/verification/errors.json", case=CASES, setting=SETTINGS),
+        truths=TRUTHS,
         paper=expand("resources/marchesseau2012/{name}.csv", name=("table1", "table2", "patients")),
     output:
-        tabulated("table1", "table2", "table3", "table3_parameters", "plausibility"),
+        reported_tables("table1", "table2", "table3", "table3_parameters", "plausibility"),
         numbers="<results>/tables/numbers.csv",
-    log:
-        "<logs>/make_tables.log",
-    benchmark:
-        "<benchmarks>/make_tables.tsv"
-    resources:
-        **needs("make_tables"),
     params:
         origin=ORIGIN,
-        stated=stated(ORIGIN),
-        code=code("make_tables.py"),
+        stated=configuration_text(ORIGIN),
     script:
         "../scripts/make_tables.py"
 
 
-rule plot_case:
+rule make_cards:
     input:
-        measured="<results>/{case}/curves/measured.csv",
-        reference="<results>/{case}/{setting}/calibration/beats/0.json",
-        calibrated="<results>/{case}/{setting}/verification/beat.json",
-        errors="<results>/{case}/{setting}/verification/errors.json",
+        **POSTERIORS_AND_TRUTHS,
     output:
-        pictured("{case}_{setting}", "curves"),
-    log:
-        "<logs>/{case}/{setting}/plot_case.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/plot_case.tsv"
-    resources:
-        **needs("plot_case"),
+        reported_tables("cards", "coverage_cohort"),
+        [f"<results>/figures/{name}" for name in CASE_FIGURES if "_card." in name],
     params:
-        setting=setting_of,
-        mechanisms=mechanisms_of,
-        operator=STUDY.observation,
-        stated=stated(setting_of, STUDY.observation),
-        code=code("plot_case.py"),
+        results=results_folder,
+        calibrated=CALIBRATIONS,
+        groups=GROUPS,
+        stated=configuration_text(GROUPS),
     script:
-        "../scripts/plot_case.py"
+        "../scripts/make_cards.py"
 
 
-rule plot_sensitivity:
+rule compare_groups:
     input:
-        "<results>/{case}/{setting}/calibration/posterior.json",
+        **POSTERIORS_AND_TRUTHS,
     output:
-        pictured("{case}_{setting}_sensitivity", "sensitivity"),
-    log:
-        "<logs>/{case}/{setting}/plot_sensitivity.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/plot_sensitivity.tsv"
-    resources:
-        **needs("plot_sensitivity"),
+        reported_tables("specificity", "claims"),
+        figure_files("specificity", "specificity", "Cohort"),
     params:
-        code=code("plot_sensitivity.py"),
+        results=results_folder,
+        calibrated=CALIBRATIONS,
+        groups=GROUPS,
+        stated=configuration_text(GROUPS),
     script:
-        "../scripts/plot_sensitivity.py"
+        "../scripts/compare_groups.py"
 
 
-rule compare_shape:
+EXCHANGED_FILES = {
+    "measured": expand(
+        "<results>/{case}/curves/{file}", case=CASES, file=("measured.csv", "observations.json")
+    ),
+    "calibrated": [
+        f"<results>/{case}/{setting}/verification/{file}"
+        for case, setting in CALIBRATIONS
+        for file in ("beat.json", "beat.csv", "errors.json")
+    ],
+}
+
+
+rule exchange_results:
     input:
-        mesh="<results>/{case}/geometry/mesh.vtu",
-        motion="<results>/{case}/registration/motion.npz",
-        calibrated="<results>/{case}/{setting}/verification/shape.csv",
+        **EXCHANGED_FILES,
+        **POSTERIORS,
     output:
-        table=expand("<results>/tables/{{case}}_{{setting}}_shape.{suffix}", suffix=("csv", "md", "tex")),
-        figure=pictured("{case}_{setting}_shape", "shape"),
-    log:
-        "<logs>/{case}/{setting}/compare_shape.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/compare_shape.tsv"
+        inference_data(),
+        tables=expand("<results>/tables/{name}.csv", name=("posteriors", "curves")),
     resources:
-        **needs("compare_shape"),
+        mem_mb=1000,
+        runtime=5,
     params:
-        code=code("compare_shape.py"),
+        results=results_folder,
+        calibrated=CALIBRATIONS,
     script:
-        "../scripts/compare_shape.py"
+        "../scripts/exchange_results.py"
 
 
-rule plot_contours:
+rule check_numbers:
     input:
-        mesh="<results>/{case}/geometry/mesh.vtu",
-        motion="<results>/{case}/registration/motion.npz",
-        images="<results>/{case}/images/cine.nrrd",
+        numbers="<results>/tables/numbers.csv",
+        tolerances=STUDY.tolerances,
     output:
-        figure=pictured("{case}_contours", "contours"),
-        animation="<results>/figures/{case}_beat.gif",
-    log:
-        "<logs>/{case}/plot_contours.log",
-    benchmark:
-        "<benchmarks>/{case}/plot_contours.tsv"
-    wildcard_constraints:
-        case=one_of(VIRTUAL + IMAGED),
-    resources:
-        **needs("plot_contours"),
-    params:
-        code=code("plot_contours.py"),
+        "<results>/tables/drift.csv",
     script:
-        "../scripts/plot_contours.py"
-
-
-rule plot_overlay:
-    input:
-        mesh="<results>/{case}/geometry/mesh.vtu",
-        registered="<results>/{case}/registration/motion.npz",
-        calibrated="<results>/{case}/{setting}/verification/motion.npz",
-        images="<results>/{case}/images/cine.nrrd",
-    output:
-        pictured("{case}_{setting}_overlay", "overlay"),
-    log:
-        "<logs>/{case}/{setting}/plot_overlay.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/plot_overlay.tsv"
-    wildcard_constraints:
-        case=one_of(VIRTUAL + IMAGED),
-    resources:
-        **needs("plot_overlay"),
-    params:
-        code=code("plot_overlay.py"),
-    script:
-        "../scripts/plot_overlay.py"
-
-
-rule plot_activation:
-    input:
-        "<results>/{case}/geometry/mesh.vtu",
-    output:
-        pictured("{case}_activation", "activation"),
-    log:
-        "<logs>/{case}/plot_activation.log",
-    benchmark:
-        "<benchmarks>/{case}/plot_activation.tsv"
-    resources:
-        **needs("plot_activation"),
-    params:
-        case=case_of,
-        stated=stated(case_of),
-        code=code("plot_activation.py"),
-    script:
-        "../scripts/plot_activation.py"
-
-
-rule plot_septal_flash:
-    input:
-        hearts=expand("<results>/{case}/cohort/heart.vtu", case=DYSSYNCHRONY),
-        true=expand("<results>/{case}/cohort/motion.npz", case=DYSSYNCHRONY),
-        meshes=expand("<results>/{case}/geometry/mesh.vtu", case=DYSSYNCHRONY),
-        registered=expand("<results>/{case}/registration/motion.npz", case=DYSSYNCHRONY),
-        calibrated=shapes_of(DYSSYNCHRONY),
-    output:
-        table=expand("<results>/tables/septal_flash.{suffix}", suffix=("csv", "md", "tex")),
-        figure=pictured("septal_flash", "septal_flash", "Cohort"),
-    log:
-        "<logs>/plot_septal_flash.log",
-    benchmark:
-        "<benchmarks>/plot_septal_flash.tsv"
-    resources:
-        **needs("plot_septal_flash"),
-    params:
-        cases=DYSSYNCHRONY,
-        settings=SETTINGS,
-        code=code("plot_septal_flash.py"),
-    script:
-        "../scripts/plot_septal_flash.py"
+        "../scripts/check_numbers.py"

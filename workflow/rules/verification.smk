@@ -5,21 +5,14 @@ rule simulate_calibrated:
         posterior="<results>/{case}/{setting}/calibration/posterior.json",
         kernels="<results>/kernels.json",
     output:
-        verified("beat.json", "beat.csv", "shape.csv", "motion.npz"),
-    log:
-        "<logs>/{case}/{setting}/simulate_calibrated.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/simulate_calibrated.tsv"
-    resources:
-        **needs("simulate_calibrated"),
+        verification_files("beat.json", "beat.csv", "shape.csv", "motion.npz"),
     params:
         case=case_of,
         setting=setting_of,
-        pressures=filling_of,
+        pressures=filling_pressures_of,
         scheme=STUDY.numerics,
-        mechanisms=mechanisms_of,
-        stated=stated(case_of, setting_of, STUDY.numerics, filling_of),
-        code=code("simulate_calibrated.py"),
+        mechanisms=setting_mechanisms,
+        stated=configuration_text(case_of, setting_of, STUDY.numerics, filling_pressures_of),
     script:
         "../scripts/simulate_calibrated.py"
 
@@ -33,17 +26,10 @@ rule compare_case:
         calibrated="<results>/{case}/{setting}/verification/beat.json",
     output:
         "<results>/{case}/{setting}/verification/errors.json",
-    log:
-        "<logs>/{case}/{setting}/compare_case.log",
-    benchmark:
-        "<benchmarks>/{case}/{setting}/compare_case.tsv"
-    resources:
-        **needs("compare_case"),
     params:
         setting=setting_of,
-        mechanisms=mechanisms_of,
+        mechanisms=setting_mechanisms,
         operator=STUDY.observation,
-        stated=stated(setting_of, STUDY.observation),
-        code=code("compare_case.py"),
+        stated=configuration_text(setting_of, STUDY.observation),
     script:
         "../scripts/compare_case.py"

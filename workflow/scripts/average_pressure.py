@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from heartfit.io.curves import write_curves
-from heartfit.io.log import record
 from heartfit.io.meshes import read_motion
 from heartfit.io.pressures import read_pressure
+from heartfit.io.run import record
 
 record(snakemake.log[0])
 period = read_motion(Path(snakemake.input.motion)).period

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from heartfit.cohort.template import Template
-from heartfit.io.log import record
 from heartfit.io.meshes import write_mesh
+from heartfit.io.run import record
+from heartfit.synthetic.volunteer import Template
 
 record(snakemake.log[0])
 size = snakemake.params.size

@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-from heartfit.io.log import record
+from heartfit.io.run import record
 from heartfit.io.scores import read_scored
-from heartfit.io.tables import read_tolerances, write_table
-from heartfit.tables.planted_claims import require_claims
+from heartfit.io.tables import read_tolerances, write_csv
+from heartfit.results.planted_table import require_claims
 
 record(snakemake.log[0])
 scored = read_scored(snakemake.input.findings, snakemake.input.sealed)
 claims = read_tolerances(Path(snakemake.input.claims))
-write_table(Path(snakemake.output[0]), require_claims(scored, claims))
+write_csv(Path(snakemake.output[0]), require_claims(scored, claims))

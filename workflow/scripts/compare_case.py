@@ -4,10 +4,10 @@ from pathlib import Path
 
 from heartfit.io.beats import read_beat
 from heartfit.io.curves import read_curves
-from heartfit.io.log import record
 from heartfit.io.results import read_fingerprint, read_observations, read_posterior, write_case
+from heartfit.io.run import record
 from heartfit.observation.beat import beat_curves
-from heartfit.tables.case import summarise
+from heartfit.results.case import summarise
 
 record(snakemake.log[0])
 files, setting = snakemake.input, snakemake.params.setting

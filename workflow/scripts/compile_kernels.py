@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from heartfit.io.log import record
 from heartfit.io.results import write_result
-from heartfit.kernels import compile_kernels
+from heartfit.io.run import record
+from heartfit.synthetic.kernels import compile_kernels
 
 record(snakemake.log[0])
-write_result(Path(snakemake.output[0]), compile_kernels().findings(), snakemake.params.code)
+write_result(Path(snakemake.output[0]), compile_kernels().reproducible_diagnostics(), snakemake.params.code)

@@ -1,16 +1,17 @@
-"""How often the intervals of a calibration hold the truth of spheres."""
+"""Count how often the intervals of a calibration contain the truth of spheres."""
 
 from itertools import repeat
 from pathlib import Path
 
-from heartfit.io.log import record
+from heartfit.io.run import record
 from heartfit.io.tables import write_figure, write_table
-from heartfit.tables.sphere_coverage import plot_sphere_coverage, sphere_coverage_table
-from heartfit.twins.coverage import cover
+from heartfit.results.race import plot_sphere_coverage, sphere_coverage_table
+from heartfit.results.text import render_table
+from heartfit.synthetic.race import sphere_coverage
 
 record(snakemake.log[0])
-given, out = snakemake.params, snakemake.output
-covered = map(cover, given.twins.values(), repeat(given.study.covered))
-seen = dict(zip(given.twins, covered, strict=True))
-list(map(write_table, map(Path, out.table), repeat(sphere_coverage_table(seen))))
-list(map(write_figure, map(Path, out.figure), repeat(plot_sphere_coverage(seen))))
+params, out = snakemake.params, snakemake.output
+covered = map(sphere_coverage, params.samplers.values(), repeat(params.study.covered))
+observed = dict(zip(params.samplers, covered, strict=True))
+list(map(write_table, map(Path, out.table), repeat(render_table(sphere_coverage_table(observed)))))
+list(map(write_figure, map(Path, out.figure), repeat(plot_sphere_coverage(observed))))

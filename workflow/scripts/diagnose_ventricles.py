@@ -2,15 +2,17 @@
 
 from pathlib import Path
 
-from heartfit.io.findings import read_planted, write_findings
-from heartfit.io.log import record
+from heartfit.discovery.refit.model import Reference
 from heartfit.io.meshes import read_mesh
-from heartfit.planting.trial import found
-from heartfit.proof.reference import Reference
+from heartfit.io.planted import read_planted, write_findings
+from heartfit.io.run import record
+from heartfit.synthetic.trial import diagnose_recording
 
 record(snakemake.log[0])
-files, given = snakemake.input, snakemake.params
+files, params = snakemake.input, snakemake.params
 mesh = read_mesh(Path(files.mesh))
-reference = Reference(mesh, given.setting, given.pressures, given.model.numerics)
+reference = Reference(mesh, params.setting, params.pressures, params.model.numerics)
 ((seed, recording),) = read_planted(Path(files.measured)).items()
-write_findings(Path(snakemake.output[0]), {seed: found(recording, reference.search)}, given.code)
+write_findings(
+    Path(snakemake.output[0]), {seed: diagnose_recording(recording, reference.search)}, params.code
+)

@@ -2,21 +2,22 @@
 
 from pathlib import Path
 
-from heartfit.discovery.rules import RULES
-from heartfit.io.atomic import write_text
-from heartfit.io.log import record
+from heartfit.discovery.inference.decide import DEFAULT_RULES
+from heartfit.io.files import write_text
 from heartfit.io.results import read_fingerprint
+from heartfit.io.run import record
 from heartfit.io.scores import read_scored
 from heartfit.io.tables import write_figure, write_tables
-from heartfit.planting.least import Least
-from heartfit.tables.planted_figures import plot_confusion, plot_power, plot_rates
-from heartfit.tables.planted_page import planted_page, planted_tables
+from heartfit.results.planted_figures import plot_confusion, plot_power, plot_rates
+from heartfit.results.planted_page import planted_page, planted_tables
+from heartfit.results.text import render_tables
+from heartfit.synthetic.rates import DetectableSizes
 
 record(snakemake.log[0])
 out = snakemake.output
 scored = read_scored(snakemake.input.findings, snakemake.input.sealed)
-least = Least.of(scored, RULES.detected)
-write_tables(Path(out.tables[0]).parent, planted_tables(scored, least))
+least = DetectableSizes.of(scored, DEFAULT_RULES.detected)
+write_tables(Path(out.tables[0]).parent, render_tables(planted_tables(scored, least)))
 code = read_fingerprint(Path(snakemake.input.findings[0]))
 write_text(Path(out.page), planted_page(scored, snakemake.params.planned, code, least))
 figures = plot_rates(scored, least.rates()), plot_confusion(scored), plot_power(scored)

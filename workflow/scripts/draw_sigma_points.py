@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from heartfit.calibration.unscented import sigma_points
-from heartfit.io.log import record
 from heartfit.io.results import write_sigma_points
+from heartfit.io.run import record
 
 record(snakemake.log[0])
 prior = snakemake.params.setting.gaussian()

@@ -5,19 +5,19 @@ from operator import or_
 from pathlib import Path
 
 from heartfit.io.curves import read_curves, write_curves
-from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.noise_models import read_noise_model
 from heartfit.io.results import write_observations
-from heartfit.observation.volumes import cavity_volumes
-from heartfit.protocol import observe_case
+from heartfit.io.run import record
+from heartfit.observation.shape import cavity_volumes
+from heartfit.personalise.run import observe_case
 
 record(snakemake.log[0])
-files, given = snakemake.input, snakemake.params
+files, params = snakemake.input, snakemake.params
 volumes = cavity_volumes(read_mesh(Path(files.mesh)), read_motion(Path(files.motion)))
 pressures = map(read_curves, map(Path, files.get("pressure", [])))
 curves = reduce(or_, pressures, volumes)
 models = list(map(read_noise_model, map(Path, files.get("noise", []))))
-measurement = observe_case(curves, given.operator, models, given.protocol)
+measurement = observe_case(curves, params.operator, models, params.protocol)
 write_curves(Path(snakemake.output.curves), curves)
-write_observations(Path(snakemake.output.observations), measurement, given.code)
+write_observations(Path(snakemake.output.observations), measurement, params.code)

@@ -3,8 +3,8 @@
 from pathlib import Path
 from shutil import copyfile
 
-from heartfit.io.fetch import fetch
-from heartfit.io.log import record
+from heartfit.io.files import fetch
+from heartfit.io.run import record
 
 record(snakemake.log[0])
 folder = Path(snakemake.output.timing).parents[1]

@@ -2,23 +2,21 @@
 
 from pathlib import Path
 
-from heartfit.cohort.generate import generate
-from heartfit.cohort.hidden_heart import OTHER_CONDUCTIONS, hide_heart
-from heartfit.cohort.template import Template
 from heartfit.io.beats import write_beat
-from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh, write_mesh, write_motion
 from heartfit.io.results import write_result
+from heartfit.io.run import record
+from heartfit.synthetic.volunteer import OTHER_CONDUCTIONS, Template, generate, hide_heart
 
 record(snakemake.log[0])
-given = snakemake.params
-case, protocol = given.case, given.cohort.protocol(given.pressures)
-hidden = hide_heart(given.cohort.heart, case.hidden, case.period, case.seed, case.planted())
-size = given.cohort.mesh
+params = snakemake.params
+case, protocol = params.case, params.cohort.protocol(params.pressures)
+hidden = hide_heart(params.cohort.heart, case.hidden, case.period, case.seed, case.planted())
+size = params.cohort.mesh
 template = Template(read_mesh(Path(snakemake.input.template)), size.edge_length, size.tolerance)
 conduction = OTHER_CONDUCTIONS[case.conduction]
-volunteer = generate(template.shaped(case.shape()), hidden, protocol, conduction, case.qrs)
+volunteer = generate(template.deformed_to(case.shape()), hidden, protocol, conduction, case.qrs)
 write_mesh(Path(snakemake.output.mesh), volunteer.mesh)
 write_motion(Path(snakemake.output.motion), volunteer.motion)
-write_beat(Path(snakemake.output.beat), volunteer.beat, given.code)
-write_result(Path(snakemake.output.truth), {"parameters": volunteer.truth}, given.code)
+write_beat(Path(snakemake.output.beat), volunteer.beat, params.code)
+write_result(Path(snakemake.output.truth), {"parameters": volunteer.truth}, params.code)

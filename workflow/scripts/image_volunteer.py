@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from heartfit.cohort.cine import image_beat
 from heartfit.io.images import write_images
-from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh, read_motion
+from heartfit.io.run import record
+from heartfit.synthetic.cine import image_beat
 
 record(snakemake.log[0])
 mesh = read_mesh(Path(snakemake.input.mesh))

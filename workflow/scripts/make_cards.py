@@ -1,19 +1,22 @@
-"""What the data say of each parameter of each case: cards, their table, and how often intervals hold the truth."""
+"""Write the information of the data on each parameter of each case: cards, their table, and the coverage of
+intervals.
+"""
 
 from pathlib import Path
 
-from heartfit.io.log import record
 from heartfit.io.results import read_posterior, read_truth
+from heartfit.io.run import record
 from heartfit.io.tables import write_figures, write_tables
-from heartfit.tables.card import cards
-from heartfit.tables.card_figure import plot_cards
-from heartfit.tables.cards_table import cards_table, coverage_table
+from heartfit.results.card import cards, cards_table, coverage_table
+from heartfit.results.card_figure import plot_cards
+from heartfit.results.text import render_tables
 
 record(snakemake.log[0])
-files, given = snakemake.input, snakemake.params
-truths = dict(zip(given.groups.virtual, map(read_truth, map(Path, files.truths)), strict=True))
+files, params = snakemake.input, snakemake.params
+truths = dict(zip(params.groups.virtual, map(read_truth, map(Path, files.truths)), strict=True))
 met, weighed = map(read_posterior, map(Path, files.met)), map(read_posterior, map(Path, files.weighed))
-made = cards(given.calibrated, met, weighed, truths)
-folder = Path(given.results)
-write_tables(folder / "tables", {"cards": cards_table(made), "coverage_cohort": coverage_table(made)})
-write_figures(folder / "figures", plot_cards(made))
+case_cards = cards(params.calibrated, met, weighed, truths)
+folder = Path(params.results)
+tables = {"cards": cards_table(case_cards), "coverage_cohort": coverage_table(case_cards)}
+write_tables(folder / "tables", render_tables(tables))
+write_figures(folder / "figures", plot_cards(case_cards))

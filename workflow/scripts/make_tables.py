@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from heartfit.io.log import record
 from heartfit.io.results import read_case, read_truth
-from heartfit.io.tables import read_published, write_table, write_tables
-from heartfit.tables.errors_table import error_table
-from heartfit.tables.parameters_table import parameter_table
-from heartfit.tables.patients_table import patient_errors, patient_parameters
-from heartfit.tables.plausibility_table import plausibility_table
-from heartfit.tables.provenance import numbers_table
+from heartfit.io.run import record
+from heartfit.io.tables import read_published, write_csv, write_tables
+from heartfit.results.errors import error_table, plausibility_table
+from heartfit.results.parameters import parameter_table
+from heartfit.results.patients import patient_errors, patient_parameters
+from heartfit.results.provenance import numbers_table
+from heartfit.results.text import render_tables
 
 record(snakemake.log[0])
 files, origin = snakemake.input, snakemake.params.origin
@@ -24,5 +24,5 @@ tables = {
     "table3_parameters": patient_parameters(cases, patients, groups, truths),
 }
 folder = Path(snakemake.output.numbers).parent
-write_tables(folder, tables | {"plausibility": plausibility_table(cases)})
-write_table(Path(snakemake.output.numbers), numbers_table(tables, cases, origin))
+write_tables(folder, render_tables(tables | {"plausibility": plausibility_table(cases)}))
+write_csv(Path(snakemake.output.numbers), numbers_table(tables, cases, origin))

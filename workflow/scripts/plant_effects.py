@@ -3,9 +3,9 @@
 from itertools import repeat
 from pathlib import Path
 
-from heartfit.io.log import record
-from heartfit.io.planted import write_planted
-from heartfit.planting.case import plant
+from heartfit.io.run import record
+from heartfit.io.seals import write_planted
+from heartfit.synthetic.case import plant
 
 record(snakemake.log[0])
 folders = map(repeat, (Path(snakemake.output.measured), Path(snakemake.output.sealed)))

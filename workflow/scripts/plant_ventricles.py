@@ -2,22 +2,21 @@
 
 from pathlib import Path
 
-from heartfit.cohort.template import Template
-from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh, write_mesh
-from heartfit.io.planted import write_planted
-from heartfit.planting.imaging import Imaging
-from heartfit.planting.ventricles import Ventricles
+from heartfit.io.run import record
+from heartfit.io.seals import write_planted
+from heartfit.synthetic.ventricles import Imaging, Ventricles
+from heartfit.synthetic.volunteer import Template
 
 record(snakemake.log[0])
-files, out, given = snakemake.input, snakemake.output, snakemake.params
-hidden, seen = read_mesh(Path(files.generator)), read_mesh(Path(files.template))
-made, carried = given.generator, given.diagnoser.mesh
+files, out, params = snakemake.input, snakemake.output, snakemake.params
+hidden, observed = read_mesh(Path(files.generator)), read_mesh(Path(files.template))
+synthesis, carried = params.generator, params.diagnoser.mesh
 imaging = Imaging(
-    given.scanner, given.registration, Template(seen, carried.edge_length, carried.tolerance), hidden
+    params.scanner, params.registration, Template(observed, carried.edge_length, carried.tolerance), hidden
 )
-template = Template(hidden, made.mesh.edge_length, made.mesh.tolerance)
-ventricles = Ventricles(template, given.standard, made.protocol(given.pressures), imaging)
-mesh, case = ventricles.plant(given.plan)
+template = Template(hidden, synthesis.mesh.edge_length, synthesis.mesh.tolerance)
+ventricles = Ventricles(template, params.standard, synthesis.protocol(params.pressures), imaging)
+mesh, case = ventricles.plant(params.plan)
 write_mesh(Path(out.mesh), mesh)
 write_planted(case, Path(out.measured), Path(out.sealed))

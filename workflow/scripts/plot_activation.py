@@ -3,10 +3,10 @@
 from itertools import repeat
 from pathlib import Path
 
-from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh
+from heartfit.io.run import record
 from heartfit.io.tables import write_figure
-from heartfit.tables.activation_figure import plot_activation
+from heartfit.results.activation import plot_activation
 
 record(snakemake.log[0])
 case = snakemake.params.case

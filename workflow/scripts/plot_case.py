@@ -5,11 +5,11 @@ from pathlib import Path
 
 from heartfit.io.beats import read_beat
 from heartfit.io.curves import read_curves
-from heartfit.io.log import record
 from heartfit.io.results import read_case
+from heartfit.io.run import record
 from heartfit.io.tables import write_figure
 from heartfit.observation.beat import beat_curves
-from heartfit.tables.figures import plot_case
+from heartfit.results.figures import plot_case
 
 record(snakemake.log[0])
 files, result = snakemake.input, read_case(Path(snakemake.input.errors))

@@ -3,12 +3,11 @@
 from itertools import repeat
 from pathlib import Path
 
-from heartfit.io.animations import write_animation
 from heartfit.io.images import read_images
-from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh, read_motion
-from heartfit.io.tables import write_figure
-from heartfit.tables.contours import animate_contours, plot_contours
+from heartfit.io.run import record
+from heartfit.io.tables import write_animation, write_figure
+from heartfit.results.contours import animate_contours, plot_contours
 
 record(snakemake.log[0])
 files, case = snakemake.input, snakemake.wildcards.case

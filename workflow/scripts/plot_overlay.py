@@ -4,11 +4,10 @@ from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.images import read_images
-from heartfit.io.log import record
-from heartfit.io.meshes import read_mesh, read_motion
-from heartfit.io.simulated_motion import read_simulated_motion
+from heartfit.io.meshes import read_mesh, read_motion, read_simulated_motion
+from heartfit.io.run import record
 from heartfit.io.tables import write_figure
-from heartfit.tables.calibrated_overlay import plot_overlay
+from heartfit.results.overlay import plot_overlay
 
 record(snakemake.log[0])
 files, names = snakemake.input, snakemake.wildcards

@@ -3,10 +3,10 @@
 from itertools import repeat
 from pathlib import Path
 
-from heartfit.io.log import record
 from heartfit.io.results import read_posterior
+from heartfit.io.run import record
 from heartfit.io.tables import write_figure
-from heartfit.tables.figures import plot_sensitivity
+from heartfit.results.figures import plot_sensitivity
 
 record(snakemake.log[0])
 title = "{case}, {setting} setting".format(**dict(snakemake.wildcards.items()))

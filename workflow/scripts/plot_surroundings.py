@@ -4,23 +4,24 @@ from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.beats import read_beat
-from heartfit.io.log import record
 from heartfit.io.results import read_sensitivity, read_sigma_points
+from heartfit.io.run import record
 from heartfit.io.tables import write_figure, write_table
-from heartfit.protocol import curves_of_points
-from heartfit.tables.sensitivity_figure import plot_sensitivities
-from heartfit.tables.sensitivity_table import sensitivity_table
-from heartfit.tables.surroundings_figure import plot_surroundings
+from heartfit.personalise.run import curves_of_points
+from heartfit.results.figures import plot_perturbations
+from heartfit.results.sensitivity import plot_sensitivities, sensitivity_table
+from heartfit.results.text import render_table
 
 record(snakemake.log[0])
-files, out, given = snakemake.input, snakemake.output, snakemake.params
+files, out, params = snakemake.input, snakemake.output, snakemake.params
 _, points = read_sigma_points(Path(files.points))
 beats = map(read_beat, map(Path, files.beats))
-found = read_sensitivity(Path(files.sensitivity))
-title = f"{given.study.case}, {snakemake.wildcards.setting} setting"
-curves = plot_surroundings(
-    curves_of_points(given.setting, points, beats), found.parameters, title, given.study.step
+outcome = read_sensitivity(Path(files.sensitivity))
+title = f"{params.study.case}, {snakemake.wildcards.setting} setting"
+curves = plot_perturbations(
+    curves_of_points(params.setting, points, beats), outcome.parameters, title, params.study.step
 )
 list(map(write_figure, map(Path, out.curves), repeat(curves)))
-list(map(write_figure, map(Path, out.figure), repeat(plot_sensitivities(found, title))))
-list(map(write_table, map(Path, out.table), repeat(sensitivity_table(found, given.setting.units()))))
+list(map(write_figure, map(Path, out.figure), repeat(plot_sensitivities(outcome, title))))
+table = render_table(sensitivity_table(outcome, params.setting.units()))
+list(map(write_table, map(Path, out.table), repeat(table)))

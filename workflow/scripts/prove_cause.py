@@ -2,20 +2,16 @@
 
 from pathlib import Path
 
-from heartfit.io.beats import read_beat
-from heartfit.io.causes import write_cause_card
-from heartfit.io.log import record
+from heartfit.io.causes import read_diagnosis, write_cause_card
 from heartfit.io.refits import read_refit, read_trial, write_refit
-from heartfit.observation.beat import beat_curves
-from heartfit.proof.centred_search import centred_search
+from heartfit.io.run import record
+from heartfit.results.cause_figure import render_cause
 
 record(snakemake.log[0])
-files, given, names = snakemake.input, snakemake.params, snakemake.wildcards
-trial = read_trial(dict(files.items()), dict(given.items()))
-heart = given.setting.base_heart(given.case.period)
-beats = list(map(beat_curves, map(read_beat, map(Path, files.beats))))
-found = centred_search(trial.case.recording(), heart, beats)
-proved, extended = trial.prove(found, read_refit(Path(files.refit)))
+files, params, names = snakemake.input, snakemake.params, snakemake.wildcards
+trial = read_trial(dict(files.items()), dict(params.items()))
+diagnosis = read_diagnosis(Path(files.search).parent)
+proved, extended = trial.prove(diagnosis, read_refit(Path(files.refit)))
 card, *_, written = map(Path, snakemake.output)
-write_cause_card(card.parent, proved, f"{names.case}, {names.setting} setting", given.code)
-write_refit(written, extended, given.code)
+write_cause_card(card.parent, render_cause(proved, f"{names.case}, {names.setting} setting"), params.code)
+write_refit(written, extended, params.code)

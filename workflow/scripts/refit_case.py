@@ -3,16 +3,16 @@
 from pathlib import Path
 
 from heartfit.io.beats import write_beat
-from heartfit.io.log import record
+from heartfit.io.meshes import write_simulated_motion
 from heartfit.io.refits import read_trial, write_refit
-from heartfit.io.simulated_motion import write_simulated_motion
+from heartfit.io.run import record
 
 record(snakemake.log[0])
 trial = read_trial(dict(snakemake.input.items()), dict(snakemake.params.items()))
 code = snakemake.params.code
-found = trial.refitted()
-beat = trial.model(trial.none, found.parameters, keep_positions=True)
+outcome = trial.refitted()
+beat = trial.model(trial.none, outcome.parameters, keep_positions=True)
 written, state, _, motion = map(Path, snakemake.output)
-write_refit(written, found, code)
+write_refit(written, outcome, code)
 write_beat(state, beat, code)
 write_simulated_motion(motion, beat, trial.registered.times)

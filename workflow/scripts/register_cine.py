@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
+from heartfit.imaging.registration.slices import register_slices, require_unfolded
 from heartfit.io.images import read_images
-from heartfit.io.log import record
-from heartfit.io.slices import write_slice_motion
+from heartfit.io.meshes import write_slice_motion
+from heartfit.io.run import record
 from heartfit.io.sources import read_heart
-from heartfit.registration.slices import register_slices, require_unfolded
 
 record(snakemake.log[0])
 heart = read_heart(snakemake.params.source)

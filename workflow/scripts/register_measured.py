@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from heartfit.io.log import record
+from heartfit.geometry.carry import carry_mesh
 from heartfit.io.meshes import read_mesh, write_motion
+from heartfit.io.run import record
 from heartfit.io.sources import read_heart
-from heartfit.registration.carry import carry_mesh
 
 record(snakemake.log[0])
 mesh = read_mesh(Path(snakemake.input.mesh))

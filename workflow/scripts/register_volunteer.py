@@ -3,11 +3,11 @@
 from pathlib import Path
 
 from heartfit.imaging.checks import require_match
+from heartfit.imaging.registration.track import track
 from heartfit.io.images import read_images
-from heartfit.io.log import record
 from heartfit.io.meshes import read_mesh, write_motion
 from heartfit.io.results import write_result
-from heartfit.registration.track import track
+from heartfit.io.run import record
 
 record(snakemake.log[0])
 mesh = read_mesh(Path(snakemake.input.mesh))

@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
-from heartfit.io.log import record
-from heartfit.io.report import read_study_results, write_report
+from heartfit.io.files import write_text
+from heartfit.io.report import assets, read_study_results
+from heartfit.io.run import record
+from heartfit.results.report.page import render
 
 record(snakemake.log[0])
-given = snakemake.params
-study = read_study_results(Path(given.results), given.study, given.cases, given.left_out)
-write_report(Path(snakemake.output[0]), study)
+params = snakemake.params
+study = read_study_results(Path(params.results), params.study, params.cases, params.left_out)
+write_text(Path(snakemake.output[0]), render(study, assets()))

@@ -2,21 +2,19 @@
 
 from pathlib import Path
 
+from heartfit.discovery.sphere_model.recentred import centred_search
 from heartfit.io.beats import read_beat
 from heartfit.io.causes import write_cause_card
-from heartfit.io.log import record
 from heartfit.io.refits import read_measured_case
+from heartfit.io.run import record
 from heartfit.observation.beat import beat_curves
-from heartfit.proof.centred_search import centred_search
+from heartfit.results.cause_figure import render_cause
 
 record(snakemake.log[0])
-files, given, names = snakemake.input, snakemake.params, snakemake.wildcards
+files, params, names = snakemake.input, snakemake.params, snakemake.wildcards
 recording = read_measured_case(files.measured, files.get("noise", [])).recording()
-heart = given.setting.base_heart(given.case.period)
+heart = params.setting.base_heart(params.case.period)
 beats = list(map(beat_curves, map(read_beat, map(Path, files.beats))))
-found = centred_search(recording, heart, beats)
-folder, title = (
-    Path(snakemake.output[0]).parent,
-    f"{names.case}, {names.setting} setting: search on the sphere",
-)
-write_cause_card(folder, found, title, given.code)
+outcome = centred_search(recording, heart, beats)
+title = f"{names.case}, {names.setting} setting: search on the sphere"
+write_cause_card(Path(snakemake.output[0]).parent, render_cause(outcome, title), params.code)

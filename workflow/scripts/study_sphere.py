@@ -2,17 +2,17 @@
 
 from pathlib import Path
 
-from heartfit.io.log import record
+from heartfit.calibration.sobol import sobol_indices
 from heartfit.io.meshes import read_mesh
-from heartfit.io.plausibility import write_sobol
-from heartfit.sensitivity.sobol import sobol_indices
-from heartfit.spherical_case import SphericalCase
+from heartfit.io.noise_models import write_sobol
+from heartfit.io.run import record
+from heartfit.synthetic.known_hearts import SphericalCase
 
 record(snakemake.log[0])
-given = snakemake.params
+params = snakemake.params
 mesh = read_mesh(Path(snakemake.input.mesh))
-heart = given.setting.base_heart(given.case.period)
-features = given.operator.trial_features(given.operator.frames)
-case = SphericalCase.of(mesh, given.pressures.lv, heart, features, given.scheme.numerics())
-indices = sobol_indices(given.setting.gaussian(), case, given.sphere.samples, given.sphere.seed)
-write_sobol(Path(snakemake.output[0]), indices, given.code)
+heart = params.setting.base_heart(params.case.period)
+features = params.operator.trial_features(params.operator.frames)
+case = SphericalCase.of(mesh, params.pressures.lv, heart, features, params.scheme.numerics())
+indices = sobol_indices(params.setting.gaussian(), case, params.sphere.samples, params.sphere.seed)
+write_sobol(Path(snakemake.output[0]), indices, params.code)

@@ -2,13 +2,14 @@
 
 from pathlib import Path
 
-from heartfit.io.benchmarks import read_benchmarks
-from heartfit.io.log import record
+from heartfit.io.costs import read_benchmarks
+from heartfit.io.run import record
 from heartfit.io.tables import write_figures, write_tables
-from heartfit.tables.costs import cost_table, plot_costs
+from heartfit.results.costs import cost_table, plot_costs
+from heartfit.results.text import render_tables
 
 record(snakemake.log[0])
 folder = Path(snakemake.params.results)
 table = cost_table(read_benchmarks(folder / "benchmarks"))
-write_tables(folder / "tables", {"costs": table})
+write_tables(folder / "tables", render_tables({"costs": table}))
 write_figures(folder / "figures", {"costs": plot_costs(table)})

@@ -1,19 +1,21 @@
-"""What registration costs, by acquisition and by segment: tables and Fig. 6."""
+"""Tabulate the errors of registration by acquisition and by segment, and draw Fig. 6."""
 
 from itertools import repeat
 from pathlib import Path
 
-from heartfit.io.comparisons import read_comparison
-from heartfit.io.log import record
+from heartfit.io.noise_models import read_comparison
+from heartfit.io.run import record
 from heartfit.io.tables import write_figure, write_table
-from heartfit.tables.acquisitions import Acquisitions
-from heartfit.tables.registration_figure import plot_registration
-from heartfit.tables.registration_table import registration_table, segment_table
+from heartfit.results.acquisitions import Acquisitions
+from heartfit.results.registration import plot_registration, registration_table, segment_table
+from heartfit.results.text import render_table
 
 record(snakemake.log[0])
-given, out = snakemake.params, snakemake.output
-acquisitions = Acquisitions.of(given.settings, given.tried, map(read_comparison, map(Path, snakemake.input)))
-list(map(write_table, map(Path, out.costs), repeat(registration_table(acquisitions))))
-list(map(write_table, map(Path, out.segments), repeat(segment_table(acquisitions.baseline))))
-figure = plot_registration(acquisitions, given.operator.trial_features(given.frames)["lv_volume"])
+params, out = snakemake.params, snakemake.output
+acquisitions = Acquisitions.of(
+    params.settings, params.tried, map(read_comparison, map(Path, snakemake.input))
+)
+list(map(write_table, map(Path, out.costs), repeat(render_table(registration_table(acquisitions)))))
+list(map(write_table, map(Path, out.segments), repeat(render_table(segment_table(acquisitions.baseline)))))
+figure = plot_registration(acquisitions, params.operator.trial_features(params.frames)["lv_volume"])
 list(map(write_figure, map(Path, out.figure), repeat(figure)))

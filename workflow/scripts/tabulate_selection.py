@@ -1,27 +1,26 @@
-"""Which parameters are chosen, which prior the rule gives, and what Sobol's indices of the sphere say of both."""
+"""Tabulate the selected parameters, the prior of the rule, and Sobol's indices of the sphere beside both."""
 
 from itertools import repeat
 from pathlib import Path
 
-from heartfit.io.log import record
-from heartfit.io.plausibility import read_ranges, read_sobol
+from heartfit.io.noise_models import read_ranges, read_sobol
 from heartfit.io.results import read_sensitivity
+from heartfit.io.run import record
 from heartfit.io.tables import write_figure, write_table
-from heartfit.tables.prior_table import prior_table
-from heartfit.tables.selection_table import selection_table
-from heartfit.tables.sensitivity_table import bulk_modulus_table
-from heartfit.tables.sobol_figure import plot_sobol
-from heartfit.tables.sobol_table import sobol_table
+from heartfit.results.parameters import prior_table
+from heartfit.results.sensitivity import bulk_modulus_table, selection_table
+from heartfit.results.sobol import plot_sobol, sobol_table
+from heartfit.results.text import render_table
 
 record(snakemake.log[0])
-files, out, given = snakemake.input, snakemake.output, snakemake.params
-found = dict(zip(given.settings, map(read_sensitivity, map(Path, files.found)), strict=True))
-ranges = dict(zip(given.settings, map(read_ranges, map(Path, files.ranges)), strict=True))
+files, out, params = snakemake.input, snakemake.output, snakemake.params
+outcome = dict(zip(params.settings, map(read_sensitivity, map(Path, files.found)), strict=True))
+ranges = dict(zip(params.settings, map(read_ranges, map(Path, files.ranges)), strict=True))
 sobol = read_sobol(Path(files.sobol))
-selection = selection_table(found, ranges, given.estimated)
-list(map(write_table, map(Path, out.selection), repeat(selection)))
-list(map(write_table, map(Path, out.prior), repeat(prior_table(ranges, found, given.units))))
-bulk_modulus = bulk_modulus_table(found, given.units)
-list(map(write_table, map(Path, out.bulk_modulus), repeat(bulk_modulus)))
-list(map(write_table, map(Path, out.sobol), repeat(sobol_table(sobol))))
-list(map(write_figure, map(Path, out.figure), repeat(plot_sobol(sobol, found))))
+selection = selection_table(outcome, ranges, params.estimated)
+list(map(write_table, map(Path, out.selection), repeat(render_table(selection))))
+list(map(write_table, map(Path, out.prior), repeat(render_table(prior_table(ranges, outcome, params.units)))))
+bulk_modulus = bulk_modulus_table(outcome, params.units)
+list(map(write_table, map(Path, out.bulk_modulus), repeat(render_table(bulk_modulus))))
+list(map(write_table, map(Path, out.sobol), repeat(render_table(sobol_table(sobol)))))
+list(map(write_figure, map(Path, out.figure), repeat(plot_sobol(sobol, outcome))))

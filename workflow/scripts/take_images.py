@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from heartfit.io.images import write_images
-from heartfit.io.log import record
+from heartfit.io.run import record
 from heartfit.io.sources import read_source_images
 
 record(snakemake.log[0])
-given = snakemake.params
-write_images(Path(snakemake.output.images), read_source_images(given.case, given.source))
+params = snakemake.params
+write_images(Path(snakemake.output.images), read_source_images(params.case, params.source))

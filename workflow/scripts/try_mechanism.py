@@ -2,12 +2,11 @@
 
 from pathlib import Path
 
-from heartfit.io.attempts import write_attempt
-from heartfit.io.log import record
-from heartfit.io.refits import read_refit, read_trial
+from heartfit.io.refits import read_refit, read_trial, write_attempt
+from heartfit.io.run import record
 
 record(snakemake.log[0])
-files, given = snakemake.input, snakemake.params
-trial = read_trial(dict(files.items()), dict(given.items()))
+files, params = snakemake.input, snakemake.params
+trial = read_trial(dict(files.items()), dict(params.items()))
 attempt = trial.attempt(snakemake.wildcards.mechanism, read_refit(Path(files.refit)))
-write_attempt(Path(snakemake.output[0]), attempt, given.code)
+write_attempt(Path(snakemake.output[0]), attempt, params.code)

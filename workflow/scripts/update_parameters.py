@@ -2,29 +2,25 @@
 
 from pathlib import Path
 
-from heartfit.calibration.slopes import Slopes
+from heartfit.calibration.sensitivity import Slopes
 from heartfit.io.beats import read_beat
 from heartfit.io.curves import read_curves
-from heartfit.io.log import record
 from heartfit.io.results import read_observations, read_sensitivity, read_sigma_points, write_posterior
-from heartfit.protocol import estimate
+from heartfit.io.run import record
+from heartfit.personalise.run import estimate
 
 record(snakemake.log[0])
-files, given = snakemake.input, snakemake.params
+files, params = snakemake.input, snakemake.params
 prior, points = read_sigma_points(Path(files.points))
 measurement = read_observations(Path(files.observations))
 beats = list(map(read_beat, map(Path, files.beats)))
-arguments = (
-    given.setting,
-    prior,
-    points,
-    beats,
-    read_curves(Path(files.measured)),
-    measurement,
-    given.operator,
+measured = read_curves(Path(files.measured))
+arguments = (params.setting, prior, points, beats, measured, measurement, params.operator)
+observed = read_sensitivity(Path(files.sensitivity))
+slopes = Slopes(observed.parameters, observed.observations, observed.slopes)
+met, weighed = (
+    estimate(*arguments, params.transform),
+    estimate(*arguments, params.transform.with_noise(), slopes),
 )
-seen = read_sensitivity(Path(files.sensitivity))
-slopes = Slopes(seen.parameters, seen.observations, seen.slopes)
-met, weighed = estimate(*arguments, given.transform), estimate(*arguments, given.transform.weighed(), slopes)
-write_posterior(Path(snakemake.output.met), met, given.code)
-write_posterior(Path(snakemake.output.weighed), weighed, given.code)
+write_posterior(Path(snakemake.output.met), met, params.code)
+write_posterior(Path(snakemake.output.weighed), weighed, params.code)

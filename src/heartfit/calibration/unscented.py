@@ -1,4 +1,6 @@
-"""Sigma points and the moments they give.
+"""The model as a calibration sees it: parameters in, observations out, and every run counted.
+
+Sigma points and the moments they give.
 
 Equations, with n parameters X ~ N(X0, C), lambda = a^2 (n + kappa) - n and gamma = sqrt(n + lambda):
 
@@ -11,17 +13,47 @@ References: Wan and van der Merwe 2000, doi:10.1109/ASSPCC.2000.882463; Marchess
 (4).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from heartfit.calibration.design import CalibrationError as CalibrationError
 from heartfit.calibration.design import Design
+from heartfit.calibration.design import Scaling as Scaling
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.calibration.scaling import Scaling as Scaling
 
-STANDARD = Scaling()
+Outcome = Mapping[str, float] | str
+"""Observations by name, or the reason why there are none."""
+Forward = Callable[[Sequence[Mapping[str, float]]], list[Outcome]]
+"""From the parameters of some simulations, by name and SI, to their outcomes."""
+
+
+class CountedForward:
+    """A forward model that counts the simulations asked of it."""
+
+    def __init__(self, forward: Forward) -> None:
+        self._forward, self.simulations = forward, 0
+
+    def __call__(self, parameters: Sequence[Mapping[str, float]]) -> list[Outcome]:
+        self.simulations += len(parameters)
+        return self._forward(parameters)
+
+
+class CachedForward:
+    """A forward model that runs no parameters twice: hearts of one shape and prior share their sigma points."""
+
+    def __init__(self, forward: Forward) -> None:
+        self._forward, self._known = forward, dict[frozenset[tuple[str, float]], Outcome]()
+
+    def __call__(self, parameters: Sequence[Mapping[str, float]]) -> list[Outcome]:
+        keys = [frozenset(values.items()) for values in parameters]
+        new = {key: values for key, values in zip(keys, parameters, strict=True) if key not in self._known}
+        self._known |= zip(new, self._forward(list(new.values())), strict=True)
+        return [self._known[key] for key in keys]
+
+
+STANDARD_DESIGN = Scaling()
 
 
 @dataclass(frozen=True)
@@ -34,7 +66,7 @@ class SigmaPoint:
     parameters: dict[str, float]
 
 
-def sigma_points(prior: Gaussian, design: Design = STANDARD) -> list[SigmaPoint]:
+def sigma_points(prior: Gaussian, design: Design = STANDARD_DESIGN) -> list[SigmaPoint]:
     """The points of the design under the prior, in its order: those of the standard one are the 2n+1 above."""
     z = prior.mean + design.offsets(len(prior.names)) @ np.linalg.cholesky(prior.covariance).T
     return [
@@ -56,7 +88,7 @@ class Moments:
 def transform(
     points: Sequence[SigmaPoint],
     z: np.ndarray,
-    design: Design = STANDARD,
+    design: Design = STANDARD_DESIGN,
     completed: np.ndarray | None = None,
 ) -> Moments:
     """Moments of the observations z (p, m); rows whose `completed` (p,) is False are not looked at.
@@ -67,9 +99,9 @@ def transform(
     """
     labels = [point.label for point in points]
     x = np.array([point.z for point in points])
-    done = np.ones(len(points), dtype=bool) if completed is None else np.asarray(completed, dtype=bool)
-    _check_observations(z, done, labels)
-    z = design.filled(z, done, labels)
+    complete = np.ones(len(points), dtype=bool) if completed is None else np.asarray(completed, dtype=bool)
+    _check_observations(z, complete, labels)
+    z = design.filled(z, complete, labels)
     mean_weight, weight = design.weights(x.shape[1])
     mean = mean_weight @ z
     deviation = z - mean
@@ -77,14 +109,18 @@ def transform(
         mean,
         (weight[:, None] * (x - x[0])).T @ deviation,
         (weight[:, None] * deviation).T @ deviation,
-        tuple(label for label, ok in zip(labels, done, strict=True) if not ok),
+        tuple(label for label, ok in zip(labels, complete, strict=True) if not ok),
     )
 
 
-def _check_observations(z: np.ndarray, done: np.ndarray, labels: list[str]) -> None:
-    if z.ndim != 2 or len(z) != len(labels) or done.shape != (len(labels),):
-        raise ValueError(f"unscented: observations {z.shape}, mask {done.shape}; expected {len(labels)} rows")
-    bad = [label for label, row, ok in zip(labels, z, done, strict=True) if ok and not np.isfinite(row).all()]
+def _check_observations(z: np.ndarray, complete: np.ndarray, labels: list[str]) -> None:
+    if z.ndim != 2 or len(z) != len(labels) or complete.shape != (len(labels),):
+        raise ValueError(
+            f"unscented: observations {z.shape}, mask {complete.shape}; expected {len(labels)} rows"
+        )
+    bad = [
+        label for label, row, ok in zip(labels, z, complete, strict=True) if ok and not np.isfinite(row).all()
+    ]
     if bad:
         raise ValueError(
             f"unscented: {', '.join(bad)} observed as not finite; expected numbers, or a mask that says "

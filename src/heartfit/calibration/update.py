@@ -15,7 +15,7 @@ import numpy as np
 from heartfit.calibration.design import Design
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import (
-    STANDARD,
+    STANDARD_DESIGN,
     CalibrationError,
     Moments,
     SigmaPoint,
@@ -24,10 +24,12 @@ from heartfit.calibration.unscented import (
 )
 
 LONG_STEP = 3.0  # prior standard deviations: beyond them the moments say little about the model
-SILENT = 1e-8  # relative standard deviation of an observation below which it is rounding
-COLLINEAR = 1e-10  # eigenvalue of the normalised covariance of the observations that counts as zero
+SILENT_VARIATION = 1e-8  # relative standard deviation of an observation below which it is rounding
+COLLINEAR_EIGENVALUE = (
+    1e-10  # eigenvalue of the normalised covariance of the observations that counts as zero
+)
 ROUNDING = 1e-6  # negative variance, over the prior's, that the inverse of that covariance can leave
-NEGATIVE = (
+NEGATIVE_VARIANCE = (
     "calibration: the {what} over the sigma points is negative, as a negative weight of the centre allows: "
     "take a <= 1 and kappa such that a^2 (n + kappa) >= n"
 )
@@ -63,7 +65,7 @@ def calibrate(
     outcomes: Sequence[Mapping[str, float] | str],
     observed: Mapping[str, float],
     noise: np.ndarray | None = None,
-    design: Design = STANDARD,
+    design: Design = STANDARD_DESIGN,
 ) -> Posterior:
     """The posterior from the observations of each sigma point's beat, or the reason why there are none."""
     return update(prior, moments_of(prior, outcomes, tuple(observed), design), observed, noise)
@@ -73,7 +75,7 @@ def moments_of(
     prior: Gaussian,
     outcomes: Sequence[Mapping[str, float] | str],
     names: Sequence[str],
-    design: Design = STANDARD,
+    design: Design = STANDARD_DESIGN,
 ) -> Moments:
     """Moments of the observations `names` over the sigma points, from the outcome of each."""
     points = sigma_points(prior, design)
@@ -106,7 +108,7 @@ def update(
     """
     names, z = tuple(observed), np.array(list(observed.values()))
     scale = _scale(moments, names)
-    correlation = _normalised(moments.cov_zz, noise, scale)
+    correlation = _normalise(moments.cov_zz, noise, scale)
     _require_definite(correlation, names)
     gain = np.linalg.solve(correlation, (moments.cov_xz / scale).T).T / scale
     shift = gain @ (z - moments.mean)
@@ -115,7 +117,7 @@ def update(
     sensitivity = moments.cov_xz / np.outer(prior.sd, scale)
     return Posterior(
         prior,
-        Gaussian(prior.names, prior.mean + shift, _positive(covariance, prior.covariance)),
+        Gaussian(prior.names, prior.mean + shift, _make_positive(covariance, prior.covariance)),
         names,
         z,
         moments.mean,
@@ -139,37 +141,39 @@ def _scale(moments: Moments, names: tuple[str, ...]) -> np.ndarray:
     if variance.shape != (len(names),):
         raise ValueError(f"calibration: {len(names)} observations {names}, {variance.size} columns predicted")
     silent = [
-        name for name, quiet in zip(names, variance <= (SILENT * moments.mean) ** 2, strict=True) if quiet
+        name
+        for name, quiet in zip(names, variance <= (SILENT_VARIATION * moments.mean) ** 2, strict=True)
+        if quiet
     ]
     if (variance < 0).any():
-        raise CalibrationError(NEGATIVE.format(what=f"variance of {', '.join(silent)}"))
+        raise CalibrationError(NEGATIVE_VARIANCE.format(what=f"variance of {', '.join(silent)}"))
     if silent:
         raise CalibrationError(f"calibration: no parameter changes {', '.join(silent)}: do not observe it")
     return np.sqrt(variance)
 
 
-def _normalised(cov_zz: np.ndarray, noise: np.ndarray | None, scale: np.ndarray) -> np.ndarray:
+def _normalise(cov_zz: np.ndarray, noise: np.ndarray | None, scale: np.ndarray) -> np.ndarray:
     total = cov_zz if noise is None else cov_zz + noise
     return total / np.outer(scale, scale)
 
 
 def _require_definite(correlation: np.ndarray, names: tuple[str, ...]) -> None:
     smallest = float(np.linalg.eigvalsh(correlation).min())
-    if smallest < -COLLINEAR:
-        raise CalibrationError(NEGATIVE.format(what=f"covariance of {', '.join(names)}"))
-    if smallest < COLLINEAR:
+    if smallest < -COLLINEAR_EIGENVALUE:
+        raise CalibrationError(NEGATIVE_VARIANCE.format(what=f"covariance of {', '.join(names)}"))
+    if smallest < COLLINEAR_EIGENVALUE:
         raise CalibrationError(
             f"calibration: {', '.join(names)} are collinear over the prior (smallest eigenvalue {smallest:.1e} of "
             "their normalised covariance): observe fewer, estimate more parameters, or give the observations noise"
         )
 
 
-def _positive(covariance: np.ndarray, prior: np.ndarray) -> np.ndarray:
+def _make_positive(covariance: np.ndarray, prior: np.ndarray) -> np.ndarray:
     """Symmetrise; directions fixed to rounding get a variance of 1e-12 of the prior's mean one."""
     values, vectors = np.linalg.eigh((covariance + covariance.T) / 2)
     variance = np.trace(prior) / len(prior)
     if values.min() < -ROUNDING * variance:
-        raise CalibrationError(NEGATIVE.format(what="covariance of the posterior"))
+        raise CalibrationError(NEGATIVE_VARIANCE.format(what="covariance of the posterior"))
     floor = 1e-12 * variance
     return (vectors * np.maximum(values, floor)) @ vectors.T
 

@@ -1,1 +1,1 @@
-"""Which effect a model lacks, from the residual of curves; knows vectors, never a heart."""
+"""Search for the effect that a model lacks, on a sphere and in three dimensions."""

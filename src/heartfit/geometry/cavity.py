@@ -1,4 +1,4 @@
-"""The volume of blood behind an endocardium and its derivative, the load vector of a unit pressure."""
+"""Cavity volume behind an endocardium, and its gradient: the load vector of a unit pressure."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -7,13 +7,13 @@ from typing import Protocol
 import numpy as np
 from numba import njit
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats, Integers
-from heartfit.geometry.topology import rim_loops
+from heartfit.core.arrays import Floats, Integers
+from heartfit.core.errors import InputError
+from heartfit.geometry.surface import rim_loops
 
 
 class HasSurfaces(Protocol):
-    """A mesh or a labelled surface."""
+    """A mesh or a labelled surface: anything with triangles by surface name."""
 
     @property
     def surfaces(self) -> Mapping[str, Integers]: ...
@@ -26,7 +26,7 @@ class Cavity:
     V(x) = -1/6 sum a.(b x c) over the triangles of endocardium and lids, whose normals point into the cavity.
     A lid's apex is the mean of its rim nodes, so the pressure on the lid is spread over the rim.
     triangles (k,3) refer to the nodes followed by one apex per opening; rim (r,) holds the nodes of all
-    openings, rim_start (o+1,) where each opening begins in it.
+    openings, rim_start (o+1,) the start of each opening in it.
     """
 
     triangles: Integers
@@ -39,8 +39,8 @@ class Cavity:
         return self.triangles[(self.triangles < 0).any(axis=1)]
 
     @classmethod
-    def of(cls, mesh: HasSurfaces, name: str) -> "Cavity":
-        """The cavity behind the endocardium `name`; raises InputError if it has no or pinched openings."""
+    def from_endocardium(cls, mesh: HasSurfaces, name: str) -> "Cavity":
+        """Return the cavity behind the endocardium `name`; raises InputError if it has no or pinched openings."""
         surface = mesh.surfaces[name]
         loops = rim_loops(surface)
         if not loops:
@@ -53,21 +53,21 @@ class Cavity:
         return cls(np.vstack([surface, *lids]).astype(np.int64), np.concatenate(loops), start)
 
     def corners(self, x: Floats) -> Floats:
-        """The nodes x (n,3) and after them the lids' apices, which the last entries of ``triangles`` mean."""
+        """Return the nodes x (n,3) followed by the lids' apices, to which negative ``triangles`` entries refer."""
         return _with_lid_apices(x, self.rim, self.rim_start)
 
     def volume(self, x: Floats) -> float:
-        """Volume in m^3 at nodal positions x (n,3)."""
+        """Volume [m^3] at nodal positions x (n,3)."""
         return float(_volume(x, self.triangles, self.rim, self.rim_start))
 
     def gradient(self, x: Floats) -> Floats:
-        """dV/dx (n,3) in m^2 at nodal positions x (n,3)."""
+        """Gradient dV/dx (n,3) [m^2] at nodal positions x (n,3)."""
         return _gradient(x, self.triangles, self.rim, self.rim_start)
 
 
 @njit(cache=True)
 def _with_lid_apices(x: Floats, rim: Integers, start: Integers) -> Floats:
-    """The nodes, then the lids' apices from the last opening to the first: index -1 - o is opening o."""
+    """Return the nodes, then the lids' apices from the last opening to the first: index -1 - o is opening o."""
     n, openings = len(x), len(start) - 1
     corners = np.zeros((n + openings, 3))
     corners[:n] = x

@@ -1,4 +1,4 @@
-"""Rule-based fibres: the helix angle runs linearly across the wall, from endocardium to epicardium.
+"""Rule-based fibres, with a helix angle that runs linearly across the wall from endocardium to epicardium.
 
 Equations
 ---------
@@ -22,28 +22,37 @@ References
 Bayer JD et al. 2012, doi 10.1007/s10439-012-0593-5.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from skfem.quadrature import get_quadrature
 from skfem.refdom import RefTet
 
-from heartfit.geometry.arrays import COLUMN, ROW, Floats
-from heartfit.geometry.directions import apex_to_base, gradient, not_parallel, unit
-from heartfit.geometry.laplace import between
+from heartfit.core.arrays import COLUMN, ROW, Floats
+from heartfit.geometry.coordinates import LeftVentricularAxes
+from heartfit.geometry.harmonic import (
+    apicobasal_gradient,
+    harmonic_between,
+    normalise_rows,
+    replace_parallel,
+    wall_gradient,
+)
 from heartfit.geometry.mesh import VentricularMesh
+from heartfit.geometry.segments import aha_segments
 
 CENTROID = np.full(4, 0.25)
+"""Barycentric coordinates of the centroid of a tetrahedron."""
+
 DEGREE = 7
-"""Of the polynomials that the mean over a tetrahedron integrates exactly; 24 points."""
+"""Degree of the polynomials that the quadrature over a tetrahedron integrates exactly; 24 points."""
 
 
 @dataclass(frozen=True, eq=False)
 class FibreRule:
-    """The rule on a mesh.
+    """The fibre rule on a mesh.
 
-    phi (3,n): phi_lv, phi_rv, phi_epi at the nodes; across: the gradient (m,3) of each; along: grad psi (m,3) beside
-    each; endo, epi: helix angles in rad, positive if right-handed.
+    phi (3,n): phi_lv, phi_rv, phi_epi at the nodes; across: their three gradients (m,3); along: grad psi (m,3) for each
+    of them; endo, epi: helix angles [rad], positive if right-handed.
     """
 
     mesh: VentricularMesh
@@ -54,14 +63,14 @@ class FibreRule:
     epi: float
 
     @classmethod
-    def of(
+    def from_mesh(
         cls, mesh: VentricularMesh, endo: float = np.deg2rad(80.0), epi: float = -np.deg2rad(80.0)
     ) -> "FibreRule":
-        """The rule of the helix angles `endo` and `epi` on a mesh."""
-        phi = np.array([_field_of(mesh, name) for name in ("lv_endo", "rv_endo", "epi")])
-        across = tuple(gradient(mesh, field) for field in phi)
-        upwards = apex_to_base(mesh)
-        along = tuple(not_parallel(mesh, upwards, each) for each in across)
+        """Return the rule with helix angles `endo` and `epi` [rad] on a mesh."""
+        phi = np.array([_surface_field(mesh, name) for name in ("lv_endo", "rv_endo", "epi")])
+        across = tuple(wall_gradient(mesh, field) for field in phi)
+        upwards = apicobasal_gradient(mesh)
+        along = tuple(replace_parallel(mesh, upwards, transmural) for transmural in across)
         return cls(mesh, phi, across, along, endo, epi)
 
     def fibres(self) -> Floats:
@@ -69,7 +78,7 @@ class FibreRule:
         return self._at(CENTROID)
 
     def orientation(self) -> Floats:
-        """Mean (m,6) of f f' over each tetrahedron, of trace 1; six-vectors as in heartfit.geometry.arrays."""
+        """Mean (m,6) of f f' over each tetrahedron, of trace 1; six-vectors as in heartfit.core.arrays."""
         points, weights = get_quadrature(RefTet, DEGREE)
         corners = np.vstack([1.0 - points.sum(axis=0), points]).T
         fibres = (self._at(corner) for corner in corners)
@@ -93,22 +102,35 @@ class FibreRule:
         return _principal(sum(weight[:, None, None] * f[:, :, None] * f[:, None, :] for weight, f in parts))
 
 
-def _field_of(mesh: VentricularMesh, name: str) -> Floats:
+def _surface_field(mesh: VentricularMesh, name: str) -> Floats:
+    """Return the harmonic field (n,) that is 1 on the named surface and 0 on the two others."""
     others = [mesh.surfaces[other] for other in ("lv_endo", "rv_endo", "epi") if other != name]
-    return between(
+    return harmonic_between(
         mesh.points, mesh.tets, one=np.unique(mesh.surfaces[name]), zero=np.unique(np.vstack(others))
     )
 
 
 def _fibre(along: Floats, across: Floats, angle: Floats) -> Floats:
-    """f (m,3) at the angle (m,) from circumferential to longitudinal in the plane normal to `across`."""
-    e_t = unit(across)
-    e_l = unit(along - (along * e_t).sum(axis=1, keepdims=True) * e_t)
+    """Fibres (m,3) at the angle (m,) [rad] from circumferential to longitudinal in the plane normal to `across`."""
+    e_t = normalise_rows(across)
+    e_l = normalise_rows(along - (along * e_t).sum(axis=1, keepdims=True) * e_t)
     return np.cos(angle)[:, None] * np.cross(e_l, e_t) + np.sin(angle)[:, None] * e_l
 
 
 def _principal(tensors: Floats) -> Floats:
-    """Of both directions along the axis that whose largest component is positive."""
+    """Principal directions (m,3) of tensors (m,3,3), of the sign that makes the largest component positive."""
     axis: Floats = np.linalg.eigh(tensors)[1][:, :, 2]
     largest = np.take_along_axis(axis, np.abs(axis).argmax(axis=1)[:, None], axis=1)
     return axis * np.sign(largest)
+
+
+def prepare(mesh: VentricularMesh) -> VentricularMesh:
+    """Return the mesh with rule-based fibres, AHA segments and the longitudinal coordinate."""
+    rule = FibreRule.from_mesh(mesh)
+    return replace(
+        mesh,
+        fibres=rule.fibres(),
+        orientation=rule.orientation(),
+        segments=aha_segments(mesh),
+        longitudinal=LeftVentricularAxes.from_mesh(mesh).longitudinal(mesh.points),
+    )

@@ -1,6 +1,6 @@
-"""Ventricles from a handful of clinical numbers: a truncated ellipsoid with a crescent-shaped pocket.
+"""Parametric ventricles: a truncated ellipsoid with a crescent-shaped pocket, from a few clinical numbers.
 
-Everything is a distance s from the left endocardium along its outward normal n, x = e + s n, with the
+Each sheet of the wall is at a distance s from the left endocardium along its outward normal n, x = e + s n, with the
 eccentric angle eta of its ellipsoid (0 base, pi/2 apex) and the azimuth phi (0 at the middle of the septum):
 
     e  : ellipsoid of semi-axes (a, c)                                               left endocardium, s = 0
@@ -11,23 +11,75 @@ eccentric angle eta of its ellipsoid (0 base, pi/2 apex) and the azimuth phi (0 
 a follows from the left cavity volume, B from the right one.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats
+from heartfit.core.arrays import Floats, Integers, Names
+from heartfit.core.errors import InputError
 from heartfit.geometry.cavity import Cavity
-from heartfit.geometry.seams import Seams
-from heartfit.geometry.surface import LabelledSurface
+from heartfit.geometry.surface import LabelledSurface, enclosed_volume, orient
 
-PATCH_AZIMUTH = np.deg2rad(78.0)
-PATCH_DEPTH = np.deg2rad(65.0)
+NANOMETRE = 1e-9
+"""Distance [m] below which points coincide."""
+
+
+@dataclass(frozen=True, eq=False)
+class Seams:
+    """Indices (n,) of the grid points that are nodes, triangles (k,3) between these, and the triangles' names (k,).
+
+    They are valid for all grids that meet at the same points, whatever their shape.
+    """
+
+    nodes: Integers
+    triangles: Integers
+    labels: Names
+
+    @classmethod
+    def from_grids(cls, names: Sequence[str], grids: Sequence[Floats]) -> "Seams":
+        """Return the seams of grids (i,j,3) [m] with these names; points within a nanometre are one node."""
+        points = _stack_points(grids)
+        rounded = np.round(points / NANOMETRE)
+        _, nodes, merged = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
+        start = np.cumsum([0] + [grid.shape[0] * grid.shape[1] for grid in grids])
+        triangles = [_grid_triangles(*grid.shape[:2]) + s for grid, s in zip(grids, start[:-1], strict=True)]
+        labels = np.repeat(names, [len(part) for part in triangles])
+        faces = merged.reshape(-1)[np.concatenate(triangles)]
+        whole = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+        oriented = orient(faces[whole].astype(np.int64))
+        outwards = enclosed_volume(points[nodes], oriented) > 0.0
+        return cls(nodes, oriented if outwards else oriented[:, ::-1], labels[whole])
+
+    def points(self, grids: Sequence[Floats]) -> Floats:
+        """Return the nodes' positions (n,3) [m] on these grids."""
+        return _stack_points(grids)[self.nodes]
+
+    def surface(self, grids: Sequence[Floats]) -> LabelledSurface:
+        """Return the closed surface of these grids."""
+        return LabelledSurface(self.points(grids), self.triangles, self.labels)
+
+
+def _stack_points(grids: Sequence[Floats]) -> Floats:
+    return np.concatenate([grid.reshape(-1, 3) for grid in grids])
+
+
+def _grid_triangles(rows: int, columns: int) -> Integers:
+    node = np.arange(rows * columns).reshape(rows, columns)
+    a, b, c, d = node[:-1, :-1], node[1:, :-1], node[1:, 1:], node[:-1, 1:]
+    return np.concatenate([np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)])
+
+
+PATCH_AZIMUTH, PATCH_DEPTH = np.deg2rad(78.0), np.deg2rad(65.0)
+"""Half-width phi0 and depth eta0 [rad] of the pocket of the right cavity."""
+
 ROUNDING = 3e-3
-HALF_PATCH = 14
-OUTSIDE_PATCH = 26
-ROWS = 28
+"""Width s [m] of the smooth maximum."""
+
+HALF_PATCH, OUTSIDE_PATCH, ROWS = 14, 26, 28
+"""Numbers of grid intervals on half the patch and around the rest, and of rows from base to apex."""
+
 NAMES = ("lv_endo", "epi", "rv_endo", "rv_endo", "base", "base")
 MILLILITRE = 1e-6
 
@@ -36,7 +88,7 @@ MILLILITRE = 1e-6
 class ParametricVentricles:
     """Both ventricles at end diastole.
 
-    edv, rv_edv: cavity volumes in m^3; wall_thickness, rv_wall_thickness in m; sphericity: length of the left
+    edv, rv_edv: cavity volumes [m^3]; wall_thickness, rv_wall_thickness [m]; sphericity: length of the left
     cavity over its diameter. Raises InputError for a size that no ventricle has.
     """
 
@@ -47,14 +99,14 @@ class ParametricVentricles:
     rv_wall_thickness: float
 
     def __post_init__(self) -> None:
-        _require("edv", self.edv, 20 * MILLILITRE, 600 * MILLILITRE, "m^3")
-        _require("rv_edv", self.rv_edv, 20 * MILLILITRE, 600 * MILLILITRE, "m^3")
-        _require("wall_thickness", self.wall_thickness, 3e-3, 30e-3, "m")
-        _require("rv_wall_thickness", self.rv_wall_thickness, 1e-3, 15e-3, "m")
-        _require("sphericity", self.sphericity, 0.8, 3.0, "")
+        _require_range("edv", self.edv, 20 * MILLILITRE, 600 * MILLILITRE, "m^3")
+        _require_range("rv_edv", self.rv_edv, 20 * MILLILITRE, 600 * MILLILITRE, "m^3")
+        _require_range("wall_thickness", self.wall_thickness, 3e-3, 30e-3, "m")
+        _require_range("rv_wall_thickness", self.rv_wall_thickness, 1e-3, 15e-3, "m")
+        _require_range("sphericity", self.sphericity, 0.8, 3.0, "")
 
     def surface(self) -> LabelledSurface:
-        """The closed wall surface; base in the plane z = 0, apex towards -z, right ventricle towards +x.
+        """Return the closed wall surface: base in the plane z = 0, apex towards -z, right ventricle towards +x.
 
         Nodes and triangles are numbered alike for all shapes. Raises InputError when the right cavity does not fit
         beside the left one.
@@ -74,7 +126,7 @@ class ParametricVentricles:
         return _seams().surface(self._sheets(a, bulge).grids())
 
     def _radius(self) -> float:
-        """Radius a in m of the left cavity at the base; the volume of the faceted cavity grows with a^3."""
+        """Radius a [m] of the left cavity at the base; the volume of the faceted cavity grows with a^3."""
         unit = _seams().points(self._sheets(1.0, 1.0).grids())
         return float(np.cbrt(self.edv / _cavity("lv_endo").volume(unit)))
 
@@ -93,7 +145,7 @@ class _Sheets:
     bulge: float
 
     def grids(self) -> list[Floats]:
-        """The parts of the closed surface that NAMES names, as grids (i,j,3) of points."""
+        """Return the parts of the closed surface in the order of NAMES, as grids (i,j,3) of points."""
         turn, patch = _azimuths(), _patch_angles()
         eta, phi = np.meshgrid(np.linspace(0.0, np.pi / 2, ROWS), turn, indexing="ij")
         rim = (np.zeros_like(turn), turn)
@@ -130,11 +182,12 @@ class _Sheets:
         return endo + distance[..., None] * normal / np.linalg.norm(normal, axis=-1, keepdims=True)
 
 
-_ANY = _Sheets(a=0.026, c=0.096, wall=9e-3, right_wall=3.5e-3, bulge=0.03)
+TEMPLATE_SHEETS = _Sheets(a=0.026, c=0.096, wall=9e-3, right_wall=3.5e-3, bulge=0.03)
+"""Sheets [m] of an ordinary heart, from which the seams of all shapes are taken."""
 
 
 def _smooth_positive(x: Floats) -> Floats:
-    """The maximum of x and 0, rounded over ROUNDING: (x + sqrt(x^2 + s^2)) / 2."""
+    """Smooth maximum of x and 0, rounded over ROUNDING: (x + sqrt(x^2 + s^2)) / 2."""
     return 0.5 * (x + np.hypot(x, ROUNDING))
 
 
@@ -158,16 +211,16 @@ def _patch_angles() -> tuple[Floats, Floats]:
 
 @cache
 def _seams() -> Seams:
-    """How the parts hang together, found on one of all shapes."""
-    return Seams.of(NAMES, _ANY.grids())
+    """Seams of the parts, which are the same for all shapes."""
+    return Seams.from_grids(NAMES, TEMPLATE_SHEETS.grids())
 
 
 @cache
 def _cavity(name: str) -> Cavity:
-    return Cavity.of(_seams().surface(_ANY.grids()), name)
+    return Cavity.from_endocardium(_seams().surface(TEMPLATE_SHEETS.grids()), name)
 
 
-def _require(name: str, value: float, low: float, high: float, unit: str) -> None:
+def _require_range(name: str, value: float, low: float, high: float, unit: str) -> None:
     if not low <= value <= high:
         raise InputError(
             f"{name} = {value:g} {unit}: expected between {low:g} and {high:g} {unit}; check its unit"

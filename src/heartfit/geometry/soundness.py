@@ -1,49 +1,48 @@
-"""Whether ventricles are such that a heart could be made of them: whatever else a file of a mesh may hold."""
+"""Checks that a mesh or surface can be the wall of human ventricles."""
 
 import numpy as np
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats, Integers
+from heartfit.core.arrays import Floats, Integers
+from heartfit.core.errors import InputError
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.surface import LabelledSurface, enclosed_volume
-from heartfit.geometry.topology import boundary_faces
+from heartfit.geometry.surface import LabelledSurface, boundary_faces, enclosed_volume
+from heartfit.geometry.territory import APEX
 
-WALLS = (2e-5, 2e-3)
-"""Volumes of the wall of both ventricles, m^3, from a child's to far beyond the largest."""
+WALL_VOLUMES = (2e-5, 2e-3)
+"""Bounds [m^3] of the wall volume of both ventricles, from a child's to far beyond the largest."""
 
-CAVITIES = (5e-6, 1e-3)
-"""Volumes of a ventricle, m^3, as for curves."""
+CAVITY_VOLUMES = (5e-6, 1e-3)
+"""Bounds [m^3] of a cavity volume, as for curves."""
 
-SEGMENTS = 17
-FARTHEST = 1e4
-"""m from the origin, which a heart in mm does not reach."""
+LARGEST_COORDINATE = 1e4
+"""Distance [m] from the origin that even coordinates in mm do not reach."""
 
-UNIT = 1e-2
-"""By how much the length of a fibre may differ from one."""
+FIBRE_LENGTH_TOLERANCE = 1e-2
+"""Largest deviation of the length of a fibre from one."""
 
 
 def require_places(points: Floats) -> None:
-    """Raises InputError unless all points (n,3) are somewhere near."""
-    lost = np.flatnonzero(~(np.abs(points) < FARTHEST).all(axis=1))
-    if len(lost):
+    """Raise InputError unless all points (n,3) are within LARGEST_COORDINATE of the origin."""
+    distant = np.flatnonzero(~(np.abs(points) < LARGEST_COORDINATE).all(axis=1))
+    if len(distant):
         raise InputError(
-            f"point {lost[0]} is {points[lost[0]].tolist()}; expected coordinates in m: build it again"
+            f"point {distant[0]} is {points[distant[0]].tolist()}; expected coordinates in m: build it again"
         )
 
 
 def require_indices(points: Floats, *cells: Integers) -> None:
-    """Raises InputError unless points are somewhere near and cells refer to them."""
+    """Raise InputError unless points pass :func:`require_places` and cells refer to them."""
     require_places(points)
-    for each in cells:
-        if each.size and not 0 <= each.min() <= each.max() < len(points):
+    for indices in cells:
+        if indices.size and not 0 <= indices.min() <= indices.max() < len(points):
             raise InputError(
-                f"a cell refers to point {int(each.max())}; expected points 0 to {len(points) - 1}: build it again"
+                f"a cell refers to point {int(indices.max())}; expected points 0 to {len(points) - 1}: build it again"
             )
 
 
 def require_sound(mesh: VentricularMesh) -> None:
-    """Raises InputError for inverted tetrahedra, a wall that no heart has, and surfaces and fields of no use."""
+    """Raise InputError for inverted tetrahedra, a wall of no human size, a wrong boundary or inadmissible fields."""
     volumes = mesh.element_volumes()
     inverted = np.flatnonzero(~(volumes > 0.0))
     if len(inverted):
@@ -51,20 +50,20 @@ def require_sound(mesh: VentricularMesh) -> None:
             f"{len(inverted)} tetrahedra are inverted or flat, first tet {inverted[0]} with "
             f"{volumes[inverted[0]]:.3g} m^3; expected > 0; build the mesh again"
         )
-    _require_volume("a wall", float(volumes.sum()), WALLS)
+    _require_volume("a wall", float(volumes.sum()), WALL_VOLUMES)
     _require_boundary(mesh)
     _require_fields(mesh)
 
 
 def require_heart(surface: LabelledSurface, positions: Floats) -> None:
-    """Raises InputError unless wall and cavities of a surface are of human size in every phase (p,n,3), m."""
+    """Raise InputError unless wall and cavities of a surface are of human size in every phase (p,n,3) [m]."""
     for phase, points in enumerate(positions):
         require_places(points)
-        _require_volume(f"phase {phase}: a wall", enclosed_volume(points, surface.triangles), WALLS)
+        _require_volume(f"phase {phase}: a wall", enclosed_volume(points, surface.triangles), WALL_VOLUMES)
     for name in ("lv_endo", "rv_endo"):
-        cavity = Cavity.of(surface, name)
+        cavity = Cavity.from_endocardium(surface, name)
         for phase, points in enumerate(positions):
-            _require_volume(f"phase {phase}: a cavity {name}", cavity.volume(points), CAVITIES)
+            _require_volume(f"phase {phase}: a cavity {name}", cavity.volume(points), CAVITY_VOLUMES)
 
 
 def _require_volume(what: str, volume: float, bounds: tuple[float, float]) -> None:
@@ -78,14 +77,15 @@ def _require_volume(what: str, volume: float, bounds: tuple[float, float]) -> No
 
 
 def _require_boundary(mesh: VentricularMesh) -> None:
-    """The named surfaces are the boundary, each triangle once, normals out of the wall."""
+    """Raise InputError unless the named surfaces are the boundary, each triangle once, normals out of the wall."""
     for name, triangles in mesh.surfaces.items():
         if not len(triangles):
             raise InputError(
                 f"surface {name} has no triangle; expected the boundary of the wall: build it again"
             )
     named, boundary = (
-        _turned(each) for each in (np.vstack(list(mesh.surfaces.values())), boundary_faces(mesh.tets))
+        _canonical_order(triangles)
+        for triangles in (np.vstack(list(mesh.surfaces.values())), boundary_faces(mesh.tets))
     )
     if not np.array_equal(named, boundary):
         raise InputError(
@@ -94,19 +94,22 @@ def _require_boundary(mesh: VentricularMesh) -> None:
         )
 
 
-def _turned(triangles: Integers) -> Integers:
-    """The triangles in order, each beginning with its least node."""
+def _canonical_order(triangles: Integers) -> Integers:
+    """Return the sorted triangles (k,3), each beginning with its least node."""
     first = triangles.argmin(axis=1)[:, None]
     turned = np.take_along_axis(triangles, (first + np.arange(3)) % 3, axis=1)
     return turned[np.lexsort(turned.T)]
 
 
 def _require_fields(mesh: VentricularMesh) -> None:
-    if mesh.fibres is not None and not (np.abs(np.linalg.norm(mesh.fibres, axis=1) - 1.0) < UNIT).all():
+    if (
+        mesh.fibres is not None
+        and not (np.abs(np.linalg.norm(mesh.fibres, axis=1) - 1.0) < FIBRE_LENGTH_TOLERANCE).all()
+    ):
         raise InputError("fibres are not of length one; expected unit vectors: build it again")
-    if mesh.segments is not None and not ((mesh.segments >= 0) & (mesh.segments <= SEGMENTS)).all():
+    if mesh.segments is not None and not ((mesh.segments >= 0) & (mesh.segments <= APEX)).all():
         raise InputError(
-            f"segments beyond 0 to {SEGMENTS}; expected those of the AHA, 0 on the right: build it again"
+            f"segments beyond 0 to {APEX}; expected those of the AHA, 0 on the right: build it again"
         )
     if mesh.activation is not None and not ((mesh.activation >= 0.0) & (mesh.activation < 1.0)).all():
         raise InputError("activation times beyond 0 to 1 s; expected seconds after the first: build it again")

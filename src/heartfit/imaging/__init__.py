@@ -1,1 +1,1 @@
-"""Images of a beating heart: where their voxels lie, when they were taken, and what is wrong with them."""
+"""Images of a beating heart: voxel grids, checks, registration and segmentation."""

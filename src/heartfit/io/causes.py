@@ -1,29 +1,64 @@
-"""The cause of what a simulation gets wrong as cause.json: SI numbers beside their units."""
+"""Diagnoses: cause.json with the verdict, traces.json with the curves behind it, the card and its figure.
+
+cause.json and traces.json together restore the whole diagnosis. Curves are in SI units.
+"""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from heartfit.diagnosis.cause import Cause, Diagnosis, Gain, Refitted, Tried, Verdict
-from heartfit.diagnosis.departure import Departure, departures
-from heartfit.errors import InputError
-from heartfit.io.atomic import replacing, write_text
-from heartfit.io.made_by import versions
-from heartfit.io.traces import read_traces, write_traces
-from heartfit.tables.cause_card import card, missed, sentence
-from heartfit.tables.cause_figure import plot_cause
+from heartfit.core.errors import InputError
+from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.sphere_model.cause import (
+    Cause,
+    Departure,
+    Diagnosis,
+    FittedModel,
+    Gain,
+    Refitted,
+    Trace,
+    departures,
+)
+from heartfit.io.files import replacing, write_text
+from heartfit.io.fingerprint import versions
+from heartfit.io.results import read_record, write_result
+from heartfit.observation.beat import BeatPhases
+from heartfit.results.cause_figure import RenderedCause
+
+UNITS = {"times": "s", "volumes": "m^3", "pressures": "Pa"}
+
+
+@dataclass(frozen=True, eq=False)
+class TraceFile:
+    """Content of traces.json: period [s], phases of the beat if it has them, and curves of a diagnosis."""
+
+    period: float
+    phases: BeatPhases | None
+    traces: tuple[Trace, ...]
+
+
+def write_traces(path: Path, diagnosis: Diagnosis, fingerprint: str) -> None:
+    """Write period, phases and curves of a diagnosis."""
+    traces = TraceFile(diagnosis.period, diagnosis.phases, diagnosis.traces)
+    write_result(path, traces, fingerprint, UNITS)
+
+
+def read_traces(path: Path) -> dict[str, Any]:
+    """Read period, phases and curves by their names in Diagnosis; raises InputError for a missing or broken file."""
+    return vars(read_record(path, TraceFile))
 
 
 @dataclass(frozen=True)
 class CauseFile:
-    """What a cause.json holds; see :class:`heartfit.diagnosis.cause.Diagnosis`.
+    """Content of a cause.json; see :class:`heartfit.discovery.sphere_model.cause.Diagnosis`.
 
-    departures: the greatest of each curve; misses: the same in words; threshold: the least ln Bayes factor of a
-    detection; self_test: the median of the largest where nothing is hidden; made_by: versions.
+    departures: the largest departure of each curve; misses: the same in sentences; threshold: smallest ln Bayes factor
+    of a detection; self_test: median over hearts without a hidden effect of their largest ln Bayes factor; made_by:
+    versions of the software.
     """
 
     verdict: Verdict
@@ -41,14 +76,13 @@ class CauseFile:
     refitted: Refitted | None = None
     threshold: float | None = None
     self_test: float | None = None
-    tried: tuple[Tried, ...] = ()
+    tried: tuple[FittedModel, ...] = ()
     samples: int = 0
     made_by: str = ""
 
     @classmethod
-    def of(cls, diagnosis: Diagnosis, fingerprint: str) -> "CauseFile":
-        """Everything but the curves."""
-        found = tuple(departures(diagnosis))
+    def of(cls, diagnosis: Diagnosis, misses: Sequence[str], fingerprint: str) -> "CauseFile":
+        """Collect the fields of a diagnosis, without its curves."""
         return cls(
             diagnosis.verdict,
             diagnosis.mechanisms,
@@ -59,8 +93,8 @@ class CauseFile:
             fingerprint,
             diagnosis.ranking,
             diagnosis.withdrawn,
-            found,
-            tuple(map(missed, found)),
+            tuple(departures(diagnosis)),
+            tuple(misses),
             diagnosis.unsearched,
             diagnosis.refitted,
             diagnosis.threshold,
@@ -75,43 +109,65 @@ FILE = TypeAdapter(CauseFile)
 
 
 def cause_schema() -> str:
-    """The JSON schema of a cause.json."""
+    """JSON schema of a cause.json."""
     return json.dumps(FILE.json_schema(), indent=1) + "\n"
 
 
-def write_cause(path: Path, diagnosis: Diagnosis, fingerprint: str) -> None:
-    """Write everything but the curves."""
-    write_text(path, json.dumps(asdict(CauseFile.of(diagnosis, fingerprint)), indent=1) + "\n")
+def write_cause(path: Path, diagnosis: Diagnosis, misses: Sequence[str], fingerprint: str) -> None:
+    """Write a cause.json; ``misses`` has one sentence for each curve that the simulation gets wrong."""
+    write_text(path, json.dumps(asdict(CauseFile.of(diagnosis, misses, fingerprint)), indent=1) + "\n")
 
 
-def write_cause_card(folder: Path, diagnosis: Diagnosis, title: str, fingerprint: str) -> str:
-    """Write cause.json, cause.md, cause.png and traces.json; the diagnosis in a sentence."""
-    write_cause(Path(folder, "cause.json"), diagnosis, fingerprint)
-    write_traces(Path(folder, "traces.json"), diagnosis, fingerprint)
-    write_text(Path(folder, "cause.md"), card(diagnosis, title))
+def write_cause_card(folder: Path, rendered: RenderedCause, fingerprint: str) -> None:
+    """Write cause.json, cause.md, cause.png and traces.json."""
+    write_cause(Path(folder, "cause.json"), rendered.diagnosis, rendered.misses, fingerprint)
+    write_traces(Path(folder, "traces.json"), rendered.diagnosis, fingerprint)
+    write_text(Path(folder, "cause.md"), rendered.card)
     with replacing(Path(folder, "cause.png")) as draft:
-        plot_cause(diagnosis).savefig(draft, dpi=150)
-    return f"{sentence(diagnosis)} See {folder / 'cause.md'} and {folder / 'cause.png'}."
+        rendered.figure.savefig(draft, dpi=150)
+
+
+@dataclass(frozen=True)
+class TriedModels:
+    """Models that a diagnosis fitted, and its verdict.
+
+    threshold: ln Bayes factor of a detection; samples: number of data that each model was fitted to.
+    """
+
+    tried: tuple[FittedModel, ...]
+    verdict: Verdict
+    threshold: float
+    samples: int
+
+
+def read_tried(path: Path) -> TriedModels:
+    """Read the fitted models of a cause.json; raises InputError for a missing or broken file, or one without models."""
+    cause = FILE.validate_python(read_cause(path))
+    if not cause.tried or cause.threshold is None:
+        raise InputError(
+            f"{path}: holds no models; expected the models of a diagnosis: diagnose the recording again"
+        )
+    return TriedModels(cause.tried, cause.verdict, cause.threshold, cause.samples)
 
 
 def read_cause(path: Path) -> dict[str, Any]:
-    """The content by key; raises InputError for a missing or broken file."""
+    """Read the content of a cause.json by key; raises InputError for a missing or broken file."""
     try:
         content: dict[str, Any] = json.loads(Path(path).read_text(encoding="utf-8"))
         FILE.validate_python(content)
-    except ValidationError as problem:
-        first = problem.errors()[0]
-        said = f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
-    except (OSError, ValueError) as problem:
-        said = str(problem)
+    except ValidationError as error:
+        first = error.errors()[0]
+        problem = f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
+    except (OSError, ValueError) as error:
+        problem = str(error)
     else:
         return content
-    raise InputError(f"{path}: {said}; expected a cause.json: diagnose the recording again")
+    raise InputError(f"{path}: {problem}; expected a cause.json: diagnose the recording again")
 
 
 def read_diagnosis(folder: Path) -> Diagnosis:
-    """The diagnosis that write_cause_card wrote; raises InputError for a missing or broken file."""
-    found = FILE.validate_python(read_cause(Path(folder, "cause.json")))
-    shared = {each.name for each in fields(Diagnosis)} & {each.name for each in fields(CauseFile)}
-    said = {name: getattr(found, name) for name in shared if getattr(found, name) is not None}
-    return Diagnosis(**{"threshold": float("nan"), **said, **read_traces(Path(folder, "traces.json"))})
+    """Read the diagnosis that write_cause_card wrote; raises InputError for a missing or broken file."""
+    cause = FILE.validate_python(read_cause(Path(folder, "cause.json")))
+    shared = {entry.name for entry in fields(Diagnosis)} & {entry.name for entry in fields(CauseFile)}
+    stored = {name: getattr(cause, name) for name in shared if getattr(cause, name) is not None}
+    return Diagnosis(**{"threshold": float("nan"), **stored, **read_traces(Path(folder, "traces.json"))})

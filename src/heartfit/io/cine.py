@@ -1,47 +1,101 @@
-"""A DICOM cine: parallel slices, each at several times of the beat, from one folder.
+"""DICOM cine: parallel slices, each imaged at several times of the beat, from one folder.
 
-Slices are often series of their own, from breath-holds whose beats differ in length. So a frame's time is its share of
-its own slice's beat, and the sequence's beat is the slices' mean.
+Slices are often series of their own, from breath-holds whose beats differ in length. A frame's time is therefore a
+share of its own slice's beat, and the beat of the sequence is the mean over the slices.
+
+Tags by DICOM PS3.6: trigger time (0018,1060) ms, nominal interval (0018,1062) ms, heart rate (0018,1088) per minute,
+temporal position (0020,0100), study (0020,000D), series (0020,000E), frame of reference (0020,0052), slice thickness
+(0018,0050), spacing between slices (0018,0088).
 """
 
 from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import SimpleITK as sitk
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats
-from heartfit.imaging.grid import Grid
-from heartfit.io.dicom import (
-    FRAME_OF_REFERENCE,
-    POSITION,
-    SERIES,
-    STEP,
-    STUDY,
-    THICKNESS,
-    Picture,
-    read_picture,
-)
-from heartfit.io.image_folder import require_alike
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.imaging.sequence import Grid
+from heartfit.io.image_file import grid_of, numbers, quiet, reason, require_alike
 from heartfit.io.image_times import LONGEST_GAP, Timing, require_no_gap
 
+MILLISECOND, MINUTE = 1e-3, 60.0
+TRIGGER, INTERVAL, RATE, POSITION = "0018|1060", "0018|1062", "0018|1088", "0020|0100"
+STUDY, SERIES, FRAME_OF_REFERENCE = "0020|000d", "0020|000e", "0020|0052"
+THICKNESS, STEP = "0018|0050", "0018|0088"
+
+
+@dataclass(frozen=True, eq=False)
+class DicomSlice:
+    """One slice at one time: file, grid one voxel deep, brightness (j, i), and the tags that are not empty."""
+
+    file: Path
+    grid: Grid
+    voxels: Floats
+    tags: Mapping[str, str]
+
+    def number(self, tag: str) -> float:
+        """Number under a tag, NaN without the tag; raises InputError for a value that is not a number."""
+        try:
+            return float(self.tags.get(tag, "nan"))
+        except ValueError:
+            raise InputError(f"{self.file}: tag ({tag}) is {self.tags[tag]!r}; expected a number") from None
+
+    @property
+    def trigger(self) -> float:
+        """Time after the trigger [s]; NaN if the file does not state it."""
+        return MILLISECOND * self.number(TRIGGER)
+
+    @property
+    def beat(self) -> float:
+        """Length of the beat [s]; NaN if the file does not state it."""
+        interval, rate = self.number(INTERVAL), self.number(RATE)
+        if interval > 0.0:
+            return MILLISECOND * interval
+        return MINUTE / rate if rate > 0.0 else np.nan
+
+
+def read_picture(file: Path) -> DicomSlice:
+    """Read one DICOM image; raises InputError for a damaged file and for several frames in one file."""
+    reader = sitk.ImageFileReader()
+    reader.SetImageIO("GDCMImageIO")
+    reader.SetFileName(str(file))
+    try:
+        with quiet():
+            image = reader.Execute()
+    except RuntimeError as failure:
+        raise InputError(
+            f"{file}: not a sound DICOM image: {reason(failure)}; export it again or remove it"
+        ) from None
+    if image.GetSize()[2:] != (1,) or image.GetNumberOfComponentsPerPixel() != 1:
+        raise InputError(
+            f"{file}: {image.GetSize()} pixels; expected one grey slice: export single frames, or convert to NIfTI"
+        )
+    tags = {key: image.GetMetaData(key).strip() for key in image.GetMetaDataKeys()}
+    stated = {key: value for key, value in tags.items() if value}
+    return DicomSlice(file, grid_of(image, file), numbers(image)[0], stated)
+
+
 SAME_HEIGHT = 1e-4
-"""Pictures nearer to each other along the normal, m, are of one slice."""
+"""Largest distance along the normal between pictures of one slice [m]."""
 
 SAME_STEP = 0.01
-"""Differences in the distances of slices, relative, that are taken for rounding."""
+"""Largest relative difference between slice distances that counts as rounding."""
 
 SAME_PHASE = 0.5
-"""Differences in the times of one frame in several slices, over the time between frames, that are let pass."""
+"""Largest allowed difference between the times of one frame in several slices, over the time between frames."""
 
-Stack = list[list[Picture]]
+Stack = list[list[DicomSlice]]
 
 
 def read_cine(folder: Path) -> tuple[Grid, Floats, Timing]:
-    """Grid, voxels (p,k,j,i) and times of the one stack of slices in a folder and the folders in it.
+    """Read grid, voxels (p, k, j, i) and timing of the one stack of slices below a folder.
 
-    Raises InputError naming file or slice for what is no DICOM image, several studies or stacks, boxes of voxels that
-    differ, pictures that are there twice, and missing frames or slices.
+    Raises InputError that names file or slice for files that are not DICOM images, several studies or stacks, grids
+    that differ, duplicate pictures, and missing frames or slices.
     """
     files = [file for file in sorted(folder.rglob("*")) if file.is_file() and _may_be_picture(file)]
     if not files:
@@ -58,27 +112,27 @@ def _may_be_picture(file: Path) -> bool:
     return not file.name.startswith(".") and file.name != "DICOMDIR"
 
 
-def _normal(picture: Picture) -> Floats:
+def _normal(picture: DicomSlice) -> Floats:
     normal: Floats = picture.grid.direction[:, 2]
     return normal
 
 
-def _require_one_stack(pictures: list[Picture]) -> None:
+def _require_one_stack(pictures: list[DicomSlice]) -> None:
     first = pictures[0]
     for picture in pictures[1:]:
-        for tag, what in ((STUDY, "study"), (FRAME_OF_REFERENCE, "frame of reference")):
+        for tag, name in ((STUDY, "study"), (FRAME_OF_REFERENCE, "frame of reference")):
             if picture.tags.get(tag) != first.tags.get(tag):
                 raise InputError(
-                    f"{picture.file}: another {what} than {first.file.name}; expected one cine in a folder"
+                    f"{picture.file}: another {name} than {first.file.name}; expected one cine in a folder"
                 )
         offset = picture.grid.origin - first.grid.origin
         beside = first.grid.origin + offset - (offset @ _normal(first)) * _normal(first)
-        moved = Grid(picture.grid.size, picture.grid.spacing, beside, picture.grid.direction)
-        require_alike(picture.file, moved, first.file, first.grid)
+        projected = Grid(picture.grid.size, picture.grid.spacing, beside, picture.grid.direction)
+        require_alike(picture.file, projected, first.file, first.grid)
 
 
-def _slices(pictures: list[Picture]) -> Stack:
-    """The pictures of each slice, along the normal."""
+def _slices(pictures: list[DicomSlice]) -> Stack:
+    """Group pictures into slices, ordered along the normal."""
     heights = np.array([picture.grid.origin @ _normal(pictures[0]) for picture in pictures])
     order = np.argsort(heights, kind="stable")
     slice_of = np.cumsum(np.diff(heights[order], prepend=heights[order[0]]) > SAME_HEIGHT)
@@ -88,8 +142,8 @@ def _slices(pictures: list[Picture]) -> Stack:
     return list(slices.values())
 
 
-def _in_time(pictures: list[Picture]) -> list[Picture]:
-    """The pictures of one slice by trigger time or, where these do not tell them apart, temporal position."""
+def _in_time(pictures: list[DicomSlice]) -> list[DicomSlice]:
+    """Order the pictures of one slice by trigger time or, where trigger times are not distinct, temporal position."""
     key = np.array([picture.trigger for picture in pictures])
     if np.isnan(key).any() or len(np.unique(key)) < len(key):
         key = np.array([picture.number(POSITION) for picture in pictures])
@@ -120,13 +174,13 @@ def _require_all_frames(stack: Stack) -> None:
         )
 
 
-def _slice_name(pictures: list[Picture]) -> str:
+def _slice_name(pictures: list[DicomSlice]) -> str:
     place = ", ".join(f"{1e3 * value:.1f}" for value in pictures[0].grid.origin)
     return f"{pictures[0].file.parent}: slice at ({place}) mm"
 
 
 def _grid(folder: Path, stack: Stack) -> Grid:
-    """The box of all slices; the third direction is that of the slices' normal, along which they are ordered."""
+    """Grid of all slices; the third direction is the normal of the slices, along which they are ordered."""
     first = stack[0][0].grid
     step = first.spacing[2] if len(stack) == 1 else _step(stack)
     if len(stack) == 1 and not {THICKNESS, STEP} & set(stack[0][0].tags):
@@ -138,7 +192,7 @@ def _grid(folder: Path, stack: Stack) -> Grid:
 
 
 def _step(stack: Stack) -> float:
-    """The distance in m between slices."""
+    """Distance between slices [m]."""
     heights = np.array([slice_[0].grid.origin @ _normal(stack[0][0]) for slice_ in stack])
     steps = np.diff(heights)
     usual = float(np.median(steps))
@@ -153,7 +207,7 @@ def _step(stack: Stack) -> float:
 
 
 def _timing(stack: Stack) -> Timing:
-    """The slices' mean beat and mean times; nothing where the tags say nothing."""
+    """Mean beat and mean frame times of the slices; None where tags are missing."""
     beats = np.array([[picture.beat for picture in slice_] for slice_ in stack]).mean(axis=1)
     triggers = np.array([[picture.trigger for picture in slice_] for slice_ in stack])
     period = None if np.isnan(beats).any() else float(beats.mean())
@@ -161,10 +215,10 @@ def _timing(stack: Stack) -> Timing:
         return Timing(period)
     times = triggers if period is None else triggers * (period / beats[:, None])
     mean = times.mean(axis=0)
-    apart = np.abs(times - mean).max(axis=1)
-    if apart.max() > SAME_PHASE * np.diff(mean).mean():
+    shift = np.abs(times - mean).max(axis=1)
+    if shift.max() > SAME_PHASE * np.diff(mean).mean():
         raise InputError(
-            f"{_slice_name(stack[int(apart.argmax())])}: frames {1e3 * apart.max():.0f} ms off those of other slices; "
+            f"{_slice_name(stack[int(shift.argmax())])}: frames {1e3 * shift.max():.0f} ms off those of other slices; "
             "expected the same phases of the beat in every slice"
         )
     return Timing(period, mean)

@@ -4,7 +4,7 @@
 time_s,lv_volume_ml,rv_volume_ml,lv_pressure_kpa,mitral_flow_ml_per_s
 0.0,174.49,170.1,1.3,0.0
 
-Curves that were sampled at other times than their neighbours leave the cells of those empty.
+A curve has empty cells at times at which only other curves were sampled.
 """
 
 import difflib
@@ -15,10 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from heartfit.errors import InputError
-from heartfit.io.atomic import write_text
-from heartfit.io.cells import LARGEST, number, number_in, read_cells
-from heartfit.io.text import read_text
+from heartfit.core.errors import InputError
+from heartfit.io.files import write_text
+from heartfit.io.text import LARGEST, number, number_in, read_cells, read_text
 from heartfit.observation.curve import Curve
 
 UNITS = {"volume": ("ml", 1e-6), "pressure": ("kpa", 1e3), "flow": ("ml_per_s", 1e-6)}
@@ -29,13 +28,13 @@ PLACES = {
 }
 KINDS = {f"{place}_{kind}": kind for kind, places in PLACES.items() for place in places}
 COLUMNS = {f"{name}_{UNITS[kind][0]}": name for name, kind in KINDS.items()}
-COLUMNS["aortic_pressure_kpa"] = "aorta_pressure"  # as it is spoken
+COLUMNS["aortic_pressure_kpa"] = "aorta_pressure"  # the usual name
 PERIOD = re.compile(r"^#\s*period_s\s*=\s*(.*?)\s*$", re.MULTILINE)
-FLOW = re.compile(r"(\w+_flow)_ml_per_s")  # any branch: a mechanism may add one
+FLOW = re.compile(r"(\w+_flow)_ml_per_s")  # of any branch: a mechanism may add one
 
 
 def kind_of(name: str) -> str:
-    """ "volume", "pressure" or "flow" of a curve's name."""
+    """Kind of a curve by its name: "volume", "pressure" or "flow"."""
     return name.rsplit("_", 1)[1]
 
 
@@ -47,7 +46,7 @@ def _name_of(column: str) -> str | None:
 def write_table_of_curves(
     path: Path, times: np.ndarray, values: Mapping[str, np.ndarray], period: float
 ) -> None:
-    """Write SI arrays by name ("lv_volume", ...) over one time axis in the file's units."""
+    """Write SI arrays by name ("lv_volume", ...) over one time axis, in the units of the file."""
     table = {"time_s": times}
     for name, array in values.items():
         unit, factor = UNITS[kind_of(name)]
@@ -60,10 +59,10 @@ def write_table_of_curves(
 def read_table_of_curves(
     path: Path, period: float | None = None
 ) -> tuple[np.ndarray, dict[str, np.ndarray], float]:
-    """Times s, SI arrays by name, and the period s, as the file states it or as given.
+    """Read times [s], SI arrays by name, and the period [s], stated by the file unless it is an argument.
 
-    Raises InputError for a missing file, time column or period, an unknown column, and for text, NaN or nothing where
-    a number belongs.
+    Raises InputError for a missing file, time column or period, an unknown column, and for text, NaN or an empty cell
+    instead of a number.
     """
     times, values, period = read_sampled(path, period)
     for name, array in values.items():
@@ -74,7 +73,7 @@ def read_table_of_curves(
 
 
 def read_sampled(path: Path, period: float | None) -> tuple[np.ndarray, dict[str, np.ndarray], float]:
-    """What :func:`read_table_of_curves` returns, NaN where a cell is empty."""
+    """Read as :func:`read_table_of_curves`, with NaN in empty cells."""
     numbers = {column: _numbers(path, column, cells) for column, cells in _table(path).items()}
     values = {
         name: array * UNITS[kind_of(name)][1]
@@ -85,7 +84,7 @@ def read_sampled(path: Path, period: float | None) -> tuple[np.ndarray, dict[str
 
 
 def write_curves(path: Path, curves: Mapping[str, Curve]) -> None:
-    """Write curves of one period, each at its own times; raises ValueError if the periods differ."""
+    """Write curves of one period, every curve at its own times; raises ValueError if the periods differ."""
     first = next(iter(curves.values()))
     for name, curve in curves.items():
         if curve.period != first.period:
@@ -97,14 +96,14 @@ def write_curves(path: Path, curves: Mapping[str, Curve]) -> None:
 
 
 def _spread(curve: Curve, times: np.ndarray) -> np.ndarray:
-    """The samples of a curve at their places among ``times``, NaN elsewhere."""
+    """Samples of a curve at their places among ``times``, NaN elsewhere."""
     values = np.full(len(times), np.nan)
     values[np.searchsorted(times, curve.times)] = curve.values
     return values
 
 
 def read_curves(path: Path, period: float | None = None) -> dict[str, Curve]:
-    """Curves by name, SI, each where it was sampled; raises InputError that names the file for what a curve refuses."""
+    """Read curves by name in SI units, empty cells left out; raises InputError for samples that a curve refuses."""
     times, values, period = read_sampled(path, period)
     makers = {"volume": Curve.of_volume, "pressure": Curve.of_pressure, "flow": Curve}
     sampled = {name: ~np.isnan(array) for name, array in values.items()}
@@ -129,7 +128,7 @@ def _table(path: Path) -> dict[str, list[str]]:
 
 
 def _numbers(path: Path, column: str, cells: list[str]) -> np.ndarray:
-    """The numbers of a column, NaN where it is empty, as all may be but the times."""
+    """Numbers of a column, NaN where a cell is empty; times may not be empty."""
     if column != "time_s" and _name_of(column) is None:
         near = difflib.get_close_matches(column.lower(), COLUMNS, n=1, cutoff=0.0)
         raise InputError(
@@ -143,15 +142,15 @@ def _numbers(path: Path, column: str, cells: list[str]) -> np.ndarray:
 
 
 def stated_period(path: Path) -> float | None:
-    """The period, s, that a file of curves states, if it does; raises InputError for what is no period, or two."""
-    found = set(PERIOD.findall(read_text(path, "curves as CSV", LARGEST)))
+    """Period [s] that a file of curves states, None without one; raises InputError for another text or two periods."""
+    texts = set(PERIOD.findall(read_text(path, "curves as CSV", LARGEST)))
     try:
-        periods = {number(text) for text in found}
+        periods = {number(text) for text in texts}
     except ValueError as fault:
         raise InputError(f"{path}: period_s is {fault}, such as '# period_s = 0.829': correct it") from None
     if len(periods) > 1:
         raise InputError(
-            f"{path}: period_s is stated as {' and '.join(sorted(found))}; expected one: correct it"
+            f"{path}: period_s is stated as {' and '.join(sorted(texts))}; expected one: correct it"
         )
     return periods.pop() if periods else None
 

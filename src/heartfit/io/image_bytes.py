@@ -1,4 +1,8 @@
-"""What the bytes of an image file say before and after SimpleITK has read it, which believes them."""
+"""Checks of the raw bytes of image files, which SimpleITK trusts.
+
+SimpleITK follows a header to any file, makes up missing voxels, and leaves memory as it was where a compressed stream
+breaks off. These checks run before and after it reads a file.
+"""
 
 import gzip
 import re
@@ -10,45 +14,45 @@ from pathlib import Path
 import numpy as np
 import SimpleITK as sitk
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 
 BLOCK = 1 << 20
 LONGEST_HEADER = 1 << 16
 ELSEWHERE = re.compile(rb"^(?:ElementDataFile\s*=|data ?file:)\s*(.*?)\s*$", re.IGNORECASE | re.MULTILINE)
-HERE = b"LOCAL"
+SAME_FILE = b"LOCAL"
 DAMAGED = (EOFError, zlib.error, gzip.BadGzipFile)
 NIFTI_1, SPACING = 348, 80
-"""Length of its header and where in it the sizes of voxels stand, three floats."""
+"""Length of the header and offset of the voxel sizes, three floats [bytes]."""
 
 
 def require_own_voxels(path: Path) -> None:
-    """Raises InputError for a header that takes its voxels from anything but one file beside it.
+    """Raise InputError for a header that takes its voxels from anything but one file beside it.
 
-    SimpleITK would follow it to any file, and wait for a pipe or a device without end.
+    SimpleITK would follow it to any file, and wait endlessly for a pipe or a device.
     """
     name = elsewhere(header_of(path)) if path.suffix not in (".nii", ".gz") else ""
     if name and (Path(name).name != name or not path.with_name(name).is_file()):
         raise InputError(
-            f"{path}: takes its voxels of {name}; expected a file beside it: write both into one, as .nrrd or .nii.gz"
+            f"{path}: takes its voxels from {name}; expected a file beside it: write both into one, as .nrrd or .nii.gz"
         )
 
 
 def header_of(path: Path) -> bytes:
-    """What a file begins with, which holds its header."""
+    """First bytes of a file, which contain its header."""
     with path.open("rb") as file:
         return file.read(LONGEST_HEADER)
 
 
 def elsewhere(header: bytes) -> str:
-    """The name of the file that a header says its voxels are in, nothing where they follow it."""
-    found = ELSEWHERE.search(header)
-    return "" if found is None or found[1].upper() == HERE else found[1].decode("utf-8", "replace")
+    """Name of the file that holds the voxels by the header, empty if they follow the header."""
+    name = ELSEWHERE.search(header)
+    return "" if name is None or name[1].upper() == SAME_FILE else name[1].decode("utf-8", "replace")
 
 
 def require_whole(path: Path, image: sitk.Image) -> None:
-    """Raises InputError for a NIfTI whose voxels have no size or are not all there.
+    """Raise InputError for a NIfTI without voxel sizes or with another number of bytes than its header states.
 
-    SimpleITK makes up both; so the bytes are counted, no more of them than there should be.
+    SimpleITK makes up both. The bytes are counted up to little more than expected.
     """
     _require_spacing(path)
     axes = range(1, image.GetDimension() + 1)
@@ -56,19 +60,19 @@ def require_whole(path: Path, image: sitk.Image) -> None:
     begin = int(float(image.GetMetaData("vox_offset")))
     expected = begin + int(voxels) * int(image.GetMetaData("bitpix")) // 8
     try:
-        found = _length(path, expected + BLOCK)
+        length = _length(path, expected + BLOCK)
     except DAMAGED:
         raise damage(path) from None
-    behind = found - expected
-    if not 0 <= behind < BLOCK:
-        fault = "it is cut off" if behind < 0 else "something follows the voxels"
+    excess = length - expected
+    if not 0 <= excess < BLOCK:
+        fault = "it is cut off" if excess < 0 else "something follows the voxels"
         raise InputError(
-            f"{path}: {found} bytes or more, expected {expected}; {fault}: export or copy it again"
+            f"{path}: {length} bytes or more, expected {expected}; {fault}: export or copy it again"
         )
 
 
 def damage(path: Path) -> InputError:
-    """What is raised for a stream that does not unpack to its check sum."""
+    """Error for a stream that does not decompress to its checksum."""
     return InputError(f"{path}: the compressed data are cut off or damaged; export or copy it again")
 
 
@@ -78,7 +82,7 @@ def _require_spacing(path: Path) -> None:
     for order in "<>":
         if struct.unpack_from(f"{order}i", header) == (NIFTI_1,):
             spacing = struct.unpack_from(f"{order}3f", header, SPACING)
-            if not all(0.0 < each < np.inf for each in spacing):
+            if not all(0.0 < edge < np.inf for edge in spacing):
                 raise InputError(
                     f"{path}: voxels of {spacing} mm; expected positive numbers: correct the header"
                 )
@@ -89,7 +93,7 @@ def _unpacked(path: Path) -> gzip.GzipFile | BufferedReader:
 
 
 def _length(path: Path, most: int) -> int:
-    """The number of bytes, counted up to `most`."""
+    """Number of decompressed bytes, counted up to `most`."""
     if path.suffix != ".gz":
         return path.stat().st_size
     count = 0
@@ -97,3 +101,54 @@ def _length(path: Path, most: int) -> int:
         while count < most and (block := content.read(BLOCK)):
             count += len(block)
     return count
+
+
+META_IMAGE = re.compile(rb"^CompressedData\s*=\s*True\s*$", re.IGNORECASE | re.MULTILINE)
+LENGTH = re.compile(rb"^CompressedDataSize\s*=\s*(\d+)", re.IGNORECASE | re.MULTILINE)
+NRRD = re.compile(rb"^encoding:\s*(?:gzip|gz)\s*$", re.IGNORECASE | re.MULTILINE)
+VOXELS_FOLLOW = re.compile(rb"^ElementDataFile[^\n]*\n", re.IGNORECASE | re.MULTILINE)
+EMPTY_LINE = re.compile(rb"\r?\n\r?\n")
+
+
+def require_undamaged(path: Path, image: sitk.Image) -> None:
+    """Raise InputError for a MetaImage or NRRD whose compressed voxels are damaged or do not fill `image`.
+
+    Where the stream breaks off, SimpleITK leaves the former content of the memory, another image at every call.
+    """
+    header = header_of(path)
+    expected = sitk.GetArrayViewFromImage(image).nbytes
+    try:
+        if path.suffix in (".mha", ".mhd") and META_IMAGE.search(header):
+            length = _meta_image(path, header, expected + 1)
+        elif path.suffix in (".nrrd", ".nhdr") and NRRD.search(header):
+            length = _nrrd(path, header, expected + 1)
+        else:
+            return
+    except DAMAGED:
+        length = 0
+    if length != expected:
+        raise damage(path)
+
+
+def _meta_image(path: Path, header: bytes, most: int) -> int:
+    """Number of decompressed bytes, counted up to `most`, 0 if the stream does not end; raises one of DAMAGED."""
+    length = LENGTH.search(header)
+    stream = zlib.decompressobj()
+    with _voxels(path, header, VOXELS_FOLLOW) as file:
+        packed = file.read()  # all of it: a damaged length may be any number
+    count = len(stream.decompress(packed[: int(length[1])] if length else packed, most))
+    return count if stream.eof else 0
+
+
+def _nrrd(path: Path, header: bytes, most: int) -> int:
+    """Number of decompressed bytes, counted up to `most`; raises one of DAMAGED."""
+    with _voxels(path, header, EMPTY_LINE) as file:
+        return len(gzip.GzipFile(fileobj=file).read(most))
+
+
+def _voxels(path: Path, header: bytes, before: re.Pattern[bytes]) -> BufferedReader:
+    """Open the file of the voxels at their beginning: behind `before`, or in a file of their own."""
+    name, end_of_header = elsewhere(header), before.search(header)
+    file = (path.with_name(name) if name else path).open("rb")
+    file.seek(end_of_header.end() if end_of_header and not name else 0)
+    return file

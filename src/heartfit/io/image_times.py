@@ -1,4 +1,4 @@
-"""When the frames of an image sequence were taken, and how long the beat is."""
+"""Times of the frames of an image sequence, and length of the beat."""
 
 import json
 from collections.abc import Sequence
@@ -7,42 +7,42 @@ from pathlib import Path
 
 import numpy as np
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats
-from heartfit.io.atomic import write_text
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.io.files import write_text
 from heartfit.io.image_file import stem
 from heartfit.io.text import read_json
 
 KEYS = ("period_s", "times_s")
 EXPECTED = '{"period_s": a number, "times_s": a list of numbers}'
 LONGEST_GAP = 1.5
-"""Of two frames, relative to the median; beyond it one is missing."""
+"""Largest time between two frames over the median; beyond it a frame is missing."""
 
 BEATS = (0.2, 3.0)
-"""Shortest and longest beat that is believed, s: 300 and 20 per minute."""
+"""Shortest and longest plausible beat [s]: 300 and 20 per minute."""
 
 
 @dataclass(frozen=True)
 class Timing:
-    """What one source says: the beat's period, s, and the frames' times after the trigger, s; None if it does not."""
+    """Statement of one source: period [s] and times of the frames after the trigger [s]; None if it has none."""
 
     period: float | None = None
     times: Sequence[float] | Floats | None = None
 
 
 def sidecar(path: Path) -> Path:
-    """The JSON file beside the images at `path`: {"period_s": 0.829, "times_s": [0.0, 0.033, ...]}."""
+    """JSON file beside the images at `path`: {"period_s": 0.829, "times_s": [0.0, 0.033, ...]}."""
     return path.with_name(f"{stem(path)}.json")
 
 
 def read_sidecar(path: Path) -> Timing:
-    """What the file beside the images says, nothing if there is none; raises InputError if it cannot be read."""
+    """Read the sidecar of the images, empty if there is none; raises InputError if it cannot be read."""
     file = sidecar(path)
     if not file.is_file():
         return Timing()
     try:
         content = read_json(file, EXPECTED)
-        _require_known(file, content)
+        _require_keys(file, content)
         period, times = (content.get(key) for key in KEYS)
         return Timing(
             None if period is None else float(period), None if times is None else [*map(float, times)]
@@ -53,30 +53,33 @@ def read_sidecar(path: Path) -> Timing:
         raise InputError(f"{file}: {fault}; expected {EXPECTED}") from None
 
 
-def _require_known(file: Path, content: dict[str, object]) -> None:
-    """Other programs put other things there; but a time in another unit must not be passed over."""
+def _require_keys(file: Path, content: dict[str, object]) -> None:
+    """Raise InputError for a period or times in another unit; keys of other programs are ignored."""
     for key in content:
         if key.startswith(("period", "times")) and key not in KEYS:
             raise InputError(f"{file}: unknown key {key}; expected {' or '.join(KEYS)}, in seconds")
 
 
 def write_sidecar(file: Path, times: Floats, period: float) -> None:
-    """Write the exact numbers."""
+    """Write period and times without rounding."""
     write_text(file, json.dumps({"period_s": float(period), "times_s": [*map(float, times)]}) + "\n")
 
 
-def settle(where: Path, count: int, *said: Timing) -> tuple[Floats, float]:
-    """Times (count,) s and period s from what is said, the first source that says something being believed.
+def settle(where: Path, count: int, *sources: Timing) -> tuple[Floats, float]:
+    """Times (count,) [s] and period [s] by the first source that states them.
 
-    If nobody says when the frames were taken, they are evenly spread over the period. Raises InputError if nobody
-    says how long the beat is, if it is no human one, for other than `count` times, and if a frame is missing.
+    Without stated times the frames are spread evenly over the period. Raises InputError without a stated period, for a
+    period that no human heart has, for another number of times than `count`, and for a missing frame.
     """
-    period = next((one.period for one in said if one.period is not None), None)
-    times = next((np.array(one.times, dtype=float) for one in said if one.times is not None), None)
+    period = next((source.period for source in sources if source.period is not None), None)
+    times = next(
+        (np.array(source.times, dtype=float) for source in sources if source.times is not None), None
+    )
     if period is None:
+        notes = where if where.suffix == ".json" else sidecar(where)
         raise InputError(
-            f"{where}: nothing says how long the beat is; give the period, or "
-            f'{{"period_s": ..., "times_s": [...]}} in {sidecar(where).name}'
+            f"{where}: the length of the beat is not stated; expected the period, or "
+            f'{{"period_s": ..., "times_s": [...]}} in {notes.name}: add it'
         )
     if not BEATS[0] <= period <= BEATS[1]:
         raise InputError(
@@ -91,7 +94,7 @@ def settle(where: Path, count: int, *said: Timing) -> tuple[Floats, float]:
 
 
 def require_no_gap(where: Path | str, times: Floats) -> None:
-    """Raises InputError where two frames are much further apart than usual, in whatever unit."""
+    """Raise InputError if two frames are much further apart than usual, in any unit."""
     steps = np.diff(times)
     if len(steps) and steps.max() > LONGEST_GAP * np.median(steps):
         gap = int(steps.argmax())

@@ -1,7 +1,7 @@
-"""Image sequences of one beat: a 4-D file, a folder of frames or a DICOM cine in; a 4-D file out.
+"""Image sequences of one beat: read from a 4-D file, a folder of frames or a DICOM cine; written as a 4-D file.
 
-Files are in mm and, as NIfTI says, in s, ms or us; a file of JSON beside the images, of the same name, holds what they
-cannot: {"period_s": 0.829, "times_s": [0.0, 0.033, ...]}.
+Files are in mm and, as NIfTI states, in s, ms or us. A JSON file of the same name beside the images holds the exact
+times: {"period_s": 0.829, "times_s": [0.0, 0.033, ...]}.
 """
 
 from collections.abc import Sequence
@@ -10,19 +10,17 @@ from pathlib import Path
 import numpy as np
 import SimpleITK as sitk
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats
-from heartfit.imaging.grid import Grid
-from heartfit.imaging.sequence import ImageSequence
-from heartfit.io.atomic import replacing
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.imaging.sequence import Grid, ImageSequence
 from heartfit.io.cine import read_cine
-from heartfit.io.image_file import MILLIMETRE, grid_of, is_image, load, numbers
-from heartfit.io.image_folder import read_frames
+from heartfit.io.files import replacing
+from heartfit.io.image_file import MILLIMETRE, grid_of, is_image, load, numbers, read_frames
 from heartfit.io.image_times import Timing, read_sidecar, settle, sidecar, write_sidecar
 
 WRITTEN = (".nrrd", ".nii.gz", ".mha")
 NIFTI_TIMES = 8, 16, 24
-"""The codes of s, ms and us in xyzt_units, which SimpleITK turns into s."""
+"""Codes of s, ms and us in xyzt_units; SimpleITK converts all of them to s."""
 
 
 def read_images(
@@ -31,16 +29,16 @@ def read_images(
     times: Sequence[float] | Floats | None = None,
     usual: float | None = None,
 ) -> ImageSequence:
-    """The images of one beat at `path`: a 4-D file, a folder of numbered 3-D files, or a folder of DICOM files.
+    """Read the images of one beat: a 4-D file, a folder of numbered 3-D files, or a folder of DICOM files.
 
-    period s and times (p,) s of the frames go before the sidecar's, which go before the images' own; where none of them
-    says the period it is the usual one, if there is one. Raises InputError, in one line that names the file, for what
-    is missing, damaged, incomplete, mixed or without times.
+    The arguments period [s] and times (p,) [s] precede those of the sidecar, which precede those of the images; without
+    any period the usual one holds, if there is one. Raises InputError, in one line that names the file, for images that
+    are missing, damaged, incomplete, mixed or without times.
     """
     path = Path(path)
     grid, voxels, own = _read(path)
-    said = Timing(period, times), read_sidecar(path), own, Timing(usual)
-    times, period = settle(path, len(voxels), *said)
+    sources = Timing(period, times), read_sidecar(path), own, Timing(usual)
+    times, period = settle(path, len(voxels), *sources)
     try:
         return ImageSequence(grid, voxels, times, period)
     except InputError as fault:
@@ -50,8 +48,8 @@ def read_images(
 def write_images(path: Path, sequence: ImageSequence) -> None:
     """Write a 4-D .nrrd, .nii.gz or .mha and its sidecar, the same bytes for the same sequence.
 
-    Voxels and times are read back exactly, where they lie to 1e-6 (NIfTI) or 1e-15 of a metre. Raises ValueError for
-    another suffix.
+    Voxels and times are read back exactly, positions to 1e-6 m (NIfTI) or 1e-15 m. Raises ValueError for another
+    suffix.
     """
     path = Path(path)
     if not path.name.endswith(WRITTEN):
@@ -62,7 +60,7 @@ def write_images(path: Path, sequence: ImageSequence) -> None:
 
 
 def _read(path: Path) -> tuple[Grid, Floats, Timing]:
-    """Where the voxels lie, the voxels, and what the images say of time."""
+    """Grid, voxels and the timing that the images state."""
     if not path.is_dir():
         return _read_file(path)
     if any(map(is_image, path.iterdir())):
@@ -78,8 +76,8 @@ def _read_file(path: Path) -> tuple[Grid, Floats, Timing]:
             "4-D, time last, one number in a voxel, or a folder with one 3-D image for each frame"
         )
     count, step = image.GetSize()[3], image.GetSpacing()[3]
-    said = Timing(count * step, np.arange(count) * step) if _knows_seconds(image) else Timing()
-    return grid_of(image, path), numbers(image), said
+    timing = Timing(count * step, np.arange(count) * step) if _knows_seconds(image) else Timing()
+    return grid_of(image, path), numbers(image), timing
 
 
 def _knows_seconds(image: sitk.Image) -> bool:

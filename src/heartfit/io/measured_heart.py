@@ -1,9 +1,9 @@
-"""Reads a measured heart: control points of a biventricular subdivision surface in every phase of the beat.
+"""Measured hearts as biv-me fits: control points of a biventricular subdivision surface in every phase of the beat.
 
-Layout of the folder (as published with biv-me, Apache-2.0): `control_points/*.txt` one table of x, y, z in mm
-per phase, `template/subdivision_matrix_sparse.mat`, `template/ETIndicesSorted.txt` (triangles, 1-based),
-`template/ETIndicesMaterials.txt` (one label per triangle), `cine/timing.json` (beat lengths of the
-acquisitions).
+The template maps control points to the points of the surface, and names its triangles. Layout of the folder (as
+published with biv-me, Apache-2.0): `control_points/*.txt`, one table of x, y, z [mm] per phase;
+`template/subdivision_matrix_sparse.mat`; `template/ETIndicesSorted.txt` (triangles, 1-based);
+`template/ETIndicesMaterials.txt` (one label per triangle); `cine/timing.json` (beat lengths of the acquisitions).
 """
 
 from collections.abc import Mapping
@@ -13,14 +13,88 @@ from typing import Any
 
 import numpy as np
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats, Integers
-from heartfit.geometry.motion import require_phases
-from heartfit.geometry.soundness import require_heart
-from heartfit.geometry.surface import LabelledSurface, enclosed_volume
+from heartfit.core.arrays import Floats, Integers, Names
+from heartfit.core.errors import InputError
+from heartfit.geometry.mesh import require_phases
+from heartfit.geometry.soundness import require_heart, require_indices
+from heartfit.geometry.surface import LabelledSurface, enclosed_volume, orient
 from heartfit.io.image_times import BEATS
-from heartfit.io.subdivision import read_template
-from heartfit.io.text import read_json, read_text
+from heartfit.io.text import parsing, read_json, read_text, require_file
+
+EXPECTED = "the template of a biv-me fit"
+SURFACE_OF_LABEL = {
+    "LV_ENDOCARDIAL": "lv_endo",
+    "RV_FREEWALL": "rv_endo",
+    "RV_SEPTUM": "rv_endo",
+    "LV_EPICARDIAL": "epi",
+    "RV_EPICARDIAL": "epi",
+    "AORTA_VALVE_CUT": "base",
+    "MITRAL_VALVE_CUT": "base",
+    "PULMONARY_VALVE__CUT": "base",
+    "TRICUSPID_VALVE_CUT": "base",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class SubdivisionTemplate:
+    """Sparse matrix (n, c) of c control points; consistently oriented wall triangles (k, 3); their names (k,)."""
+
+    matrix: Any
+    triangles: Integers
+    labels: Names
+
+    def points(self, control_points: Floats) -> Floats:
+        """Points (n, 3) of the surface, in the unit of the control points (c, 3)."""
+        points: Floats = self.matrix @ control_points
+        return points
+
+
+def read_template(folder: Path) -> SubdivisionTemplate:
+    """Read a template without its valve discs; raises InputError for missing, damaged or mismatched files."""
+    file = folder / "ETIndicesSorted.txt"
+    triangles = _table(file, "three numbers of points in a line", np.int64, 3) - 1
+    materials = _table(folder / "ETIndicesMaterials.txt", "a number and a name in a line", str, 2)[:, 1]
+    if len(materials) != len(triangles):
+        raise InputError(
+            f"{folder}: {len(materials)} labels for {len(triangles)} triangles; expected one for each"
+        )
+    wall = np.isin(materials, list(SURFACE_OF_LABEL))
+    if not wall.any():
+        raise InputError(
+            f"{folder}: no triangle is named {' or '.join(SURFACE_OF_LABEL)}; fetch the template again"
+        )
+    matrix = _matrix(folder / "subdivision_matrix_sparse.mat")
+    try:
+        require_indices(np.zeros((matrix.shape[0], 3)), triangles[wall])
+    except InputError as fault:
+        raise InputError(f"{file}: {fault}") from None
+    labels = np.array([SURFACE_OF_LABEL[label] for label in materials[wall]])
+    return SubdivisionTemplate(matrix, orient(triangles[wall]), labels)
+
+
+def _table(file: Path, expected: str, kind: type, columns: int) -> np.ndarray:
+    lines = read_text(file, EXPECTED).splitlines()
+    with parsing(file, expected):
+        table: np.ndarray = np.array([line.split() for line in lines if line.strip()]).astype(kind)
+        if table.ndim != 2 or table.shape[1] != columns:
+            raise InputError(f"{file}: {table.shape} cells; expected {expected}: fetch it again")
+    return table
+
+
+def _matrix(file: Path) -> Any:
+    """Read the matrix S alone; no other object of the file is constructed."""
+    from scipy.io import loadmat
+    from scipy.io.matlab import MatReadError
+    from scipy.sparse import csc_array
+
+    require_file(file, EXPECTED)
+    with parsing(file, "a sparse matrix S of numbers", MatReadError, OSError):
+        matrix = csc_array(loadmat(file, variable_names=["S"], appendmat=False)["S"], dtype=float)
+        matrix.check_format(full_check=True)  # an index out of range would be read from beyond the array
+        if not np.isfinite(matrix.data).all():
+            raise InputError(f"{file}: holds NaN or infinity; expected finite weights: fetch it again")
+    return matrix
+
 
 MILLIMETRE = 1e-3
 MILLISECOND = 1e-3
@@ -29,10 +103,10 @@ SHORT_AXIS = "cine_trufi_retro"
 
 @dataclass(frozen=True, eq=False)
 class MeasuredHeart:
-    """The closed wall surface of a measured heart in every phase.
+    """Closed wall surface of a measured heart in every phase.
 
-    surface: end diastole (phase 0); positions (p,n,3) m of its points in every phase; times (p,) s; period s.
-    Raises InputError where wall or cavities are not those of a human heart.
+    surface: at end diastole (phase 0); positions (p, n, 3) [m] of its points; times (p,) [s]; period [s].
+    Raises InputError unless wall and cavities are those of a human heart.
     """
 
     surface: LabelledSurface
@@ -44,12 +118,12 @@ class MeasuredHeart:
         require_heart(self.surface, self.positions)
 
     def at(self, phase: int) -> LabelledSurface:
-        """The wall surface in one phase."""
+        """Wall surface in one phase."""
         return LabelledSurface(self.positions[phase], self.surface.triangles, self.surface.labels)
 
 
 def read_measured_heart(folder: Path) -> MeasuredHeart:
-    """Reads the wall surface of every phase from the folder of one subject.
+    """Read the wall surface of every phase from the folder of one subject.
 
     Raises InputError for a missing file, a surface that is not closed, unequal vertex counts, NaN, fewer than
     8 phases.
@@ -75,13 +149,13 @@ def read_measured_heart(folder: Path) -> MeasuredHeart:
 
 
 def short_axis_images(folder: Path) -> Path | None:
-    """The short-axis cine that the surfaces were fitted to, one frame for each phase; None if it is not there.
+    """Path of the short-axis cine that the surfaces were fitted to, one frame for each phase; None without it.
 
-    It is not published in a form that can be fetched: `cine/sax*`, a 4-D file or a folder as read_images takes it,
-    perhaps with its times in JSON beside it.
+    It is `cine/sax*`, a 4-D file or a folder for read_images, with or without a sidecar. It is not published in a form
+    that can be downloaded.
     """
-    found = sorted(path for path in (folder / "cine").glob("sax*") if path.suffix != ".json")
-    return found[0] if found else None
+    cines = sorted(path for path in (folder / "cine").glob("sax*") if path.suffix != ".json")
+    return cines[0] if cines else None
 
 
 def _read_control_points(folder: Path) -> Floats:
@@ -100,35 +174,35 @@ def _read_control_points(folder: Path) -> Floats:
 
 
 def _read_phase(file: Path) -> Floats:
-    """Control points (n,3) in mm: the first three columns below a line of headings."""
+    """Control points (n, 3) [mm]: the first three columns below a line of headings."""
     lines = read_text(file, "control points in mm").splitlines()[1:]
     try:
-        return np.array([_place(line) for line in lines]).reshape(-1, 3)
+        return np.array([_coordinates(line) for line in lines]).reshape(-1, 3)
     except ValueError:
         raise InputError(
             f"{file}: expected lines x,y,z,... of numbers in mm below one line of headings"
         ) from None
 
 
-def _place(line: str) -> list[float]:
+def _coordinates(line: str) -> list[float]:
     x, y, z = line.split(",")[:3]
     return [float(x), float(y), float(z)]
 
 
 def _only_used(positions: Floats, triangles: Integers) -> tuple[Floats, Integers]:
-    """Drops the points that belong to no triangle, such as the centres of the valve discs."""
+    """Drop points without a triangle, such as the centres of the valve discs."""
     used, renumbered = np.unique(triangles, return_inverse=True)
     return positions[:, used], renumbered.reshape(triangles.shape).astype(np.int64)
 
 
 def _read_period(file: Path) -> float:
-    """Mean beat length in s of the short-axis acquisitions, which the surfaces were fitted to."""
+    """Mean beat length [s] of the short-axis acquisitions that the surfaces were fitted to."""
     content = read_json(file, "the beat lengths of a biv-me subject")
-    given = content.values() if isinstance(content, Mapping) else ()
+    acquisitions = content.values() if isinstance(content, Mapping) else ()
     beats = [
-        _beat(file, each)
-        for each in given
-        if isinstance(each, Mapping) and each.get("description") == SHORT_AXIS
+        _beat(file, acquisition)
+        for acquisition in acquisitions
+        if isinstance(acquisition, Mapping) and acquisition.get("description") == SHORT_AXIS
     ]
     if not beats:
         raise InputError(
@@ -138,7 +212,7 @@ def _read_period(file: Path) -> float:
 
 
 def _beat(file: Path, acquisition: Mapping[str, Any]) -> float:
-    """Length of a beat in s."""
+    """Length of the beat of an acquisition [s]."""
     interval = acquisition.get("nominal_interval_ms")
     if not isinstance(interval, int | float) or not BEATS[0] <= interval * MILLISECOND <= BEATS[1]:
         low, high = (beat / MILLISECOND for beat in BEATS)

@@ -1,19 +1,34 @@
-"""Meshes as .vtu, readable by ParaView, and motions as .npz; what is written is read back exactly."""
+"""Meshes (.vtu) and motions (.npz); a file is read back exactly as it was written."""
 
 from pathlib import Path
+from zipfile import BadZipFile
 
 import meshio
 import numpy as np
 
-from heartfit.errors import InputError
-from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.motion import Motion
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.geometry.soundness import require_indices, require_sound
 from heartfit.geometry.surface import SURFACES
-from heartfit.io.arrays import read_arrays
-from heartfit.io.atomic import replacing
-from heartfit.io.foreign import parsing
-from heartfit.io.text import require_file
+from heartfit.heart.beat import Beat, nodal_motion
+from heartfit.imaging.registration.slices import SliceMotion
+from heartfit.imaging.sequence import Grid
+from heartfit.io.files import replacing
+from heartfit.io.text import parsing, require_file
+
+
+def read_arrays(path: Path, *names: str) -> dict[str, np.ndarray]:
+    """Read arrays by name; raises InputError for a missing or damaged file, or one without a name."""
+    expected = f"the arrays {', '.join(names)} in .npz format"
+    require_file(path, expected)
+    with (
+        parsing(path, expected, BadZipFile, OSError),
+        Path(path).open("rb") as file,
+        np.load(file, allow_pickle=False) as stored,
+    ):
+        return {name: stored[name] for name in names}
+
 
 CELL_FIELDS = {"fibres": (3,), "orientation": (6,), "segments": (), "activation": ()}
 NO_SURFACE = -1
@@ -21,7 +36,7 @@ EXPECTED = "a mesh in .vtu format, as the study builds it"
 
 
 def write_mesh(path: Path, mesh: VentricularMesh) -> None:
-    """Writes points in m, tets with their fields, and triangles with the index of their name in SURFACES."""
+    """Write points [m], tetrahedra with their fields, and triangles with the index of their name in SURFACES."""
     triangles = [mesh.surfaces[name] for name in SURFACES]
     surface_id = np.repeat(np.arange(len(SURFACES)), [len(part) for part in triangles])
     cells = [("tetra", mesh.tets), ("triangle", np.vstack(triangles))]
@@ -36,7 +51,7 @@ def write_mesh(path: Path, mesh: VentricularMesh) -> None:
 
 
 def read_mesh(path: Path) -> VentricularMesh:
-    """Reads what write_mesh wrote; raises InputError for what is no such file, and for ventricles that cannot be."""
+    """Read a mesh of write_mesh; raises InputError for another file, and for impossible ventricles."""
     require_file(path, EXPECTED)
     with parsing(path, EXPECTED, meshio.ReadError):
         stored = meshio.vtu.read(path)
@@ -48,7 +63,7 @@ def read_mesh(path: Path) -> VentricularMesh:
 
 
 def read_prepared_mesh(file: Path) -> VentricularMesh:
-    """A mesh with the fields that a beat needs; raises InputError where one is missing."""
+    """Read a mesh with the fields that a beat needs; raises InputError if one is missing."""
     mesh = read_mesh(file)
     for name in ("fibres", "activation", "segments"):
         if getattr(mesh, name) is None:
@@ -74,12 +89,50 @@ def _mesh(path: Path, stored: meshio.Mesh) -> VentricularMesh:
 
 
 def write_motion(path: Path, motion: Motion) -> None:
-    """Writes times and period in s and positions in m."""
+    """Write times [s], period [s] and positions [m]."""
     with replacing(path) as draft:
         np.savez_compressed(draft, times=motion.times, period=motion.period, positions=motion.positions)
 
 
 def read_motion(path: Path) -> Motion:
-    """Reads what write_motion wrote; raises InputError for a missing file or times that cannot be."""
+    """Read a motion of write_motion; raises InputError for a missing file or impossible times."""
     stored = read_arrays(path, "times", "period", "positions")
     return Motion(stored["times"], float(stored["period"]), stored["positions"])
+
+
+def write_slice_motion(path: Path, motion: SliceMotion) -> None:
+    """Write the grid [m], the corner of the region and the displacement [pixels]."""
+    grid = motion.grid
+    with replacing(path) as draft:
+        np.savez_compressed(
+            draft,
+            size=grid.size,
+            spacing=grid.spacing,
+            origin=grid.origin,
+            direction=grid.direction,
+            corner=motion.corner,
+            displacement=motion.displacement.astype(np.float32),
+        )
+
+
+def read_slice_motion(path: Path) -> SliceMotion:
+    """Read a motion of write_slice_motion; raises InputError for a missing file."""
+    stored = read_arrays(path, "size", "spacing", "origin", "direction", "corner", "displacement")
+    i, j, k = stored["size"].tolist()
+    column, row = stored["corner"].tolist()
+    grid = Grid((i, j, k), stored["spacing"], stored["origin"], stored["direction"])
+    return SliceMotion(grid, (column, row), stored["displacement"].astype(float))
+
+
+def write_simulated_motion(path: Path, beat: Beat, times: Floats) -> None:
+    """Write the nodal positions of a beat at times (p,) [s] after the trigger; a failed beat has no times."""
+    if beat.completed:
+        write_motion(path, nodal_motion(beat).resample(times))
+        return
+    with replacing(path) as draft:
+        np.savez_compressed(draft, times=np.empty(0), period=beat.period, positions=np.empty((0, 0, 3)))
+
+
+def read_simulated_motion(path: Path) -> Motion | None:
+    """Read a motion of write_simulated_motion, None of a failed beat; raises InputError for a missing file."""
+    return read_motion(path) if len(read_arrays(path, "times")["times"]) else None

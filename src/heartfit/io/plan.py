@@ -1,25 +1,24 @@
-"""What can be run of a study, and of which data."""
+"""Plan of a study: the cases that can be run, their data, and every mistake in configuration and data."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from heartfit.configuration.case import Case
-from heartfit.configuration.source import Source
-from heartfit.configuration.strict import validated
-from heartfit.configuration.study import Study
-from heartfit.errors import InputError, require_none
-from heartfit.io.cases import read_cases
-from heartfit.io.inside import require_inside
+from heartfit.core.errors import InputError, require_none
+from heartfit.core.validation import validate
+from heartfit.io.configuration import read_cases, read_rows
+from heartfit.io.files import require_inside
 from heartfit.io.sources import Subject, examine, with_cine
+from heartfit.study.case import WALLS, Case, Source
+from heartfit.study.study import Study
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A study with the cases that can be run, by name, and in one line what is left out, if anything.
+    """A study, the cases that can be run by name, and the data of its measured cases.
 
-    sources: the data of each measured case.
+    left_out: one line about cases or stages that lack data, empty if nothing is left out.
     """
 
     study: Study
@@ -29,9 +28,9 @@ class Plan:
 
 
 def plan_study(content: Mapping[str, Any], where: str = "configuration", thorough: bool = True) -> Plan:
-    """What can be run of the study that `content` describes; raises InputError before anything is.
+    """Plan a study; raises InputError for any mistake before anything is run.
 
-    thorough: whether the data of measured cases are read too, as their jobs will.
+    thorough: read the data of measured cases too, as their jobs will.
     """
     plan = outline(content, where)
     if thorough:
@@ -40,57 +39,57 @@ def plan_study(content: Mapping[str, Any], where: str = "configuration", thoroug
 
 
 def outline(content: Mapping[str, Any], where: str = "configuration") -> Plan:
-    """The plan as configuration and table of cases alone tell it; raises InputErrors."""
-    study = validated(Study, content, where)
+    """Plan a study by configuration and table of cases alone; raises InputError."""
+    study = validate(Study, content, where)
     require_inside(Path(study.results), "results")
-    given = {case.case: case for case in read_cases(Path(study.cases))}
-    require_none(_contradictions(study, given))
-    folder = next((Path(each) for each in study.measured_heart if Path(each).is_dir()), None)
+    listed = {case.case: case for case in read_cases(Path(study.cases))}
+    require_none(_contradictions(study, listed))
+    folder = next((Path(place) for place in study.measured_heart if Path(place).is_dir()), None)
     usual = None if folder is None else Source.model_validate({"fit": str(folder)})
     sources = {
         name: with_cine(source)
-        for name, case in given.items()
+        for name, case in listed.items()
         if case.kind == "measured" and (source := study.sources.get(name, usual)) is not None
     }
     cases = {
         name: _as_recorded(case, sources.get(name))
-        for name, case in given.items()
+        for name, case in listed.items()
         if case.kind == "virtual" or name in sources
     }
     _require_reference(study, cases)
-    return Plan(study, cases, sources, _left_out(study, [*given], sources, cases))
+    return Plan(study, cases, sources, _left_out(study, [*listed], sources, cases))
 
 
 def subjects(plan: Plan) -> list[Subject]:
-    """The data of every measured case, read as its jobs will."""
+    """Read the data of every measured case as its jobs will."""
     return [examine(plan.cases[name], source) for name, source in plan.sources.items()]
 
 
 def _as_recorded(case: Case, source: Source | None) -> Case:
-    """The case with a catheter where a recording is there."""
+    """Set the catheter of a case that has a pressure recording."""
     recorded = source is not None and source.pressure is not None
     return case.model_copy(update={"catheter": True}) if recorded else case
 
 
 def _contradictions(study: Study, cases: Mapping[str, Case]) -> list[str]:
-    """What table and sources say of a case that cannot both be."""
+    """Contradictions between the table of cases and the configuration, one line each."""
     measured = [name for name, case in cases.items() if case.kind == "measured"]
-    strangers = [
+    unlisted = [
         f"sources.{name} is of no measured case; known are {', '.join(measured) or 'none'}: correct the name"
         for name in study.sources
         if name not in measured
     ]
-    silent = [
+    unrecorded = [
         f"{name}: catheter is true and no pressure is given; expected sources.{name}.pressure, or an empty cell"
         for name in measured
         if cases[name].catheter and (name not in study.sources or study.sources[name].pressure is None)
     ]
-    nobody = [
+    unknown = [
         f"discovery.cases: {name!r} is no case of {study.cases}; known are {', '.join(cases)}: correct it"
         for name in study.discovery.cases
         if name not in cases
     ]
-    return strangers + silent + nobody
+    return unlisted + unrecorded + unknown
 
 
 def _require_reference(study: Study, cases: Mapping[str, Case]) -> None:
@@ -101,15 +100,83 @@ def _require_reference(study: Study, cases: Mapping[str, Case]) -> None:
 
 
 def _left_out(
-    study: Study, given: Sequence[str], sources: Mapping[str, Source], cases: Mapping[str, Case]
+    study: Study, listed: Sequence[str], sources: Mapping[str, Source], cases: Mapping[str, Case]
 ) -> str:
-    absent = [name for name in given if name not in cases]
+    absent = [name for name in listed if name not in cases]
     if absent:
         return (
             f"{', '.join(absent)} left out: no measured heart in {' or '.join(study.measured_heart)}; "
             "`snakemake --cores 1 fetch_measured_heart` brings it"
         )
-    blind = [name for name, source in sources.items() if source.images is None]
-    if blind:
-        return f"registration of images left out: no images of {', '.join(blind)}, nor a short-axis cine cine/sax*"
+    unseen = [name for name, source in sources.items() if source.images is None]
+    if unseen:
+        return f"registration of images left out: no images of {', '.join(unseen)}, nor a short-axis cine cine/sax*"
     return ""
+
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """Plan of a study, None after mistakes in configuration or cases; readable data of cases; one line per mistake."""
+
+    plan: Plan | None
+    subjects: Sequence[Subject]
+    problems: Sequence[str]
+
+
+def inspect(content: Mapping[str, Any], where: str) -> Inspection:
+    """Find all mistakes of a study: one mistake does not hide the others."""
+    problems: list[str] = []
+    _attempt(problems, validate, Study, content, where)
+    table = content.get("cases")
+    rows, more = (
+        _attempt(problems, read_rows, Path(table)) or ([], []) if isinstance(table, str) else ([], [])
+    )
+    problems += more
+    plan = None if problems else _attempt(problems, outline, content, where)
+    cases = {case.case: case for case in rows} if plan is None else plan.cases
+    sources = _sound(content.get("sources")) if plan is None else plan.sources
+    subjects = [examine(cases[name], source) for name, source in sources.items() if name in cases]
+    read = {subject.case.case for subject in subjects}
+    problems += [problem for subject in subjects for problem in subject.problems]
+    problems += _missing_files(
+        {name: raw for name, raw in _tables(content.get("sources")).items() if name not in read}
+    )
+    return Inspection(plan, subjects, tuple(dict.fromkeys(problems)))
+
+
+def _attempt(problems: list[str], read: Callable[..., T], *arguments: Any) -> T | None:
+    try:
+        return read(*arguments)
+    except InputError as error:
+        problems += error.problems
+        return None
+
+
+def _tables(sources: Any) -> dict[str, Mapping[str, Any]]:
+    """Sources that are tables."""
+    pairs = sources.items() if isinstance(sources, Mapping) else ()
+    return {str(name): raw for name, raw in pairs if isinstance(raw, Mapping)}
+
+
+def _sound(sources: Any) -> dict[str, Source]:
+    """Valid sources of an invalid study; the mistakes of the others are reported with the study."""
+    attempts = {name: _attempt([], validate, Source, raw, name) for name, raw in _tables(sources).items()}
+    return {name: with_cine(source) for name, source in attempts.items() if source is not None}
+
+
+def _missing_files(sources: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """Missing files of sources that cannot be read yet, one line each."""
+    lines = []
+    for name, raw in sources.items():
+        paths = {key: raw.get(key) for key in (*WALLS, "images")}
+        pressure = raw.get("pressure")
+        paths |= {"pressure.file": pressure.get("file")} if isinstance(pressure, Mapping) else {}
+        lines += [
+            f"{name}: {key}: {path}: no such file or folder; correct the path"
+            for key, path in paths.items()
+            if isinstance(path, str) and path and not Path(path).exists()
+        ]
+    return lines

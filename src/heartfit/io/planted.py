@@ -1,44 +1,34 @@
-"""Planted cases on disk: what was measured in one folder, sealed answers in another that no diagnosis is given.
+"""Recordings of planted cases, and what a diagnosis concludes of them; no answer is read here."""
 
-A seal is two lines: the SHA-256 of an answer, and the answer in base 64, which nobody reads in passing.
-"""
-
-import base64
-import hashlib
-import json
-from dataclasses import asdict
+from collections.abc import Mapping
 from pathlib import Path
 
-from heartfit.errors import InputError
-from heartfit.io.atomic import write_text
-from heartfit.io.curves import write_curves
-from heartfit.io.recordings import MEASURED
-from heartfit.planting.case import REST, Answer, PlantedCase
-from heartfit.planting.effects import Effect
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.io.beats import MEASURED, read_recording
+from heartfit.io.results import read_record, write_result
+from heartfit.synthetic.trial import ScoredDiagnosis
 
 
-def write_planted(case: PlantedCase, measured: Path, sealed: Path) -> None:
-    """Write the recordings into the folder ``measured``/SEED, and seal the answer as ``sealed``/SEED.answer."""
-    seed = str(case.answer.seed)
-    for condition, curves in case.curves.items():
-        write_curves(Path(measured, seed, MEASURED if condition == REST else f"{condition}.csv"), curves)
-    seal(Path(sealed, f"{seed}.answer"), case.answer)
+def read_planted(measured: Path) -> dict[str, Recording]:
+    """Read the recordings at rest of a folder of cases, by seed."""
+    files = sorted(Path(measured).glob(f"*/{MEASURED}"))
+    return {file.parent.name: read_recording(file) for file in files}
 
 
-def seal(path: Path, answer: Answer) -> None:
-    """Write an answer so that a change of it is noticed."""
-    text = json.dumps(asdict(answer)).encode()
-    write_text(path, f"{hashlib.sha256(text).hexdigest()}\n{base64.b64encode(text).decode()}\n")
+def read_conditions_of(measured: Path) -> list[dict[str, Recording]]:
+    """Read the recordings under other conditions by name, one mapping for each case of :func:`read_planted`."""
+    folders = sorted(file.parent for file in Path(measured).glob(f"*/{MEASURED}"))
+    return [
+        {file.stem: read_recording(file) for file in sorted(folder.glob("*.csv")) if file.name != MEASURED}
+        for folder in folders
+    ]
 
 
-def open_seal(path: Path) -> Answer:
-    """The answer; raises InputError for a missing file and for a broken seal."""
-    try:
-        digest, body = Path(path).read_text(encoding="utf-8").split()
-        text = base64.b64decode(body, validate=True)
-    except (OSError, ValueError) as problem:
-        raise InputError(f"{path}: no sealed answer ({problem}); plant the case anew") from None
-    if hashlib.sha256(text).hexdigest() != digest:
-        raise InputError(f"{path}: the seal is broken: the answer was changed after it was planted")
-    content = json.loads(text)
-    return Answer(**content | {"effects": tuple(Effect(**each) for each in content["effects"])})
+def write_findings(path: Path, findings: Mapping[str, ScoredDiagnosis], fingerprint: str) -> None:
+    """Write scored diagnoses by seed."""
+    write_result(path, findings, fingerprint, {"amplitude": "SI", "simulations": "1", "seconds": "s"})
+
+
+def read_findings(path: Path) -> dict[str, ScoredDiagnosis]:
+    """Read scored diagnoses by seed; raises InputError for a missing or broken file."""
+    return read_record(path, dict[str, ScoredDiagnosis])

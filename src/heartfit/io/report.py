@@ -1,4 +1,4 @@
-"""Reads the results of a whole study for its report, and writes the page."""
+"""Results of a whole study for its report, and the assets of the page."""
 
 import hashlib
 import platform
@@ -10,36 +10,28 @@ import pandas as pd
 from PIL import Image
 from plotly.offline import get_plotlyjs
 
-from heartfit.calibration.update import Posterior
-from heartfit.configuration.case import Case
-from heartfit.configuration.setting import Setting
-from heartfit.configuration.study import Study
-from heartfit.diagnosis.cause import Diagnosis
-from heartfit.io.atomic import write_text
+from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.io.beats import read_beat
 from heartfit.io.causes import read_diagnosis
 from heartfit.io.curves import read_curves
-from heartfit.io.meshes import read_mesh, read_motion
+from heartfit.io.meshes import read_mesh, read_motion, read_simulated_motion
 from heartfit.io.noise_models import read_noise_model
 from heartfit.io.results import read_case, read_fingerprint, read_posterior, read_sigma_points, read_truth
-from heartfit.io.simulated_motion import read_simulated_motion
 from heartfit.observation.beat import beat_curves
-from heartfit.report.band import band
-from heartfit.report.page import Assets, render
-from heartfit.report.picture import still
-from heartfit.report.record import CaseRecord, Curves, Fit, Printed, Provenance, StudyRecord
-from heartfit.tables.card import Card
-from heartfit.tables.evaluation import comparable
-from heartfit.tables.notes import NOTES
+from heartfit.personalise.setting import Setting
+from heartfit.results.report.page import Assets
+from heartfit.results.report.record import (
+    TITLES,
+    CaseRecord,
+    FittedCase,
+    Provenance,
+    ReportTable,
+    SigmaBeats,
+    StudyRecord,
+)
+from heartfit.study.case import Case
+from heartfit.study.study import Study
 
-TITLES = {
-    "table1": "Errors of the healthy hearts (the paper's Table 1)",
-    "table2": "Parameters of the healthy hearts (the paper's Table 2)",
-    "table3": "Errors of the patients (the paper's Table 3)",
-    "table3_parameters": "Parameters of the patients beside the healthy mean (the paper's Table 3)",
-    "plausibility": "What no observation holds and must still be plausible",
-    "costs": "What it took",
-}
 PACKAGES = (
     "heartfit",
     "numpy",
@@ -56,21 +48,16 @@ PACKAGES = (
 def read_study_results(
     folder: Path, study: Study, cases: Mapping[str, Case], left_out: str = ""
 ) -> StudyRecord:
-    """All that the report shows of the study whose results lie in the folder; raises InputError for what is missing."""
+    """Read the results of a study for its report; raises InputError for a missing result."""
     records = {name: _case(Path(folder), study, case) for name, case in cases.items()}
     return StudyRecord(
         records, _tables(Path(folder) / "tables"), _provenance(Path(folder), study, cases), left_out
     )
 
 
-def write_report(path: Path, study: StudyRecord) -> None:
-    """Write the page with everything it shows inside."""
-    write_text(path, render(study, assets()))
-
-
 def assets() -> Assets:
-    """The viewer library from its package, our own script and style."""
-    own = resources.files("heartfit.report").joinpath("assets")
+    """Viewer library from its package, with the script and style of the report."""
+    own = resources.files("heartfit.results.report").joinpath("assets")
     texts = [own.joinpath(name).read_text(encoding="utf-8") for name in ("heart.js", "report.css")]
     return Assets(get_plotlyjs(), *texts)
 
@@ -93,57 +80,49 @@ def _case(results: Path, study: Study, case: Case) -> CaseRecord:
     )
 
 
-def _still(path: Path) -> str:
-    """A figure of the study for print, nothing where it was not drawn."""
+def _still(path: Path) -> Image.Image | None:
+    """Figure of the study for print, None if it was not drawn."""
     if not path.exists():
-        return ""
+        return None
     with Image.open(path) as picture:
-        return still(picture)
+        return picture.convert("RGB")
 
 
-def _fit(folder: Path, name: str, setting: Setting, truth: Mapping[str, float]) -> Fit:
-    made, checked, searched = (
-        folder / name / "calibration",
-        folder / name / "verification",
-        folder / "discovery" / name,
+def _fit(folder: Path, name: str, setting: Setting, truth: Mapping[str, float]) -> FittedCase:
+    calibration, verification = folder / name / "calibration", folder / name / "verification"
+    discovery = folder / "discovery" / name
+    noise_free, noise_aware = (
+        read_posterior(calibration / f"posterior{kind}.json") for kind in ("", "_noise")
     )
-    met, weighed = (read_posterior(made / f"posterior{noise}.json") for noise in ("", "_noise"))
-    calibrated = beat_curves(read_beat(checked / "beat.json"), setting.sensors(met.estimate.physical()))
-    beats = _beats(made, setting)
-    return Fit(
-        result=read_case(checked / "errors.json"),
-        card=Card(folder.name, name, met, weighed, comparable(truth)),
-        reference=beats[0],
-        calibrated=calibrated,
-        band=_band(made, beats, weighed, calibrated),
-        motion=read_simulated_motion(checked / "motion.npz"),
-        searched=_diagnosis(searched / "search"),
-        proved=_diagnosis(searched),
+    return FittedCase.of(
+        read_case(verification / "errors.json"),
+        (noise_free, noise_aware),
+        truth,
+        _sigma_beats(calibration, setting),
+        beat_curves(read_beat(verification / "beat.json"), setting.sensors(noise_free.estimate.physical())),
+        read_simulated_motion(verification / "motion.npz"),
+        (_diagnosis(discovery / "search"), _diagnosis(discovery)),
     )
 
 
-def _beats(made: Path, setting: Setting) -> list[Curves]:
-    """What is seen of the beat of each sigma point."""
-    _, points = read_sigma_points(made / "points.json")
-    return [
-        beat_curves(read_beat(made / "beats" / f"{point.index}.json"), setting.sensors(point.parameters))
+def _sigma_beats(folder: Path, setting: Setting) -> SigmaBeats:
+    """Sigma points, and the curves that the sensors record of their beats."""
+    prior, points = read_sigma_points(folder / "points.json")
+    beats = [
+        beat_curves(read_beat(folder / "beats" / f"{point.index}.json"), setting.sensors(point.parameters))
         for point in points
     ]
-
-
-def _band(made: Path, beats: list[Curves], weighed: Posterior, calibrated: Curves) -> Curves:
-    prior, points = read_sigma_points(made / "points.json")
-    return band(prior, points, beats, weighed.estimate, calibrated)
+    return SigmaBeats(prior, points, beats)
 
 
 def _diagnosis(folder: Path) -> Diagnosis | None:
     return read_diagnosis(folder) if (folder / "cause.json").exists() else None
 
 
-def _tables(folder: Path) -> dict[str, Printed]:
+def _tables(folder: Path) -> dict[str, ReportTable]:
     return {
-        name: Printed(title, pd.read_csv(folder / f"{name}.csv", comment="#"), NOTES.get(name, ""))
-        for name, title in TITLES.items()
+        name: ReportTable.of(name, pd.read_csv(folder / f"{name}.csv", comment="#"))
+        for name in TITLES
         if (folder / f"{name}.csv").exists()
     }
 

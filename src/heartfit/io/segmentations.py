@@ -1,4 +1,4 @@
-"""Segmentations: a volume of labels for one moment of the beat, or one for each frame."""
+"""Segmentations: one volume of labels at end diastole, or one for every frame of the beat."""
 
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
@@ -7,21 +7,23 @@ from pathlib import Path
 import numpy as np
 import SimpleITK as sitk
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats, Integers
-from heartfit.imaging.grid import Grid
-from heartfit.io.atomic import replacing
-from heartfit.io.image_file import MILLIMETRE, grid_of, load, numbers
-from heartfit.io.image_folder import read_frames
-from heartfit.segmentation.labels import NEEDED, PARTS, Segmentation
+from heartfit.core.arrays import Floats, Integers
+from heartfit.core.errors import InputError
+from heartfit.imaging.segmentation.stack import PARTS, REQUIRED_PARTS, Segmentation
+from heartfit.imaging.segmentation.surface import label_images
+from heartfit.imaging.segmentation.wall import Shaping
+from heartfit.imaging.sequence import Grid, ImageSequence
+from heartfit.io.files import replacing
+from heartfit.io.image_file import MILLIMETRE, grid_of, load, numbers, read_frames
+from heartfit.study.case import Source
 
 
 def read_segmentation(path: Path, labels: Mapping[str, int]) -> tuple[Segmentation, ...]:
-    """The segmentation at `path`, one for each frame: a 3-D or 4-D file, or a folder of numbered 3-D files.
+    """Read a segmentation, one for each frame: a 3-D or 4-D file, or a folder of numbered 3-D files.
 
-    labels: which number means lv_cavity, lv_wall, rv_cavity and, if it is segmented, rv_wall; other numbers are
-    surroundings. Raises InputError, in one line that names the file, for labels that cannot be meant, voxels that are
-    no whole numbers, and a part that is nowhere.
+    labels: numbers of lv_cavity, lv_wall, rv_cavity and, if it is segmented, rv_wall; other numbers are background.
+    Raises InputError, in one line that names the file, for invalid labels, voxels that are not whole numbers, and a
+    part without voxels.
     """
     path = Path(path)
     require_labels(labels, path)
@@ -32,16 +34,16 @@ def read_segmentation(path: Path, labels: Mapping[str, int]) -> tuple[Segmentati
 
 
 def require_labels(labels: Mapping[str, int], where: Path | str) -> None:
-    """Raises InputError unless every part that is needed, and none that is unknown, has a number of its own."""
+    """Raise InputError unless every required part, and no unknown part, has a number of its own."""
     for name in labels:
         if name not in PARTS:
             near = get_close_matches(name, PARTS, n=1, cutoff=0.4)
-            meant = f"did you mean {near[0]}? " if near else ""
-            raise InputError(f"{where}: unknown label {name!r}; {meant}Known are {', '.join(PARTS)}")
-    missing = [name for name in NEEDED if name not in labels]
+            hint = f"did you mean {near[0]}? " if near else ""
+            raise InputError(f"{where}: unknown label {name!r}; {hint}Known are {', '.join(PARTS)}")
+    missing = [name for name in REQUIRED_PARTS if name not in labels]
     if missing:
         raise InputError(
-            f"{where}: no number is stated for {', '.join(missing)}; expected one for each of {', '.join(NEEDED)}"
+            f"{where}: no number is stated for {', '.join(missing)}; expected {', '.join(REQUIRED_PARTS)}"
         )
     taken: dict[int, str] = {0: "the surroundings"}
     for name, number in labels.items():
@@ -53,7 +55,7 @@ def require_labels(labels: Mapping[str, int], where: Path | str) -> None:
 
 
 def write_segmentation(path: Path, frames: Sequence[Segmentation], labels: Mapping[str, int]) -> None:
-    """Writes labels, 4-D or 3-D if there is one frame, as .nrrd, .nii.gz or .mha; a part without label becomes 0."""
+    """Write labels, 4-D or 3-D of one frame, as .nrrd, .nii.gz or .mha; a part without a label becomes 0."""
     images = [_image(frame, labels) for frame in frames]
     image = images[0] if len(images) == 1 else sitk.JoinSeries(images)
     with replacing(Path(path)) as draft:
@@ -72,7 +74,7 @@ def _image(frame: Segmentation, labels: Mapping[str, int]) -> sitk.Image:
 
 
 def _read(path: Path) -> tuple[Grid, Floats]:
-    """Where the voxels lie, and the voxels (p,k,j,i)."""
+    """Read grid and voxels (p, k, j, i)."""
     if path.is_dir():
         return read_frames(path)
     image = load(path)
@@ -97,19 +99,18 @@ def _whole(path: Path, voxels: Floats) -> Integers:
 
 
 def _require_present(path: Path, labels: Mapping[str, int], first: Integers) -> None:
-    found = sorted(set(np.unique(first).tolist()) - {0})
+    present = sorted(set(np.unique(first).tolist()) - {0})
     for name, number in labels.items():
-        if number not in found:
+        if number not in present:
             raise InputError(
-                f"{path}: no voxel has {number}, stated for {name}; found are {_some(found)}: "
+                f"{path}: no voxel has {number}, stated for {name}; found are {_first_eight(present)}: "
                 "state the numbers that this file uses"
             )
 
 
-def _some(found: list[int]) -> str:
-    return (
-        ", ".join(map(str, found[:8])) + (f" and {len(found) - 8} more" if len(found) > 8 else "") or "none"
-    )
+def _first_eight(numbers: list[int]) -> str:
+    more = f" and {len(numbers) - 8} more" if len(numbers) > 8 else ""
+    return ", ".join(map(str, numbers[:8])) + more or "none"
 
 
 def _frame(path: Path, number: int, grid: Grid, codes: Integers, labels: Mapping[str, int]) -> Segmentation:
@@ -117,3 +118,32 @@ def _frame(path: Path, number: int, grid: Grid, codes: Integers, labels: Mapping
         return Segmentation(grid, {name: codes == label for name, label in labels.items()})
     except InputError as fault:
         raise InputError(f"{path}: frame {number}: {fault}") from None
+
+
+def sequence_to_track(source: Source, images: ImageSequence) -> ImageSequence:
+    """Images of the labels if every frame is segmented, because labels are clearer than the cine; else the cine.
+
+    images: the cine, end diastole first. Raises InputError if the segmentation has another number of frames.
+    """
+    frames = frames_of(source, images)
+    if len(frames) <= 1:
+        return images
+    turned = [*frames[source.end_diastole :], *frames[: source.end_diastole]]
+    shaping = Shaping(right_wall=source.rv_wall_thickness)
+    try:
+        return label_images(turned, images.times, images.period, shaping)
+    except InputError as fault:
+        raise InputError(f"{source.segmentation}: {fault}") from None
+
+
+def frames_of(source: Source, images: ImageSequence) -> tuple[Segmentation, ...]:
+    """Segmentations of a source, empty without one; raises InputError for another number of frames than the cine."""
+    if source.segmentation is None or source.labels is None:
+        return ()
+    frames = read_segmentation(Path(source.segmentation), source.labels.numbers())
+    if len(frames) not in (1, len(images.times)):
+        raise InputError(
+            f"{source.segmentation}: {len(frames)} frames, the images have {len(images.times)}; expected as many, or "
+            "end diastole alone: segment every frame"
+        )
+    return frames

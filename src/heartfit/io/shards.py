@@ -1,4 +1,4 @@
-"""Writes the tables and configurations of shards, and reads their numbers together."""
+"""Shards of a large study: their tables and configurations, and their numbers read together."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -7,20 +7,19 @@ from typing import Any
 import pandas as pd
 import yaml
 
-from heartfit.errors import InputError
-from heartfit.io.atomic import write_text
+from heartfit.core.errors import InputError
+from heartfit.io.files import write_text
 from heartfit.io.tables import read_numbers
-from heartfit.planning.shards import split
-from heartfit.tables.joined import joined
+from heartfit.study.forecast import split_cases
 
 
 def write_shards(
     folder: Path, table: Path, reference: str, size: int, results: str, over: Mapping[str, Any]
 ) -> list[Path]:
-    """A table of cases and a configuration for each shard; the configurations.
+    """Write a table of cases and a configuration for each shard; returns the configurations.
 
-    table: all cases; reference: the one that is in every shard; results: folder of the whole study; over: what is laid
-    over the study's configuration, of whose sources each shard keeps its own.
+    table: all cases; reference: the case that belongs to every shard; results: folder of the whole study; over: keys
+    over the study's configuration, of whose sources each shard keeps those of its cases.
     """
     header, *rows = [line for line in table.read_text(encoding="utf-8-sig").splitlines() if line.strip()]
     place = header.split("\t").index("case")
@@ -30,7 +29,7 @@ def write_shards(
             f"{table}: expected {reference} for every shard, and others: correct sensitivity.case"
         )
     written = []
-    for number, names in enumerate(split([*by_name], reference, size)):
+    for number, names in enumerate(split_cases([*by_name], reference, size)):
         cases, configuration = folder / f"{number:03d}.tsv", folder / f"{number:03d}.yaml"
         write_text(cases, "\n".join([header, *(by_name[name] for name in names)]) + "\n")
         sources = {name: source for name, source in over.get("sources", {}).items() if name in names}
@@ -40,6 +39,6 @@ def write_shards(
     return written
 
 
-def read_joined(results: Sequence[Path]) -> pd.DataFrame:
-    """The numbers of all shards, those of the reference once; raises InputError where they differ."""
-    return joined({str(folder): read_numbers(folder / "tables" / "numbers.csv") for folder in results})
+def read_shards(results: Sequence[Path]) -> dict[str, pd.DataFrame]:
+    """Read the numbers of each shard by its folder; raises InputError for a folder without numbers."""
+    return {str(folder): read_numbers(folder / "tables" / "numbers.csv") for folder in results}

@@ -1,37 +1,37 @@
-"""Reads the data of a measured case, and says at once all that is wrong with them."""
+"""Data of a measured case: wall, images and pressure, with every mistake in them at once."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
-from heartfit.configuration.case import Case
-from heartfit.configuration.source import Source
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.surface import LabelledSurface
 from heartfit.imaging.checks import require_match
+from heartfit.imaging.segmentation.surface import wall_surface
+from heartfit.imaging.segmentation.wall import Shaping
 from heartfit.imaging.sequence import ImageSequence
-from heartfit.io.followed import frames_of
 from heartfit.io.images import read_images
 from heartfit.io.measured_heart import MeasuredHeart, read_measured_heart, short_axis_images
-from heartfit.io.segmentations import read_segmentation
+from heartfit.io.segmentations import frames_of, read_segmentation
 from heartfit.io.surface_folder import read_surfaces, surface_files
 from heartfit.observation.recorded_pressure import AveragedPressure
-from heartfit.segmentation.surface import surface_of
-from heartfit.segmentation.wall import Shaping
+from heartfit.study.case import Case, Source
 
 LARGEST_PERIOD_DIFFERENCE = 0.02
-OUT_OF_IMAGES = -0.02
-"""m that the wall may reach out of the first and last slice: short-axis stacks often spare apex or base."""
+"""Relative."""
+
+IMAGE_MARGIN = -0.02
+"""Margin of the images about the wall [m]; negative, because short-axis stacks often omit apex or base."""
 T = TypeVar("T")
 
 
 @dataclass
 class Subject:
-    """What the files of a measured case hold, None where they do not or cannot be read, and a line for each mistake.
+    """Data of a measured case, None where they are missing or cannot be read, and one line for each mistake.
 
-    wall: at end diastole; heart: in every phase, where it need not be registered.
+    wall: at end diastole; heart: wall in every phase, for sources that need no registration.
     """
 
     case: Case
@@ -43,20 +43,21 @@ class Subject:
     problems: list[str] = field(default_factory=list)
 
     def attempt(self, read: Callable[..., T], *arguments: Any) -> T | None:
-        """What a reader returns; what it refuses is kept as a problem of this case."""
+        """Return the result of a reader; record its InputError as a problem of this case."""
         try:
             return read(*arguments)
         except InputError as error:
-            found = [f"{self.case.case}: {problem}" for problem in error.problems]
-            self.problems += [problem for problem in found if problem not in self.problems]
+            problems = [f"{self.case.case}: {problem}" for problem in error.problems]
+            self.problems += [problem for problem in problems if problem not in self.problems]
             return None
 
-    def said(self, filling: float) -> list[str]:
-        """What was read, a line each; filling: taken for the pressure of the left ventricle at end diastole, Pa."""
+    def summary(self, filling: float) -> list[str]:
+        """Describe the data, one line each; filling: end-diastolic left-ventricular pressure of the study [Pa]."""
         lines = []
         if self.wall is not None:
             volumes = [
-                1e6 * Cavity.of(self.wall, name).volume(self.wall.points) for name in ("lv_endo", "rv_endo")
+                1e6 * Cavity.from_endocardium(self.wall, name).volume(self.wall.points)
+                for name in ("lv_endo", "rv_endo")
             ]
             lines.append(
                 f"at end diastole {volumes[0]:.0f} mL in the left cavity, {volumes[1]:.0f} mL in the right one, "
@@ -74,21 +75,21 @@ class Subject:
             origin = "end_diastolic_pressure.lv" if self.case.edp is None else "edp in its row"
             lines.append(
                 f"pressure of {values.min():.1f} to {values.max():.1f} kPa, mean of {kept.sum()} of {kept.size} beats; "
-                f"{1e-3 * self.pressure.end_diastolic:.2f} kPa at the trigger, where the study takes "
+                f"{1e-3 * self.pressure.end_diastolic:.2f} kPa at the trigger, the study assumes "
                 f"{1e-3 * filling:.2f} kPa ({origin})"
             )
         return lines
 
 
 def read_heart(source: Source) -> MeasuredHeart:
-    """The wall in every phase, of a fit or of surface meshes."""
+    """Read the wall in every phase from a fit or from surface meshes."""
     if source.surfaces is not None:
         return read_surfaces(Path(source.surfaces))
     return read_measured_heart(Path(source.fit or ""))
 
 
 def read_wall(source: Source) -> LabelledSurface:
-    """The wall at end diastole, from whatever says it."""
+    """Read the wall at end diastole from a segmentation, a fit or surface meshes."""
     if source.segmentation is None or source.labels is None:
         return read_heart(source).surface
     frames = read_segmentation(Path(source.segmentation), source.labels.numbers())
@@ -97,14 +98,14 @@ def read_wall(source: Source) -> LabelledSurface:
             f"{source.segmentation}: {len(frames)} frames, and end_diastole is {source.end_diastole}; expected one of "
             "them, counted from 0"
         )
-    drawn = frames[source.end_diastole if len(frames) > 1 else 0]
-    return surface_of(drawn, Shaping(right_wall=source.rv_wall_thickness))
+    segmentation = frames[source.end_diastole if len(frames) > 1 else 0]
+    return wall_surface(segmentation, Shaping(right_wall=source.rv_wall_thickness))
 
 
 def read_source_images(case: Case, source: Source) -> ImageSequence:
-    """The images, end diastole first and at time zero; a beat length that they do not say is the row's.
+    """Read the images, end diastole first and at time zero; without a stated period that of the case holds.
 
-    Those that a wall in every phase comes with were taken at its times.
+    Images of a source with a wall in every phase have the times of the wall.
     """
     return _images_with(case, source, None if source.segmented else read_heart(source))
 
@@ -117,7 +118,7 @@ def _images_with(case: Case, source: Source, heart: MeasuredHeart | None) -> Ima
 
 
 def examine(case: Case, source: Source) -> Subject:
-    """Read all that the jobs of a case will read."""
+    """Read all data that the jobs of a case will read."""
     subject = Subject(case, source)
     if source.segmented:
         subject.wall = subject.attempt(read_wall, source)
@@ -132,13 +133,13 @@ def examine(case: Case, source: Source) -> Subject:
         subject.attempt(_require_period, case, subject.images.period, "the images")
         subject.attempt(frames_of, source, subject.images)
         if subject.wall is not None:
-            subject.attempt(require_match, subject.images, subject.wall, OUT_OF_IMAGES)
+            subject.attempt(require_match, subject.images, subject.wall, IMAGE_MARGIN)
     subject.pressure = subject.attempt(_read_pressure, source, case.period)
     return subject
 
 
 def with_cine(source: Source) -> Source:
-    """A fit comes with the short-axis cine that lies in its folder, where no other images are given."""
+    """Add the short-axis cine in the folder of a fit, unless the source has other images."""
     if source.fit is None or source.images is not None:
         return source
     images = short_axis_images(Path(source.fit))
@@ -146,7 +147,7 @@ def with_cine(source: Source) -> Source:
 
 
 def stated_period(source: Source) -> float | None:
-    """The length of the beat, s, if the data say it and can be read."""
+    """Length of the beat [s], None if the data do not state it or cannot be read."""
     try:
         if source.segmented:
             return None if source.images is None else read_images(Path(source.images)).period
@@ -156,7 +157,7 @@ def stated_period(source: Source) -> float | None:
 
 
 def stated_filling(source: Source, period: float | None) -> float | None:
-    """The end-diastolic pressure, Pa, if one is recorded that a heart can have, and the recording can be read."""
+    """Recorded end-diastolic pressure [Pa], None without a readable recording or if it is negative."""
     try:
         recorded = None if period is None else _read_pressure(source, period)
     except InputError:
@@ -165,7 +166,7 @@ def stated_filling(source: Source, period: float | None) -> float | None:
 
 
 def source_files(source: Source) -> list[str]:
-    """The files of the wall, for a workflow to watch."""
+    """Files of the wall, as inputs of the workflow."""
     if source.segmentation is not None:
         return [source.segmentation]
     if source.surfaces is not None:
@@ -180,9 +181,9 @@ def _read_pressure(source: Source, period: float) -> AveragedPressure | None:
     return None if source.pressure is None else read_pressure(source.pressure, period)
 
 
-def _require_period(case: Case, period: float, what: str) -> None:
+def _require_period(case: Case, period: float, origin: str) -> None:
     if abs(case.period / period - 1.0) > LARGEST_PERIOD_DIFFERENCE:
         raise InputError(
-            f"period_s is {case.period:g}, {what} say {period:.3f} s; expected the same to 2 %: correct the table of "
-            "cases"
+            f"period_s is {case.period:g}, {origin} state {period:.3f} s; expected the same to 2 %: correct the "
+            "table of cases"
         )

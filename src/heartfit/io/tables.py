@@ -1,48 +1,52 @@
-"""Tables and figures out, published tables in."""
+"""Tables, figures and animations written; tables of a study and published tables read."""
 
 from collections.abc import Mapping
 from pathlib import Path
 
 import pandas as pd
+from matplotlib.animation import FuncAnimation
 from matplotlib.figure import Figure
 
-from heartfit.errors import InputError
-from heartfit.io.atomic import replacing, write_text
-from heartfit.io.made_by import made_by
-from heartfit.tables.notes import NOTES
-from heartfit.tables.text import to_latex, to_markdown
+from heartfit.core.errors import InputError
+from heartfit.io.files import replacing, write_text
+from heartfit.io.fingerprint import made_by
+from heartfit.results.text import RenderedTable
 
-WRITERS = {
-    ".csv": lambda table: table.to_csv(index=False, float_format="%.6g", lineterminator="\n"),
-    ".md": to_markdown,
-    ".tex": to_latex,
-}
 COMMENTS = {
     ".csv": "# {comment}\n{text}",
     ".md": "{text}\n<!-- {comment} -->\n",
     ".tex": "% {comment}\n{text}",
 }
-"""Where a table says what it was made by: nobody reads it who does not look for it."""
+"""Place of the provenance in a table: a comment that rendered output does not show."""
 
 
-def write_table(path: Path, table: pd.DataFrame, note: str = "") -> None:
-    """Write as CSV, Markdown or LaTeX by the suffix, Markdown with a note below; raises ValueError for another one."""
+def write_csv(path: Path, frame: pd.DataFrame) -> None:
+    """Write numbers to six digits below a comment with their provenance."""
+    _write(path, frame.to_csv(index=False, float_format="%.6g", lineterminator="\n"))
+
+
+def write_table(path: Path, table: RenderedTable) -> None:
+    """Write as CSV, Markdown or LaTeX by the suffix; raises ValueError for another one."""
     suffix = Path(path).suffix
-    if suffix not in WRITERS:
+    if suffix not in COMMENTS:
         raise ValueError(
-            f"{path}: tables are written as {', '.join(WRITERS)}, not {suffix or 'without suffix'}"
+            f"{path}: tables are written as {', '.join(COMMENTS)}, not {suffix or 'without suffix'}"
         )
-    text = WRITERS[suffix](table)
-    if note and suffix == ".md":
-        text += f"\n{note}\n"
-    write_text(path, COMMENTS[suffix].format(text=text, comment=f"made by {made_by()}"))
+    if suffix == ".csv":
+        write_csv(path, table.frame)
+    else:
+        _write(path, table.markdown if suffix == ".md" else table.latex)
 
 
-def write_tables(folder: Path, tables: Mapping[str, pd.DataFrame]) -> None:
-    """Write each table by its name in all three formats, with its note if there is one in heartfit.tables.notes."""
+def write_tables(folder: Path, tables: Mapping[str, RenderedTable]) -> None:
+    """Write each table by its name in all three formats."""
     for name, table in tables.items():
-        for suffix in WRITERS:
-            write_table(Path(folder, f"{name}{suffix}"), table, NOTES.get(name, ""))
+        for suffix in COMMENTS:
+            write_table(Path(folder, f"{name}{suffix}"), table)
+
+
+def _write(path: Path, text: str) -> None:
+    write_text(path, COMMENTS[Path(path).suffix].format(text=text, comment=f"made by {made_by()}"))
 
 
 def write_figures(folder: Path, figures: Mapping[str, Figure]) -> None:
@@ -53,30 +57,28 @@ def write_figures(folder: Path, figures: Mapping[str, Figure]) -> None:
 
 
 def read_numbers(path: Path) -> pd.DataFrame:
-    """The numbers of a study that write_table wrote as CSV, values as text."""
+    """Read the numbers of a study, values as text; raises InputError for a missing file."""
     if not Path(path).is_file():
-        raise InputError(
-            f"{path}: no such file; expected the numbers of a study: `snakemake --cores 2` makes them"
-        )
+        raise InputError(f"{path}: no such file; expected the numbers of a study: run `snakemake --cores 2`")
     return pd.read_csv(path, dtype=str, keep_default_na=False, comment="#")
 
 
 def read_tolerances(path: Path) -> pd.DataFrame:
-    """A table of tolerances, separated by tabs; lines that begin with # tell of it. Raises InputError for none."""
+    """Read a tab-separated table of tolerances; lines that begin with # are comments."""
     if not Path(path).is_file():
         raise InputError(f"{path}: no such file; expected a table of tolerances")
     return pd.read_csv(path, sep="\t", comment="#")
 
 
 def read_published(path: Path) -> pd.DataFrame:
-    """A published table; lines that begin with # tell its origin."""
+    """Read a published table; lines that begin with # state its origin."""
     if not Path(path).is_file():
         raise InputError(f"{path}: no such file; expected a published table under resources/")
     return pd.read_csv(path, comment="#")
 
 
 def read_shape(path: Path) -> pd.DataFrame:
-    """The shape of a motion that write_table wrote as CSV; no rows if the beat failed."""
+    """Read the shape of a motion over the beat; no rows if the beat failed."""
     if not Path(path).is_file():
         raise InputError(
             f"{path}: no such file; expected the shape of a calibrated motion: simulate it first"
@@ -85,7 +87,21 @@ def read_shape(path: Path) -> pd.DataFrame:
 
 
 def write_figure(path: Path, figure: Figure) -> None:
-    """Write in the format of the suffix (png, pdf, svg), without the time of writing in it."""
+    """Write in the format of the suffix (png, pdf, svg), without a date, so that equal figures have equal bytes."""
     date = {"png": "Software", "pdf": "CreationDate", "svg": "Date"}.get(Path(path).suffix[1:])
     with replacing(path) as draft:
         figure.savefig(draft, dpi=200, metadata={date: None} if date else None)
+
+
+ANIMATION_SUFFIXES = (".gif", ".png")
+
+
+def write_animation(path: Path, animation: FuncAnimation) -> None:
+    """Write an animated GIF, or PNG in full colour; raises ValueError for another suffix.
+
+    The delays of a GIF are whole hundredths of a second.
+    """
+    if Path(path).suffix not in ANIMATION_SUFFIXES:
+        raise ValueError(f"{path}: animations are written as {', '.join(ANIMATION_SUFFIXES)}")
+    with replacing(path) as draft:
+        animation.save(draft, writer="pillow")

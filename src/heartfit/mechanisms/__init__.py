@@ -1,1 +1,1 @@
-"""One mechanism per file; the folder is the registry (see :mod:`heartfit.mechanism`)."""
+"""One mechanism per file; the folder is the registry (see :mod:`heartfit.roles`)."""

@@ -1,13 +1,13 @@
-"""Aortic stenosis: a valve that opens too little and takes pressure for it."""
+"""Aortic stenosis: a valve that opens too little and loses pressure."""
 
 from dataclasses import dataclass
 
-from heartfit.branch import BLOOD_DENSITY
-from heartfit.mechanism import Narrowing, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Narrowing, mechanism
+from heartfit.roles.laws import BLOOD_DENSITY
 
-FLOW = 4e-4
-"""Flow, m^3/s, at which the gradient is stated: the peak of a normal ejection."""
+REFERENCE_FLOW = 4e-4
+"""Flow [m^3/s] at which the gradient is stated: the peak of a normal ejection."""
 
 
 @mechanism
@@ -36,4 +36,4 @@ class AorticStenosis(Narrowing):
         require_admissible(self)
 
     def inverse_square(self) -> float:
-        return 2.0 * self.gradient / (BLOOD_DENSITY * FLOW**2)
+        return 2.0 * self.gradient / (BLOOD_DENSITY * REFERENCE_FLOW**2)

@@ -2,22 +2,22 @@
 
 from dataclasses import dataclass
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Pressure, mechanism
-from heartfit.parameter import parameter, require_admissible
-from heartfit.periodic import bump
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.core.periodic import bump
+from heartfit.roles import Pressure, mechanism
 
 
 @mechanism
 @dataclass(frozen=True)
 class ArterialReflection(Pressure):
-    r"""A backward wave in the aorta, beyond what the Windkessel gives back.
+    r"""A backward wave in the aorta, in addition to the pressure of the Windkessel.
 
     .. math:: p(t) = a \cos^2 \frac{\pi (t - t_r)}{w} \quad \text{for } |t - t_r| < \tfrac{w}{2}
 
     In an old, stiff aorta it arrives in late systole (:math:`t_r` some 0.2 s after the valve opened) and raises the
     pressure against which the ventricle ejects; in a young one it arrives after the valve has closed.
-    Source: backward waves in Westerhof et al., Cardiovasc Res 1972, 6:648; when they return in O'Rourke and Kelly,
+    Source: backward waves in Westerhof et al., Cardiovasc Res 1972, 6:648; their return times in O'Rourke and Kelly,
     J Hypertens 1993, 11:327.
     """
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Pressure, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Pressure, mechanism
 
 
 @mechanism
@@ -41,6 +41,7 @@ class AtrialKick(Pressure):
         return share * self.rise * self._shape(np.mod(time, period))
 
     def _shape(self, time: Floats) -> Floats:
+        """Bump of height one at ``time`` [s] within the period."""
         rising = np.sin(0.5 * np.pi * time / self.peak) ** 2
         falling = np.cos(0.5 * np.pi * (time - self.peak) / (self.end - self.peak)) ** 2
         return np.where(time < self.peak, rising, np.where(time < self.end, falling, 0.0))

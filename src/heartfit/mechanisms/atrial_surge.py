@@ -1,17 +1,17 @@
-"""Atrial surge: an atrial systole that is stronger than the standard kick, or weaker."""
+"""Atrial surge: an atrial systole that is stronger or weaker than the standard kick."""
 
 from dataclasses import dataclass
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Pressure, mechanism
-from heartfit.parameter import parameter, require_admissible
-from heartfit.periodic import bump
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.core.periodic import bump
+from heartfit.roles import Pressure, mechanism
 
 
 @mechanism
 @dataclass(frozen=True)
 class AtrialSurge(Pressure):
-    r"""A bump of the atrial pressures beside the kick that a heart has, the fraction :math:`\rho` of it on the right.
+    r"""A bump of the atrial pressures beyond the kick of the heart, the fraction :math:`\rho` of it on the right.
 
     .. math:: p(t) = a \cos^2 \frac{\pi (t - t_a)}{w} \quad \text{for } |t - t_a| < \tfrac{w}{2}
 

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Pressure, mechanism
-from heartfit.parameter import parameter, require_admissible
-from heartfit.periodic import bump
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.core.periodic import bump
+from heartfit.roles import Pressure, mechanism
 
 
 @mechanism

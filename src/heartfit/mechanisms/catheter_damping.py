@@ -1,14 +1,14 @@
-"""Catheter damping: a column of fluid on an elastic dome, which overshoots or lags behind the pressure."""
+"""Catheter damping: a fluid column on an elastic dome, which overshoots or lags behind the pressure."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Sensor, mechanism
-from heartfit.parameter import parameter, require_admissible
-from heartfit.periodic import filtered
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.core.periodic import apply_filter
+from heartfit.roles import Sensor, mechanism
 
 
 @mechanism
@@ -41,7 +41,7 @@ class CatheterDamping(Sensor):
         require_admissible(self)
 
     def distort(self, times: Floats, values: Floats, period: float) -> Floats:
-        return filtered(times, values, period, self._gain)
+        return apply_filter(times, values, period, self._gain)
 
     def _gain(self, frequency: Floats) -> NDArray:
         x = 2.0 * np.pi * frequency * self.response

@@ -2,19 +2,19 @@
 
 from dataclasses import dataclass
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Sensor, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Sensor, mechanism
 
 
 @mechanism
 @dataclass(frozen=True)
 class CatheterOffset(Sensor):
-    r"""Left ventricular pressure with a constant too much.
+    r"""Left ventricular pressure plus a constant.
 
     .. math:: p'(t) = p(t) + p_0,
 
-    98 Pa for every centimetre that the transducer of a fluid-filled catheter lies below the heart.
+    :math:`p_0` is 98 Pa for every centimetre that the transducer of a fluid-filled catheter lies below the heart.
     Source: hydrostatics; levelling and zeroing in Gardner, Anesthesiology 1981, 54:227.
     """
 

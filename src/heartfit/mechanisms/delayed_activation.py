@@ -2,22 +2,22 @@
 
 from dataclasses import dataclass
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats
-from heartfit.geometry.territory import territory
-from heartfit.mechanism import Delay, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.geometry.territory import territory_weights
+from heartfit.roles import Delay, mechanism
 
 
 @mechanism
 @dataclass(frozen=True)
 class DelayedActivation(Delay):
-    r"""A share s of the left ventricle that is activated later by d than in health.
+    r"""Activation of a share s of the left ventricle that is later by d than in health.
 
     .. math:: T_d(x) \to T_d(x) + d\, w(x; \varphi, s)
 
-    with the weight w, 1 in the core of the :func:`~heartfit.geometry.territory.territory` about the angle
-    :math:`\varphi` and fading at its border, as the wave gets there gradually. In left bundle branch block the lateral
+    with the weight w, 1 in the core of the :func:`~heartfit.geometry.territory.territory_weights` about the angle
+    :math:`\varphi` and fading at its border, which the wave reaches gradually. In left bundle branch block the lateral
     half follows the septum by some 60 to 100 ms.
     Sources: Auricchio et al., Circulation 2004, 109:1133; Strik et al., J Cardiovasc Transl Res 2012, 5:117.
     """
@@ -26,7 +26,7 @@ class DelayedActivation(Delay):
         0.06,
         unit="s",
         symbol="d",
-        meaning="by how much the late side is activated later",
+        meaning="delay of the activation of the late side",
         off=0.0,
         scale=0.05,
     )
@@ -48,4 +48,4 @@ class DelayedActivation(Delay):
             raise InputError(f"DelayedActivation.share = {self.share:g}: expected a share, at most 1")
 
     def delay(self) -> Floats:
-        return self.lateness * territory(self.angle, self.share)
+        return self.lateness * territory_weights(self.angle, self.share)

@@ -1,12 +1,12 @@
-"""Exponential stiffening: a wall that gets stiffer the further it is stretched."""
+"""Exponential stiffening: a wall whose stiffness grows exponentially with its stretch."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Stress, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Stress, mechanism
 
 
 @mechanism
@@ -16,14 +16,14 @@ class ExponentialStiffening(Stress):
 
     .. math:: W = \frac{a}{2 b} \big( e^{b x} - 1 - b x \big), \qquad x = \bar I_1 - 3,
 
-    collagen that takes load once its crimp is straightened; fibrosis raises a. A wall that thickens strains an
+    as of collagen, which bears load once its crimp is straightened; fibrosis raises a. A wall that thickens strains an
     isotropic law more than one that fills, so it impairs the ejection too; one that acts in filling only is
     :class:`~heartfit.mechanisms.fibre_stiffening.FibreStiffening`.
     Sources: Fung, Biomechanics: Mechanical Properties of Living Tissues, 1993; Demiray, J Biomech 1972, 5:309, whose
     law it is, less the linear term.
     """
 
-    of = "wall"
+    acts_on = "wall"
     modulus: float = parameter(
         2.5e3, unit="Pa", symbol="a", meaning="scale of the exponential energy", off=0.0, scale=2.5e3
     )

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Stress, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Stress, mechanism
 
 
 @mechanism
@@ -16,13 +16,13 @@ class FibreStiffening(Stress):
 
     .. math:: \frac{dW}{dx} = a\, x\, \frac{x}{x + \delta}\, e^{b x^2}, \qquad x = \max(\bar I_{4f} - 1, 0),
 
-    titin in its stiffer isoform and the collagen along the muscle cells; shortened fibres buckle. Healthy walls have
-    a of some 20 kPa, which the isotropic law in the slot of the tissue spreads over all directions.
+    as of titin in its stiffer isoform and the collagen along the muscle cells; shortened fibres buckle. In healthy
+    walls a is some 20 kPa, which the isotropic law in the slot of the tissue spreads over all directions.
     Source: the fibre term of Holzapfel and Ogden, Phil Trans R Soc A 2009, 367:3445; the recruitment over
     :math:`\delta`, without which the stiffness would jump at rest, is ours.
     """
 
-    of = "fibre"
+    acts_on = "fibre"
     modulus: float = parameter(
         1e4, unit="Pa", symbol="a_f", meaning="scale of the fibres' energy", off=0.0, scale=1e4
     )

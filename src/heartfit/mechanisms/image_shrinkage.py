@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Sensor, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Sensor, mechanism
 
 
 @mechanism
@@ -17,8 +17,8 @@ class ImageShrinkage(Sensor):
 
     .. math:: V'(t) = V(0) - (1 - s)\,(V(0) - V(t)),
 
-    with V(0) the volume in the frame of the trigger, on which all others are registered and which is therefore
-    exact. The smoothness that a registration asks of its displacements underestimates them, s > 0; s < 0 is an
+    with V(0) the volume in the frame of the trigger, to which all others are registered and which is therefore
+    exact. A registration that favours smooth displacements underestimates them, s > 0; s < 0 is an
     overshoot, s = 1 no motion at all.
     Source: ours; the tracking errors behind it are 1.5 to 2.1 mm (Tobon-Gomez et al., Med Image Anal 2013,
     doi:10.1016/j.media.2013.03.008).

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Sensor, mechanism
-from heartfit.parameter import parameter, require_admissible
-from heartfit.periodic import filtered
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.core.periodic import apply_filter
+from heartfit.roles import Sensor, mechanism
 
 
 @mechanism
@@ -39,7 +39,7 @@ class ImageSmoothing(Sensor):
         require_admissible(self)
 
     def distort(self, times: Floats, values: Floats, period: float) -> Floats:
-        return filtered(
+        return apply_filter(
             times,
             values,
             period,

@@ -1,19 +1,19 @@
-"""Image trigger delay: frames that are labelled with another time than that of the heart they show."""
+"""Image trigger delay: frames whose time labels are late or early."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Sensor, mechanism
-from heartfit.parameter import parameter, require_admissible
-from heartfit.periodic import filtered
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.core.periodic import apply_filter
+from heartfit.roles import Sensor, mechanism
 
 
 @mechanism
 @dataclass(frozen=True)
 class ImageTriggerDelay(Sensor):
-    r"""Volume curve that seems late by d.
+    r"""Volume curve delayed by d.
 
     .. math:: V'(t) = V(t - d), \qquad V'_k = e^{-2 \pi i k d / T} \, V_k
 
@@ -27,7 +27,7 @@ class ImageTriggerDelay(Sensor):
         0.02,
         unit="s",
         symbol="d_V",
-        meaning="by how much the images seem late",
+        meaning="delay of the images",
         off=0.0,
         low=-0.5,
         scale=0.03,
@@ -37,4 +37,6 @@ class ImageTriggerDelay(Sensor):
         require_admissible(self)
 
     def distort(self, times: Floats, values: Floats, period: float) -> Floats:
-        return filtered(times, values, period, lambda frequency: np.exp(-2j * np.pi * frequency * self.delay))
+        return apply_filter(
+            times, values, period, lambda frequency: np.exp(-2j * np.pi * frequency * self.delay)
+        )

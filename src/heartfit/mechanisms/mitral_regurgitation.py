@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from heartfit.branch import Branch
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Flow, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Flow, mechanism
+from heartfit.roles.laws import Branch
 
 
 @mechanism

@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 
-from heartfit.branch import BLOOD_DENSITY
-from heartfit.mechanism import Narrowing, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Narrowing, mechanism
+from heartfit.roles.laws import BLOOD_DENSITY
 
-FLOW = 2e-4
-"""Flow, m^3/s, at which the gradient is stated: the mean of a normal filling."""
+REFERENCE_FLOW = 2e-4
+"""Flow [m^3/s] at which the gradient is stated: the mean of a normal filling."""
 
 
 @mechanism
@@ -18,8 +18,8 @@ class MitralStenosis(Narrowing):
     .. math:: \Delta p = \Delta p_{valve} + G (q/Q)^2, \qquad G = \tfrac12 \rho\, Q^2 / A^2
 
     An effective orifice of A = 2 cm^2 (mild) has G = 0.5 kPa, one of 1.5 cm^2 (moderate from here) 0.94 kPa, one of
-    1 cm^2 (severe from here) 2.1 kPa: two scales are moderate. The atrium keeps its pressure, so a ventricle that
-    relaxes fast sucks; a patient's atrium stands higher instead.
+    1 cm^2 (severe from here) 2.1 kPa: two scales are moderate. The atrium keeps its pressure, so a ventricle
+    that relaxes fast sucks; in a patient the atrial pressure rises instead.
     Source: Baumgartner et al., JASE 2009, 22:1.
     """
 
@@ -38,4 +38,4 @@ class MitralStenosis(Narrowing):
         require_admissible(self)
 
     def inverse_square(self) -> float:
-        return 2.0 * self.gradient / (BLOOD_DENSITY * FLOW**2)
+        return 2.0 * self.gradient / (BLOOD_DENSITY * REFERENCE_FLOW**2)

@@ -1,11 +1,11 @@
-"""The pericardium: a sac that presses on ventricles that grow."""
+"""Pericardium: a sac that presses on ventricles that grow."""
 
 from dataclasses import dataclass
 
-from heartfit.geometry.arrays import Floats
-from heartfit.load import Load
-from heartfit.mechanism import External, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import External, mechanism
+from heartfit.roles.laws import Load
 
 
 @mechanism
@@ -17,7 +17,7 @@ class Pericardium(External):
 
     a being the pressure in the sac at :math:`V_0` = 150 mL; for a left ventricle alone :math:`\bar V` is its own
     volume, as if a right one beat in step with it.
-    Source: the exponential of Freeman and Little, Am J Physiol 1986, 251:H421; what the sac does to filling is
+    Source: the exponential of Freeman and Little, Am J Physiol 1986, 251:H421; the effect of the sac on filling is
     reviewed by Tyberg and Smith, Herz 1990, 15:354.
     """
 

@@ -1,13 +1,13 @@
-"""Rate mismatch: images of a breath-hold in which the heart beat at another rate than is stated."""
+"""Rate mismatch: images of a breath-hold in which the heart beat at another rate than the stated one."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Sensor, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Sensor, mechanism
 
 
 @mechanism
@@ -19,9 +19,9 @@ class RateMismatch(Sensor):
               \theta = \begin{cases} s & s < T_s \\ T_s + (s - T_s) / (1 + a) & s \ge T_s, \end{cases} \quad
               s = \frac{T'}{T} t
 
-    Systole, until :math:`T_s` after the trigger, takes its own time at any rate; diastole was 1 + a as long. A scanner
-    that spreads its frames over one stated beat shows systole too early and diastole too long, a > 0, or the
-    opposite.
+    Systole, until :math:`T_s` after the trigger, has the same duration at any rate; diastole lasted
+    1 + a times as long. A scanner that spreads its frames over one stated beat shows systole too early and diastole too
+    long, a > 0, or the opposite.
     Source: ours; that systole hardly follows the rate: Weissler, Harris and Schoenfeld, Circulation 1968, 37:149.
     """
 
@@ -30,7 +30,7 @@ class RateMismatch(Sensor):
         0.1,
         unit="1",
         symbol="a",
-        meaning="by which fraction diastole was longer",
+        meaning="relative lengthening of diastole",
         off=0.0,
         low=-0.9,
         scale=0.1,
@@ -47,17 +47,18 @@ class RateMismatch(Sensor):
             raise InputError(
                 f"RateMismatch.systole = {self.systole:g} s: expected less than the period, {period:g} s"
             )
-        shown, simulated = (
-            np.interp(each, times, values, period=period) for each in (self._true(times, period), times)
+        distorted, undistorted = (
+            np.interp(instants, times, values, period=period)
+            for instants in (self._true_times(times, period), times)
         )
         # the form that leaves the values bit for bit at a = 0
-        changed: Floats = values + (shown - simulated)
-        return changed
+        result: Floats = values + (distorted - undistorted)
+        return result
 
-    def _true(self, times: Floats, period: float) -> Floats:
-        """When the heart was where the images show it at ``times``, s after the trigger."""
-        early = np.floor(times / period) * period
-        spread = (times - early) * (1.0 + self.stretch * (period - self.systole) / period)
+    def _true_times(self, times: Floats, period: float) -> Floats:
+        """True times [s] of the states that the images show at ``times`` [s] after the trigger."""
+        start = np.floor(times / period) * period
+        spread = (times - start) * (1.0 + self.stretch * (period - self.systole) / period)
         late = np.maximum(spread - self.systole, 0.0)
-        true: Floats = early + spread - late * self.stretch / (1.0 + self.stretch)
-        return true
+        true_times: Floats = start + spread - late * self.stretch / (1.0 + self.stretch)
+        return true_times

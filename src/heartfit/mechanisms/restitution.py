@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from heartfit.mechanism import Amendment, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Amendment, mechanism
 
 
 @mechanism
@@ -14,8 +14,8 @@ class Restitution(Amendment):
     .. math:: \mathrm{APD}(T) = \mathrm{APD} \, (T / T_1)^a
 
     where APD is that at the period :math:`T_1` of 1 s, to which clinics correct the QT interval: a = 1/2 is Bazett's
-    formula, 1/3 Fridericia's, 0 a systole as long at every rate. At one rate it is another APD; recordings at two
-    rates tell it by their diastoles.
+    formula, 1/3 Fridericia's, 0 a systole of the same length at every rate. At one rate it cannot be told from another
+    APD; recordings at two rates reveal it by their diastoles.
     Sources: Bazett, Heart 1920, 7:353; Elharrar and Surawicz, Am J Physiol 1983, 244:H782.
     """
 
@@ -30,5 +30,5 @@ class Restitution(Amendment):
     def __post_init__(self) -> None:
         require_admissible(self)
 
-    def amended(self, value: float, period: float) -> float:
+    def amend(self, value: float, period: float) -> float:
         return float(value * (period / self.corrected) ** self.power)

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats
-from heartfit.geometry.territory import territory
-from heartfit.mechanism import Availability, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.geometry.territory import territory_weights
+from heartfit.roles import Availability, mechanism
 
 
 @mechanism
@@ -16,9 +16,9 @@ class Scar(Availability):
 
     .. math:: n_0(x) \to (1 - l\, w(x; \varphi, s))\, n_0(x)
 
-    with the weight w, 1 in the core of the :func:`~heartfit.geometry.territory.territory` about the angle
-    :math:`\varphi` and fading over its border zone; the mean of w over the left ventricle is s. Its passive stiffness
-    stays. Large infarcts are 20 to 30 % of the ventricle.
+    with the weight w, 1 in the core of the :func:`~heartfit.geometry.territory.territory_weights` about the angle
+    :math:`\varphi` and fading over its border zone; the mean of w over the left ventricle is s. The passive
+    stiffness is unchanged. Large infarcts are 20 to 30 % of the ventricle.
     Sources: territories of Cerqueira et al., Circulation 2002, 105:539; infarct size as share of the ventricle in Stone
     et al., JACC 2016, 67:1674.
     """
@@ -42,5 +42,5 @@ class Scar(Availability):
             if getattr(self, name) > 1.0:
                 raise InputError(f"Scar.{name} = {getattr(self, name):g}: expected a share, at most 1")
 
-    def lost(self) -> Floats:
-        return self.loss * territory(self.angle, self.extent)
+    def lost_share(self) -> Floats:
+        return self.loss * territory_weights(self.angle, self.extent)

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-from heartfit.geometry.arrays import Floats
-from heartfit.load import Load
-from heartfit.mechanism import External, mechanism
-from heartfit.parameter import parameter, require_admissible
-from heartfit.periodic import bump
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.core.periodic import bump
+from heartfit.roles import External, mechanism
+from heartfit.roles.laws import Load
 
 
 @mechanism
@@ -16,9 +16,9 @@ class SeptalLoad(External):
 
     .. math:: p(t) = a \cos^2 \frac{\pi (t - t_s)}{w} \quad \text{for } |t - t_s| < \tfrac{w}{2}
 
-    A sphere has no septum: this stands for the right ventricle. Ventricles of elements share one, and this is what a
-    right ventricle adds that is stronger than the simulated one. A third of a systolic pressure of 25 mmHg, which is
-    about what the septum hands on, is a = 1.1 kPa.
+    A sphere has no septum: this load represents the right ventricle. Ventricles of finite elements share a septum:
+    there it is the load that a right ventricle stronger than the simulated one adds. The septum transmits about a third
+    of a systolic pressure of 25 mmHg, a = 1.1 kPa.
     Source: ventricular interdependence, Maughan, Sunagawa and Sagawa, Am J Physiol 1987, 253:H1381.
     """
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.geometry.arrays import Floats
-from heartfit.mechanism import Relaxation, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Relaxation, mechanism
 
 
 @mechanism
@@ -32,7 +32,7 @@ class SlowRelaxation(Relaxation):
     def __post_init__(self) -> None:
         require_admissible(self)
 
-    def missing(self, time: Floats) -> Floats:
-        late = self.slowing / (1.0 + self.slowing)
-        result: Floats = late * (time + self.transition * np.expm1(-time / self.transition))
-        return result
+    def missing_integral(self, time: Floats) -> Floats:
+        share = self.slowing / (1.0 + self.slowing)
+        integral: Floats = share * (time + self.transition * np.expm1(-time / self.transition))
+        return integral

@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass
 
-from heartfit.mechanism import Amendment, mechanism
-from heartfit.parameter import parameter, require_admissible
+from heartfit.core.parameter import parameter, require_admissible
+from heartfit.roles import Amendment, mechanism
 
 
 @mechanism
 @dataclass(frozen=True)
 class WallViscosity(Amendment):
-    r"""Viscosity beyond that of the passive law.
+    r"""Viscosity in addition to that of the passive law.
 
     .. math:: S_v = (\eta + a)\, \dot E
 
@@ -26,5 +26,5 @@ class WallViscosity(Amendment):
     def __post_init__(self) -> None:
         require_admissible(self)
 
-    def amended(self, value: float, period: float) -> float:  # noqa: ARG002
+    def amend(self, value: float, period: float) -> float:  # noqa: ARG002
         return value + self.thickening

@@ -1,1 +1,1 @@
-"""One operator from periodic curves to the numbers a calibration compares, for data and simulation alike."""
+"""Observation operator: from periodic curves to the numbers that a calibration compares, measured or simulated."""

@@ -1,26 +1,34 @@
-"""A periodic curve: one heart beat of volume or pressure."""
+"""Periodic curve of one heart beat: volume, pressure or flow."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from heartfit.errors import InputError
+from heartfit.core.errors import InputError
 
-SMALLEST_NUMBER_OF_PHASES = 8
-VOLUMES = (5e-6, 1e-3)  # m^3, a ventricle of a human: 5 mL to 1 L
-PRESSURES = (-5e3, 40e3)  # Pa
-VOLUME_MISTAKES = {"mL taken for m^3": 1e-6, "L taken for m^3": 1e-3, "L taken for mL": 1e3}
-PRESSURE_MISTAKES = {"kPa taken for Pa": 1e3, "mmHg taken for Pa": 133.322, "mmHg taken for kPa": 0.133322}
+MIN_PHASES = 8
+"""Fewest samples of a beat from which peak rates can be taken."""
+VOLUME_RANGE = (5e-6, 1e-3)
+"""Volumes of a human ventricle [m^3]: 5 mL to 1 L."""
+PRESSURE_RANGE = (-5e3, 40e3)
+"""Pressures of a human heart [Pa]."""
+VOLUME_UNIT_MISTAKES = {"mL taken for m^3": 1e-6, "L taken for m^3": 1e-3, "L taken for mL": 1e3}
+PRESSURE_UNIT_MISTAKES = {
+    "kPa taken for Pa": 1e3,
+    "mmHg taken for Pa": 133.322,
+    "mmHg taken for kPa": 0.133322,
+}
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Values y(t) with y(t + period) = y(t).
+    """Samples of y(t) with y(t + period) = y(t).
 
-    times (p,) s, increasing, spanning less than one period; values (p,) SI; period s.
-    Raises InputError where one of these does not hold, or for fewer than eight samples.
+    times (p,): increasing [s], spanning less than one period; values (p,) [SI]; period [s].
+    Raises InputError where one of these does not hold, or for fewer than MIN_PHASES samples.
     """
 
     times: np.ndarray
@@ -36,20 +44,20 @@ class Curve:
     def _check_shape(self) -> None:
         if self.times.ndim != 1 or self.times.shape != self.values.shape:
             raise InputError(
-                f"curve: {self.times.shape} times and {self.values.shape} values; expected one value for "
-                "each time"
+                f"curve: {self.times.shape} times and {self.values.shape} values; "
+                "expected one value for each time"
             )
-        if self.times.size < SMALLEST_NUMBER_OF_PHASES:
+        if self.times.size < MIN_PHASES:
             raise InputError(
-                f"curve: {self.times.size} samples; expected at least {SMALLEST_NUMBER_OF_PHASES} in a beat: "
-                "peak rates mean nothing with fewer, so use a sequence with more phases"
+                f"curve: {self.times.size} samples; expected at least {MIN_PHASES} in a beat: "
+                "peak rates need more, so use a sequence with more phases"
             )
         for name, array in (("times", self.times), ("values", self.values)):
             if not np.isfinite(array).all():
                 first = int(np.flatnonzero(~np.isfinite(array))[0])
                 raise InputError(
-                    f"curve: {name}[{first}] = {array[first]}; expected finite numbers: fill or drop the "
-                    "sample"
+                    f"curve: {name}[{first}] = {array[first]}; "
+                    "expected finite numbers: fill or drop the sample"
                 )
 
     def _check_times(self) -> None:
@@ -65,27 +73,26 @@ class Curve:
         span = self.times[-1] - self.times[0]
         if span >= self.period * (1 - 1e-9):
             raise InputError(
-                f"curve: the samples span {span:g} s, the period is {self.period:g} s; expected less than "
-                "one "
-                "period: drop the sample that repeats the first, or correct the period"
+                f"curve: the samples span {span:g} s, the period is {self.period:g} s; "
+                "expected less than one period: drop the sample that repeats the first, or correct the period"
             )
 
     @classmethod
     def of_volume(cls, times: ArrayLike, values: ArrayLike, period: float) -> Self:
-        """A cavity's volume in m^3; raises InputError for what no human ventricle can hold."""
+        """Curve of a cavity volume [m^3]; raises InputError outside VOLUME_RANGE."""
         curve = cls(np.asarray(times), np.asarray(values), period)
         require_volumes(curve.values)
         return curve
 
     @classmethod
     def of_pressure(cls, times: ArrayLike, values: ArrayLike, period: float) -> Self:
-        """A pressure in Pa; raises InputError for what no human heart bears."""
+        """Curve of a pressure [Pa]; raises InputError outside PRESSURE_RANGE."""
         curve = cls(np.asarray(times), np.asarray(values), period)
         require_pressures(curve.values)
         return curve
 
     def __call__(self, times: ArrayLike) -> np.ndarray:
-        """Values at any times, linear between samples and periodic."""
+        """Values at any times [s], linear between samples and periodic."""
         return np.interp(np.asarray(times), self.times, self.values, period=self.period)
 
     def shifted(self, start: float) -> Self:
@@ -99,13 +106,13 @@ class Curve:
 
 
 def require_volumes(values: np.ndarray) -> None:
-    """Raise InputError for volumes, m^3, that no human ventricle can hold."""
-    _check_range(values, VOLUMES, "volume", "m^3", VOLUME_MISTAKES)
+    """Raise InputError unless the volumes [m^3] lie in VOLUME_RANGE."""
+    _check_range(values, VOLUME_RANGE, "volume", "m^3", VOLUME_UNIT_MISTAKES)
 
 
 def require_pressures(values: np.ndarray) -> None:
-    """Raise InputError for pressures of a beat, Pa, that no human heart bears."""
-    _check_range(values, PRESSURES, "pressure", "Pa", PRESSURE_MISTAKES)
+    """Raise InputError unless the pressures [Pa] of a beat lie in PRESSURE_RANGE and reach 200 Pa."""
+    _check_range(values, PRESSURE_RANGE, "pressure", "Pa", PRESSURE_UNIT_MISTAKES)
     if np.abs(values).max() < 200.0:
         raise InputError(
             f"pressure: the largest value is {np.abs(values).max():g} Pa; expected kilopascals in a beat: probably "
@@ -129,3 +136,42 @@ def _check_range(
         f"{name}: values from {low:g} to {high:g} {unit}; expected {bounds[0]:g} to {bounds[1]:g} {unit}; "
         f"{hint}"
     )
+
+
+def root_mean_square(measured: Curve, simulated: Curve, shift: float = 0.0) -> float:
+    """Root mean square over the measured samples of y(t) - x(t + shift), in the unit of the curves."""
+    return float(np.sqrt(np.mean((measured.values - simulated(measured.times + shift)) ** 2)))
+
+
+def require_common_phase(measured: Curve, simulated: Curve) -> None:
+    """Raise ValueError if the periods differ by more than a tenth: the phases of such beats do not correspond."""
+    if abs(measured.period / simulated.period - 1) > 0.1:
+        raise ValueError(
+            f"alignment: periods of {measured.period:g} s and {simulated.period:g} s; "
+            "expected the same heart rate: simulate at the measured period"
+        )
+
+
+def fit_shift(measured: Curve, simulated: Curve, limit: float | None = None) -> float:
+    """Shift s [s], |s| <= limit (half a period if None), that minimises the root mean square of y(t) - x(t + s).
+
+    A scan finds the basin, a bounded Brent search its minimum. Raises ValueError as `require_common_phase` does.
+    """
+    from scipy.optimize import minimize_scalar
+
+    require_common_phase(measured, simulated)
+    reach = simulated.period / 2 if limit is None else limit
+    scan, step = np.linspace(-reach, reach, 101, retstep=True)
+    start = min(scan, key=lambda shift: root_mean_square(measured, simulated, shift))
+    bounds = (max(start - step, -reach), min(start + step, reach))
+    fit = minimize_scalar(lambda shift: root_mean_square(measured, simulated, shift), bounds=bounds)
+    return float(fit.x)
+
+
+def fit_curves(
+    measured: Mapping[str, Curve], simulated: Mapping[str, Curve], limit: float
+) -> tuple[float, dict[str, float]]:
+    """Shift [s], |s| <= limit, that fits the LV volume best, and the misfit of every common curve at that shift."""
+    shift = fit_shift(measured["lv_volume"], simulated["lv_volume"], limit)
+    common = [name for name in measured if name in simulated]
+    return shift, {name: root_mean_square(measured[name], simulated[name], shift) for name in common}

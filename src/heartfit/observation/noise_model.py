@@ -1,46 +1,51 @@
-r"""What a scanner with its registration makes of a beat, learnt from sequences whose truth is known.
+r"""Noise model of a scanner and its registration, estimated from sequences of known truth.
 
-Registration starts from the end-diastolic mesh, so its error grows with the motion that it follows. It is therefore
-compared with a scale of the motion that the measurement itself has. For the volume at a phase of the beat, and for the
-extremum of a curve, that is the range of the measured curve, the stroke volume for V_min; for a rate it is the rate,
+Registration starts from the end-diastolic mesh, so its error grows with the motion that it follows. The model therefore
+divides the error by a scale of the motion that the measurement itself has. For the volume at a phase of the beat, and
+for the extremum of a curve, the scale is the range of the measured curve (the stroke volume for V_min); for a rate it
+is the rate,
 
 .. math::
     e(\varphi) = \frac{V^{measured}(\varphi) - V^{true}(\varphi)}{SV^{measured}}, \quad
     e_{extremum} = \frac{y^{measured} - y^{true}}{range^{measured}}, \quad
     e_{rate} = \ln \frac{y^{measured}}{y^{true}} .
 
-Both are inverted exactly for the truth, which is what is not known. A motion that is shrunk by s has e = s / (1 - s)
-at end systole whatever the heart, where an error relative to V_min would depend on the ejection fraction; a logarithm
-is as large for twice as for half the true rate. Bias and covariance of the errors over N >= 20 sequences are the
-model; see :mod:`heartfit.observation.scatter` for what N sequences say of the next one.
+Each can be inverted exactly for the unknown true value. A motion that is shrunk by s has e = s / (1 - s) at end systole
+in every heart, whereas an error relative to V_min would depend on the ejection fraction; a logarithm is as large for
+twice as for half the true rate. Bias and covariance of the errors over N >= 20 sequences are the model;
+:mod:`heartfit.observation.scatter` gives the distribution of the next sequence.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import betaincinv
 
-from heartfit.errors import InputError
-from heartfit.geometry.arrays import Floats, Integers
+from heartfit.core.arrays import Floats, Integers
+from heartfit.core.errors import InputError
 from heartfit.observation.curve import Curve
-from heartfit.observation.operator import PressureFeatures, VolumeFeatures
-from heartfit.observation.pair import Pair, Reading
+from heartfit.observation.operator import Pair, PressureFeatures, Reading, VolumeFeatures
 from heartfit.observation.scatter import Scatter
 
-FEWEST_SEQUENCES = 20
-PHASES = 25
-EXTREMA = {VolumeFeatures.names[0]: "lv_volume", PressureFeatures.names[0]: "lv_pressure"}
-"""Observations that are compared with the range of a curve, and which; the others are rates."""
+MIN_SEQUENCES = 20
+"""Fewest sequences from which a model may be estimated."""
+CURVE_PHASES = 25
+"""Default number of equidistant phases of the volume curve in a model."""
+CURVE_OF_EXTREMUM = {VolumeFeatures.names[0]: "lv_volume", PressureFeatures.names[0]: "lv_pressure"}
+"""Curve whose range scales the error of an observation, by observation; all others are rates."""
+NEGLIGIBLE_SD = 1e-9
+"""Standard deviation over the stroke volume below which coverage leaves out a phase."""
 Setting = float | int | str | bool
 
 
 @dataclass(frozen=True, eq=False)
 class NoiseModel:
-    """Bias and covariance of what is measured by one protocol.
+    """Bias and covariance of the errors of one imaging protocol.
 
-    protocol: the settings of scanner and registration the model was made for; observations: scatter of their errors by
-    name; curve: scatter of the error of the volume, one component for each phase, with shrunken correlations. Raises
-    InputError for fewer than 20 sequences.
+    protocol: the settings of scanner and registration that the model holds for; observations: scatter of their errors
+    by name; curve: scatter of the error of the volume, one component for each phase, with shrunken correlations. Raises
+    InputError for fewer than MIN_SEQUENCES sequences.
     """
 
     protocol: Mapping[str, Setting]
@@ -48,48 +53,52 @@ class NoiseModel:
     curve: Scatter
 
     def __post_init__(self) -> None:
-        _require_enough(self.sequences)
+        _require_sequences(self.sequences)
 
     @classmethod
-    def of(cls, pairs: Sequence[Pair], protocol: Mapping[str, Setting], phases: int = PHASES) -> "NoiseModel":
-        """The model from one pair for each sequence, all of one protocol.
+    def from_pairs(
+        cls, pairs: Sequence[Pair], protocol: Mapping[str, Setting], phases: int = CURVE_PHASES
+    ) -> "NoiseModel":
+        """Estimate the model from one pair for each sequence, all of one protocol.
 
-        Raises InputError for too few pairs, and for one whose observations are not those of the first or differ in
-        sign from the truth.
+        Raises InputError for fewer than MIN_SEQUENCES pairs, and for a pair whose observations are not those of the
+        first or whose rates differ in sign from the truth.
         """
-        _require_enough(len(pairs))
+        _require_sequences(len(pairs))
         names = tuple(pairs[0].true.observations)
         errors = np.array([observation_errors(pair, names, number) for number, pair in enumerate(pairs)])
         curves = np.array([curve_error(pair, phases) for pair in pairs])
         labels = [f"phase {phase} of {phases}" for phase in range(phases)]
-        return cls(protocol, Scatter.of(names, errors), Scatter.of(labels, curves, shrunk=True))
+        return cls(
+            protocol, Scatter.from_sample(names, errors), Scatter.from_sample(labels, curves, shrunk=True)
+        )
 
     @property
     def sequences(self) -> int:
-        """From how many sequences it was learnt."""
+        """Number of sequences from which the model was estimated."""
         return self.observations.count
 
     def require_protocol(self, protocol: Mapping[str, Setting]) -> None:
-        """Raises InputError for images of another protocol than that of the model."""
+        """Raise InputError unless images have the protocol of the model."""
         names = sorted(set(self.protocol) | set(protocol))
         for name in names:
-            made, given = self.protocol.get(name), protocol.get(name)
-            if made != given:
+            expected, actual = self.protocol.get(name), protocol.get(name)
+            if actual != expected:
                 raise InputError(
-                    f"noise model: {name} is {given}, the model was made for {made}; "
-                    "expected images of its protocol: make a model of theirs"
+                    f"noise model: {name} is {actual}, but the model was made for {expected}; "
+                    "expected images of its protocol: make a model for the protocol of these images"
                 )
 
     def corrected(self, measured: Reading) -> dict[str, float]:
-        """The observations, SI, without the bias."""
+        """Return the observations without their bias, by name [SI]."""
         bias = self.observations.mean[self._places(measured.observations)]
-        return dict(zip(measured.observations, _truths(measured, bias).tolist(), strict=True))
+        return dict(zip(measured.observations, _true_values(measured, bias).tolist(), strict=True))
 
     def covariance(self, measured: Reading) -> Floats:
-        """Covariance (m, m) of the truth about the corrected observations, in their order and SI.
+        """Covariance (m, m) of the truth about the corrected observations, in their order [SI].
 
         R = diag(d) S (1 + 1/N) diag(d) with d the range of the curve for an extremum and the corrected value for a
-        rate, whose logarithm is taken to first order.
+        rate, whose logarithm is linearised.
         """
         places = self._places(measured.observations)
         scales = _scales(measured)
@@ -97,30 +106,30 @@ class NoiseModel:
         return np.outer(sizes, sizes) * self.observations.predictive[np.ix_(places, places)]
 
     def interval(self, measured: Reading, level: float = 0.95) -> dict[str, tuple[float, float]]:
-        """Where the true values lie with probability ``level`` each: least and largest, SI."""
+        """Return the interval (low, high) [SI] of each true value at probability ``level``, by name."""
         places = self._places(measured.observations)
-        bias, reach = self.observations.mean[places], self.observations.reach(level)[places]
-        ends = np.sort([_truths(measured, bias - reach), _truths(measured, bias + reach)], axis=0)
+        bias, reach = self.observations.mean[places], self.observations.half_width(level)[places]
+        ends = np.sort([_true_values(measured, bias - reach), _true_values(measured, bias + reach)], axis=0)
         return dict(zip(measured.observations, map(tuple, ends.T.tolist()), strict=True))
 
     def corrected_curve(self, volume: Curve) -> Curve:
-        """A measured LV volume at the model's phases, m^3, without the bias."""
+        """Return a measured LV volume [m^3] at the phases of the model, without the bias."""
         frames, stroke = self._at_phases(volume)
         return Curve(frames.times, frames.values - stroke * self.curve.mean, frames.period)
 
     def curve_covariance(self, volume: Curve) -> Floats:
-        """Covariance (k, k) in m^6 of the true volume about the corrected one, over the model's phases.
+        """Covariance (k, k) [m^6] of the true volume about the corrected one, over the phases of the model.
 
-        Where the error never varies, as in the first phase if the mesh is given there, a row is zero.
+        A row is zero in a phase without error, such as the first, where registration starts from the mesh.
         """
         covariance: Floats = self._at_phases(volume)[1] ** 2 * self.curve.predictive
         return covariance
 
     def curve_interval(self, volume: Curve, level: float = 0.95) -> tuple[Floats, Floats]:
-        """Least and largest true volume (k,) in m^3, with probability ``level`` in each of the model's phases."""
+        """Interval (low, high) (k,) [m^3] of the true volume at probability ``level`` in each phase of the model."""
         middle, reach = (
             self.corrected_curve(volume).values,
-            self._at_phases(volume)[1] * self.curve.reach(level),
+            self._at_phases(volume)[1] * self.curve.half_width(level),
         )
         return middle - reach, middle + reach
 
@@ -132,23 +141,23 @@ class NoiseModel:
         unknown = [name for name in observed if name not in self.observations.names]
         if unknown:
             raise InputError(
-                f"noise model: knows nothing of {', '.join(unknown)}; expected {', '.join(self.observations.names)}: "
-                "observe these only or make a model with the others"
+                f"noise model: no observation {', '.join(unknown)}; expected {', '.join(self.observations.names)}: "
+                "observe only these or make a model with all of them"
             )
         return np.array([self.observations.names.index(name) for name in observed], dtype=np.int64)
 
 
-def _require_enough(sequences: int) -> None:
-    if sequences < FEWEST_SEQUENCES:
+def _require_sequences(sequences: int) -> None:
+    if sequences < MIN_SEQUENCES:
         raise InputError(
-            f"noise model: {sequences} sequences; expected at least {FEWEST_SEQUENCES}: simulate and register more"
+            f"noise model: {sequences} sequences; expected at least {MIN_SEQUENCES}: simulate and register more"
         )
 
 
 def observation_errors(pair: Pair, names: Sequence[str], number: int = 0) -> Floats:
-    """Errors (m,) of the observations of a pair, by name; ``number`` tells its sequence.
+    """Errors (m,) of the named observations of a pair; ``number`` is that of its sequence, for messages.
 
-    Raises InputError for other observations than these, and for a rate of another sign than the true one.
+    Raises InputError for a pair with other observations, and for a rate whose sign is not that of the true one.
     """
     true, measured = pair.true.observations, pair.measured.observations
     if not set(true) == set(measured) == set(names):
@@ -161,7 +170,7 @@ def observation_errors(pair: Pair, names: Sequence[str], number: int = 0) -> Flo
 
 def _error(pair: Pair, name: str, number: int) -> float:
     true, measured = pair.true.observations[name], pair.measured.observations[name]
-    if name in EXTREMA:
+    if name in CURVE_OF_EXTREMUM:
         return (measured - true) / _range(pair.measured, name)
     if not measured / true > 0.0:
         raise InputError(
@@ -171,20 +180,22 @@ def _error(pair: Pair, name: str, number: int) -> float:
     return float(np.log(measured / true))
 
 
-def _truths(measured: Reading, errors: Floats) -> Floats:
-    """True values (m,) of what was measured with these errors."""
+def _true_values(measured: Reading, errors: Floats) -> Floats:
+    """True values (m,) of a measurement with these errors."""
     values, scales = np.array(list(measured.observations.values())), _scales(measured)
     truths: Floats = np.where(np.isnan(scales), values * np.exp(-errors), values - scales * errors)
     return truths
 
 
 def _scales(measured: Reading) -> Floats:
-    """Range (m,) of the curve of each extremum, NaN for a rate."""
-    return np.array([_range(measured, name) if name in EXTREMA else np.nan for name in measured.observations])
+    """Range of the curve for each extremum (m,), NaN for a rate."""
+    return np.array(
+        [_range(measured, name) if name in CURVE_OF_EXTREMUM else np.nan for name in measured.observations]
+    )
 
 
 def _range(measured: Reading, name: str) -> float:
-    return float(np.ptp(measured.curves[EXTREMA[name]].values))
+    return float(np.ptp(measured.curves[CURVE_OF_EXTREMUM[name]].values))
 
 
 def curve_error(pair: Pair, phases: int) -> Floats:
@@ -192,3 +203,62 @@ def curve_error(pair: Pair, phases: int) -> Floats:
     true, measured = (reading.curves["lv_volume"].resampled(phases) for reading in (pair.true, pair.measured))
     error: Floats = (measured.values - true.values) / np.ptp(measured.values)
     return error
+
+
+@dataclass(frozen=True)
+class Share:
+    """Covered share of ``sequences`` and the exact confidence interval (low, high) of its probability.
+
+    Reference: Clopper CJ, Pearson ES 1934, doi 10.1093/biomet/26.4.404.
+    """
+
+    covered: float
+    sequences: int
+    low: float
+    high: float
+
+    @classmethod
+    def from_count(cls, covered: float, sequences: int, level: float = 0.95) -> "Share":
+        """Return the share for ``covered`` of ``sequences`` sequences, with its interval at ``level``."""
+        missed, tail = sequences - covered, 0.5 * (1.0 - level)
+        low = float(betaincinv(covered, missed + 1.0, tail)) if covered > 0.0 else 0.0
+        high = float(betaincinv(covered + 1.0, missed, 1.0 - tail)) if missed > 0.0 else 1.0
+        return cls(covered / sequences, sequences, low, high)
+
+
+def coverage(model: NoiseModel, pairs: Sequence[Pair], level: float = 0.95) -> dict[str, Share]:
+    """Share of independent pairs whose truth lies in the interval of the model, by observation and for "lv_volume".
+
+    The share of "lv_volume" is the mean over the phases. The errors of the phases of one sequence are correlated, so
+    its confidence interval counts a sequence, not a phase, as one trial, which makes it conservative.
+    """
+    return _shares([_covered(model, pair, level) for pair in pairs])
+
+
+def leave_one_out_coverage(
+    pairs: Sequence[Pair], protocol: Mapping[str, Setting], level: float = 0.95
+) -> dict[str, Share]:
+    """Coverage where the model of all other pairs judges each pair in turn."""
+    covered = [
+        _covered(NoiseModel.from_pairs([*pairs[:index], *pairs[index + 1 :]], protocol), pair, level)
+        for index, pair in enumerate(pairs)
+    ]
+    return _shares(covered)
+
+
+def _shares(covered: Sequence[Mapping[str, float]]) -> dict[str, Share]:
+    return {name: Share.from_count(sum(pair[name] for pair in covered), len(covered)) for name in covered[0]}
+
+
+def _covered(model: NoiseModel, pair: Pair, level: float) -> dict[str, float]:
+    """Coverage of one pair: 1 or 0 for each observation, the share of the phases for the volume."""
+    true = pair.true.observations
+    intervals = model.interval(pair.measured, level)
+    covered = {name: float(low <= true[name] <= high) for name, (low, high) in intervals.items()}
+    return covered | {"lv_volume": float(np.mean(_phases_covered(model, pair, level)))}
+
+
+def _phases_covered(model: NoiseModel, pair: Pair, level: float) -> Floats:
+    low, high = model.curve_interval(pair.measured.curves["lv_volume"], level)
+    true = pair.true.curves["lv_volume"].resampled(len(low)).values
+    return ((low <= true) & (true <= high))[model.curve.sd > NEGLIGIBLE_SD].astype(float)

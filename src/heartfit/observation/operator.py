@@ -1,5 +1,4 @@
-"""The observation operator h: the three numbers of a volume or pressure curve, as the paper's Fig. 2 takes
-them.
+"""Observation operator h: an extremum and two peak rates of a volume or pressure curve (Fig. 2 of the paper).
 
 A curve of any sampling is resampled at equidistant times from time zero (the ECG trigger), then a periodic
 Savitzky-Golay filter gives value and rate,
@@ -13,6 +12,7 @@ Reference: Savitzky and Golay 1964, doi:10.1021/ac60214a047; Marchesseau et al. 
 """
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -23,10 +23,10 @@ from heartfit.observation.curve import Curve
 
 @dataclass(frozen=True)
 class CurveFeatures(ABC):
-    """An extremum of the curve and the two peaks of its rate.
+    """Extremum of a curve and the two peaks of its rate.
 
-    frames: samples in a beat (those of the measured curve); window: odd number of frames; order of the
-    polynomial. window 3 with order 2 keeps the samples and takes raw central differences.
+    frames: samples in a beat (those of the measured curve); window: odd number of frames; order: degree of the
+    polynomial. Window 3 with order 2 keeps the samples and takes raw central differences.
     """
 
     frames: int = 25
@@ -45,7 +45,7 @@ class CurveFeatures(ABC):
 
     @property
     def rates(self) -> tuple[str, str]:
-        """Names of the observations that go with one over the period."""
+        """Names of the observations that scale with the reciprocal of the period."""
         return self.names[1:]
 
     @property
@@ -53,15 +53,15 @@ class CurveFeatures(ABC):
         return (self.unit, f"{self.unit}/s", f"{self.unit}/s")
 
     def smooth(self, curve: Curve) -> Curve:
-        """The curve as the operator sees it."""
+        """Resampled and filtered curve."""
         return self._filter(curve, derivative=0)
 
     def rate(self, curve: Curve) -> Curve:
-        """Its time derivative."""
+        """Resampled and filtered time derivative of the curve."""
         return self._filter(curve, derivative=1)
 
     def _filter(self, curve: Curve, derivative: int) -> Curve:
-        from scipy.signal import savgol_filter  # 0.4 s to import, and only an observation needs it
+        from scipy.signal import savgol_filter  # takes 0.4 s to import, and only observations need it
 
         frames = curve.resampled(self.frames)
         values = savgol_filter(
@@ -76,10 +76,10 @@ class CurveFeatures(ABC):
 
     @abstractmethod
     def extremum(self, values: np.ndarray) -> float:
-        """The extremum of the curve itself that is observed."""
+        """Observed extremum of the values of the curve."""
 
     def __call__(self, curve: Curve) -> dict[str, float]:
-        """Observations by name, SI, from a curve whose time zero is the trigger."""
+        """Observations by name [SI] of a curve whose time zero is the trigger."""
         rate = self.rate(curve).values
         numbers = (self.extremum(self.smooth(curve).values), float(rate.max()), float(rate.min()))
         return dict(zip(self.names, numbers, strict=True))
@@ -87,7 +87,7 @@ class CurveFeatures(ABC):
 
 @dataclass(frozen=True)
 class VolumeFeatures(CurveFeatures):
-    """V_min, peak filling rate q_max > 0 and peak ejection rate q_min < 0 of q = dV/dt."""
+    """Operator of a volume: V_min, peak filling rate q_max > 0 and peak ejection rate q_min < 0 of q = dV/dt."""
 
     names: ClassVar = ("V_min", "q_max", "q_min")
     unit: ClassVar = "m^3"
@@ -98,7 +98,7 @@ class VolumeFeatures(CurveFeatures):
 
 @dataclass(frozen=True)
 class PressureFeatures(CurveFeatures):
-    """P_max, dP/dt_max and dP/dt_min; a catheter samples faster than an image: frames of 4 ms."""
+    """Operator of a pressure: P_max, dP/dt_max and dP/dt_min; its frames are finer, as catheters sample faster."""
 
     frames: int = 200
     window: int = 5
@@ -108,3 +108,61 @@ class PressureFeatures(CurveFeatures):
 
     def extremum(self, values: np.ndarray) -> float:
         return float(values.max())
+
+
+def operators(
+    measured: Mapping[str, Curve], frames: int | None = None, window: int = 3, order: int = 2
+) -> dict[str, CurveFeatures]:
+    """Operators by curve: of the LV volume, with its measured number of frames if None, and of an LV pressure."""
+    require_curves(measured, ["lv_volume"])
+    count = measured["lv_volume"].times.size if frames is None else frames
+    features: dict[str, CurveFeatures] = {"lv_volume": VolumeFeatures(count, window, order)}
+    if "lv_pressure" in measured:
+        features["lv_pressure"] = PressureFeatures()
+    return features
+
+
+def observe(curves: Mapping[str, Curve], features: Mapping[str, CurveFeatures]) -> dict[str, float]:
+    """Observe curves: the observations by name [SI]; raises ValueError for a missing curve."""
+    require_curves(curves, features)
+    return {
+        key: value for curve, operator in features.items() for key, value in operator(curves[curve]).items()
+    }
+
+
+def cavity_indices(curves: Mapping[str, Curve], side: str = "lv") -> dict[str, float]:
+    """EDV (largest), ESV (smallest) and stroke volume SV [m^3] and ejection fraction EF [1] of a cavity."""
+    require_curves(curves, [f"{side}_volume"])
+    volume = curves[f"{side}_volume"]
+    end_diastolic, end_systolic = float(volume.values.max()), float(volume.values.min())
+    stroke = end_diastolic - end_systolic
+    return {"EDV": end_diastolic, "ESV": end_systolic, "SV": stroke, "EF": stroke / end_diastolic}
+
+
+def require_curves(curves: Mapping[str, Curve], names: Iterable[str]) -> None:
+    """Raise ValueError, with the names of the present curves, if a curve is missing."""
+    missing = sorted(set(names) - set(curves))
+    if missing:
+        present = ", ".join(sorted(curves)) or "none: did the beat fail?"
+        raise ValueError(f"observation: no curve {', '.join(missing)}; there are {present}")
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """Curves of a beat by name ("lv_volume", ...) and its observations by name [SI]."""
+
+    curves: Mapping[str, Curve]
+    observations: Mapping[str, float]
+
+    @classmethod
+    def from_curves(cls, curves: Mapping[str, Curve], features: Mapping[str, CurveFeatures]) -> "Reading":
+        """Observe curves, each by its operator; raises ValueError for a missing curve."""
+        return cls(curves, observe(curves, features))
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """True beat and its measurement, observed by the same operators."""
+
+    true: Reading
+    measured: Reading

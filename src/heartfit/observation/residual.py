@@ -1,13 +1,14 @@
-r"""What a simulated beat leaves of a measured one, in units of the measurement's noise.
+r"""Residuals of a simulated beat against a measured one: of curves, in units of noise, and of segmental strain.
 
 .. math:: r(t) = \frac{y^{simulated}(t) - y^{measured}(t)}{\sqrt{\sigma^2(t) + \rho^2}}
 
-:math:`\sigma` is the deviation that the noise model of the images gives the volume in this phase, after its bias was
-taken off, or without a model what the upper half of the curve's own spectrum holds; :math:`\rho` is the roughness that
-any model of a heart has beside a real one (0.6 mL, 0.15 kPa). Positive: the simulation is too large.
+:math:`\sigma` is the standard deviation that the noise model of the images gives the volume in this phase, after its
+bias was removed; without a model it is estimated from the upper half of the spectrum of the curve. :math:`\rho` is the
+roughness of any simulation against a real heart (0.6 mL, 0.15 kPa). A positive residual means that the simulation is
+too large.
 
-Residuals of neighbouring samples are correlated, and one unscented step without noise leaves such of ten units in a
-model whose structure is right: a residual by itself is no evidence of missing physics.
+Residuals of neighbouring samples are correlated, and one unscented step without noise leaves residuals of ten units in
+a model of the right structure: a residual alone is no evidence of missing physics.
 """
 
 from collections.abc import Mapping, Sequence
@@ -15,23 +16,63 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.geometry.arrays import Floats
-from heartfit.observation.beat_phases import PHASES, BeatPhases
+from heartfit.core.arrays import Floats
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.observation.beat import PHASES, BeatPhases
+from heartfit.observation.comparison import Comparison
 from heartfit.observation.curve import Curve
-from heartfit.observation.noise import frame_noise
+from heartfit.observation.measurement import frame_noise
 from heartfit.observation.noise_model import NoiseModel
-from heartfit.observation.strain_residual import StrainResidual
+from heartfit.observation.shape import cavity_volumes
+from heartfit.observation.strain import segment_strain
 
-ROUGHNESS = {"volume": 0.6e-6, "pressure": 150.0}
-"""m^3 and Pa."""
-MEASURED = ("lv_volume", "rv_volume", "lv_pressure", "aorta_pressure")
-FEWEST = 2
-"""Samples in a phase of the beat that are needed to speak of it."""
+SIMULATION_ROUGHNESS = {"volume": 0.6e-6, "pressure": 150.0}
+"""Deviation of any simulation from a real heart: volume [m^3] and pressure [Pa]."""
+MEASURED_CURVES = ("lv_volume", "rv_volume", "lv_pressure", "aorta_pressure")
+MIN_SAMPLES = 2
+"""Fewest samples in a phase of the beat for which a mean residual is reported."""
+
+
+@dataclass(frozen=True, eq=False)
+class StrainResidual:
+    """Simulated minus measured strain (3, 16), along DIRECTIONS in SEGMENTS, at ``time`` [s] after the trigger.
+
+    noise (3, 16): standard deviation of the registration error; None where it is unknown.
+    """
+
+    time: float
+    difference: Floats
+    noise: Floats | None
+
+    def score(self) -> Floats:
+        """Difference in units of noise, or in percent of length without noise."""
+        score: Floats = self.difference / (0.01 if self.noise is None else self.noise)
+        return score
+
+
+def strain_residual(
+    mesh: VentricularMesh, measured: Motion, simulated: Motion | None, validation: Sequence[Comparison]
+) -> StrainResidual | None:
+    """Strain residual at end systole of the measured left ventricle; both motions at the same frames.
+
+    simulated: None for a failed beat, which has no residual; validation: registrations of known truth, whose mean error
+    corrects the residual and whose scatter is its noise; may be empty.
+    """
+    if simulated is None:
+        return None
+    phase = int(cavity_volumes(mesh, measured)["lv_volume"].values.argmin())
+    difference = (segment_strain(mesh, simulated) - segment_strain(mesh, measured))[phase]
+    if not validation:
+        return StrainResidual(float(measured.times[phase]), difference, None)
+    errors = np.array([comparison.strain_error_at_end_systole() for comparison in validation])
+    return StrainResidual(
+        float(measured.times[phase]), difference + errors.mean(axis=0), errors.std(axis=0, ddof=1)
+    )
 
 
 @dataclass(frozen=True, eq=False)
 class Residual:
-    """One curve: times (k,), measured without bias (k,) and noise (k,), SI, and simulated (k,) by the beat's label."""
+    """Residual of one curve (k,) [SI]: times, measured without bias, noise, and simulated by the label of the beat."""
 
     curve: str
     times: Floats
@@ -40,18 +81,18 @@ class Residual:
     simulated: Mapping[str, Floats]
 
     def difference(self, label: str) -> Floats:
-        """Simulated less measured (k,), SI."""
+        """Simulated minus measured values (k,) [SI]."""
         return self.simulated[label] - self.measured
 
     def score(self, label: str) -> Floats:
-        """The same in units of noise."""
+        """Difference (k,) in units of noise."""
         score: Floats = self.difference(label) / self.noise
         return score
 
 
 @dataclass(frozen=True)
 class Misfit:
-    """Mean over a phase of the beat: of the difference, SI, and of the score."""
+    """Mean difference [SI] and mean score of a curve over a phase of the beat."""
 
     curve: str
     phase: str
@@ -61,9 +102,9 @@ class Misfit:
 
 @dataclass(frozen=True, eq=False)
 class CaseResidual:
-    """All that beats leave of one case: curves, the phases of the last beat that did not fail, and its strain.
+    """Residuals of one case: of curves, with the phases of the last completed beat, and of its strain.
 
-    Without such a beat there are no curves and no phases.
+    Without a completed beat there are no curves and no phases.
     """
 
     curves: Sequence[Residual]
@@ -72,11 +113,11 @@ class CaseResidual:
 
     @property
     def label(self) -> str:
-        """That of the last beat."""
+        """Label of the last beat."""
         return list(self.curves[0].simulated)[-1]
 
     def misfits(self) -> list[Misfit]:
-        """Those of the last beat, the worst first."""
+        """Misfits of the last beat, the largest score first."""
         return [] if self.phases is None else misfits(self.curves, self.phases, self.label)
 
 
@@ -86,52 +127,53 @@ def case_residual(
     models: Sequence[NoiseModel],
     strain: StrainResidual | None = None,
 ) -> CaseResidual:
-    """What beats leave of a case; simulated: their curves by label, none of a failed one; strain: of the last."""
-    beating = [curves for curves in simulated.values() if curves]
-    if not beating:
+    """Residual of a case; simulated: curves by label of the beat, empty for a failed one; strain: of the last beat."""
+    completed = [curves for curves in simulated.values() if curves]
+    if not completed:
         return CaseResidual((), None, None)
-    found = residuals(measured, simulated, models)
-    return CaseResidual(found, BeatPhases.of(beating[-1]), strain)
+    curves = residuals(measured, simulated, models)
+    return CaseResidual(curves, BeatPhases.from_curves(completed[-1]), strain)
 
 
 def residuals(
     measured: Mapping[str, Curve], simulated: Mapping[str, Mapping[str, Curve]], models: Sequence[NoiseModel]
 ) -> list[Residual]:
-    """The residual of each measured curve against the beats, time zero at the trigger; a failed beat is left out.
+    """Residual of each measured curve against the beats, time zero at the trigger; failed beats are left out.
 
-    models: the noise model of the images, or none. It was learnt of left ventricles; the right one's volume is taken to
-    err as much over its own stroke volume.
+    models: the noise model of the images, or empty. It was estimated from left ventricles; the error of the right
+    volume is assumed to be as large relative to its own stroke volume.
     """
     beats = {label: curves for label, curves in simulated.items() if curves}
-    found = []
-    for name in MEASURED:
+    results = []
+    for name in MEASURED_CURVES:
         if name in measured:
-            curve, noise = with_noise(name, measured[name], models)
+            curve, noise = unbiased_with_noise(name, measured[name], models)
             values = {label: curves[name](curve.times) for label, curves in beats.items()}
-            found.append(Residual(name, curve.times, curve.values, noise, values))
-    return found
+            results.append(Residual(name, curve.times, curve.values, noise, values))
+    return results
 
 
-def with_noise(name: str, curve: Curve, models: Sequence[NoiseModel]) -> tuple[Curve, Floats]:
-    """The curve without bias and the standard deviation (k,) of what a right simulation leaves of it, SI."""
+def unbiased_with_noise(name: str, curve: Curve, models: Sequence[NoiseModel]) -> tuple[Curve, Floats]:
+    """Return the curve without bias and the standard deviation (k,) [SI] of its residual under a correct simulation."""
     kind = name.rsplit("_", 1)[1]
     for model in models if kind == "volume" else ():
         frames, variance = model.corrected_curve(curve), np.diag(model.curve_covariance(curve))
-        return frames, np.sqrt(variance + ROUGHNESS[kind] ** 2)
-    return curve, np.full(curve.times.size, np.hypot(frame_noise(curve), ROUGHNESS[kind]))
+        return frames, np.sqrt(variance + SIMULATION_ROUGHNESS[kind] ** 2)
+    return curve, np.full(curve.times.size, np.hypot(frame_noise(curve), SIMULATION_ROUGHNESS[kind]))
 
 
-def misfits(found: Sequence[Residual], phases: BeatPhases, label: str) -> list[Misfit]:
-    """Mean residual of each curve in each phase of the beat that has samples enough, the worst first."""
+def misfits(curves: Sequence[Residual], phases: BeatPhases, label: str) -> list[Misfit]:
+    """Mean residual of each curve in each phase with MIN_SAMPLES or more samples, the largest score first."""
     means = [
         Misfit(
-            each.curve,
+            residual.curve,
             phase,
-            float(each.difference(label)[inside].mean()),
-            float(each.score(label)[inside].mean()),
+            float(residual.difference(label)[inside].mean()),
+            float(residual.score(label)[inside].mean()),
         )
-        for each in found
+        for residual in curves
         for phase in PHASES
-        if (inside := np.array([name == phase for name in phases.at(each.times)])).sum() >= FEWEST
+        if (inside := np.array([name == phase for name in phases.names_at(residual.times)])).sum()
+        >= MIN_SAMPLES
     ]
     return sorted(means, key=lambda misfit: -abs(misfit.score))

@@ -1,0 +1,139 @@
+"""Write the pages whose measured numbers are stored in docs/measured, or hold them to it.
+
+python docs/measured_pages.py             write README.md and docs/*.md from docs/templates and docs/measured
+python docs/measured_pages.py --check     write nothing; fail if a page is not what its template and results give
+python docs/measured_pages.py NUMBERS     take the numbers of a study, results/tables/numbers.csv, first
+
+docs/measured/NAME.tsv holds either single values, with the columns of `COLUMNS`, which a template prints by
+`NAME('quantity', decimals)`, or a table, which it prints by `table('NAME')`. The first line says what made it.
+"""
+
+import csv
+import subprocess
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
+from difflib import unified_diff
+from pathlib import Path
+
+from heartfit.core.pages import render_page, table_row
+from heartfit.io.files import write_text
+
+ROOT = Path(__file__).resolve().parents[1]
+RESULTS = ROOT / "docs" / "measured"
+PAGES = {
+    "README": ROOT / "README.md",
+    **{
+        name: ROOT / "docs" / f"{name}.md"
+        for name in (
+            "conduction",
+            "discovery_in_3d",
+            "discovery_measured_heart",
+            "measured_heart",
+            "registration",
+            "reproducible",
+            "sensitivity",
+            "study",
+        )
+    },
+}
+"""Templates by name, and what is written from them."""
+STUDY = RESULTS / "study.tsv"
+COLUMNS = ["quantity", "value", "unit", "number", "commit"]
+"""number: table/setting/case/quantity in the study's numbers.csv, empty where a value is in another result."""
+KEY = ("table", "setting", "case", "quantity")
+Rows = list[list[str]]
+
+
+@dataclass(frozen=True)
+class Values:
+    """Stored values by quantity; called, it prints one. Raises KeyError for a quantity that is not stored."""
+
+    file: Path
+    values: dict[str, str]
+
+    def __call__(self, quantity: str, decimals: int | None = None, plus: bool = False) -> str:
+        if quantity not in self.values:
+            raise KeyError(f"{self.file.name} has no {quantity!r}; add it, or see what a template asks for")
+        value = self.values[quantity]
+        return value if decimals is None else f"{float(value):{'+' if plus else ''}.{decimals}f}"
+
+
+def read_rows(file: Path) -> Rows:
+    """The rows of a stored result, its head first; without the line that says what made it."""
+    return [line.split("\t") for line in file.read_text(encoding="utf-8").splitlines() if line[:1] != "#"]
+
+
+def render(name: str) -> str:
+    """A page from its template and the stored results."""
+    rows = {file.stem: read_rows(file) for file in sorted(RESULTS.glob("*.tsv"))}
+    values = {
+        stem: Values(RESULTS / f"{stem}.tsv", {row[0]: row[1] for row in body})
+        for stem, (head, *body) in rows.items()
+        if head == COLUMNS
+    }
+    return render_page(name, table=lambda stem: markdown(rows[stem]), **values)
+
+
+def markdown(rows: Rows) -> str:
+    """A table in Markdown."""
+    head, *body = rows
+    return table_row(*head) + f"|{'---|' * len(head)}\n" + "".join(table_row(*row) for row in body)
+
+
+def differences(pages: Iterable[str] = PAGES) -> list[str]:
+    """Lines in which a page differs from its template filled with the stored results."""
+    return [
+        line
+        for name in pages
+        for line in unified_diff(
+            PAGES[name].read_text(encoding="utf-8").splitlines(),
+            render(name).splitlines(),
+            PAGES[name].name,
+            f"docs/templates/{name}.md.j2",
+            lineterm="",
+            n=0,
+        )
+    ]
+
+
+def renewed(rows: Rows, numbers: Path, commit: str) -> Rows:
+    """Stored values with those of a study's numbers.csv; a value whose number the study does not have is kept."""
+    with numbers.open(encoding="utf-8") as lines:
+        table = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    measured = {"/".join(row[key] for key in KEY): float(row["value"]) for row in table}
+    return [
+        [quantity, f"{measured[number]:.4g}", unit, number, commit]
+        if number in measured
+        else [quantity, value, unit, number, old]
+        for quantity, value, unit, number, old in rows
+    ]
+
+
+def take(numbers: Path) -> None:
+    """Write the numbers of a study into the stored results."""
+    made_by = STUDY.read_text(encoding="utf-8").splitlines()[0]
+    commit = subprocess.run(
+        ["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout.strip()
+    head, *rows = read_rows(STUDY)
+    lines = ["\t".join(row) for row in (head, *renewed(rows, numbers, commit))]
+    write_text(STUDY, "\n".join([made_by, *lines]) + "\n")
+
+
+def main(arguments: list[str]) -> int:
+    """Carry out what the module's docstring lists."""
+    if arguments == ["--check"]:
+        lines = differences()
+        advice = "change the template or the stored result, then: python3 study.py numbers"
+        sys.stdout.write("\n".join([*lines, advice]) + "\n" if lines else "")
+        return int(bool(lines))
+    for numbers in arguments:
+        take(Path(numbers))
+    for name, page in PAGES.items():
+        write_text(page, render(name))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

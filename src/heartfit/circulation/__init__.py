@@ -1,1 +1,0 @@
-"""Compartments, valves and arteries around the ventricles, and their coupling to the wall."""

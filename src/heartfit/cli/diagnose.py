@@ -1,0 +1,135 @@
+"""Commands that diagnose a recorded heart, with Python files that declare further mechanisms."""
+
+import argparse
+import sys
+from collections.abc import Iterable
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from traceback import extract_tb
+
+from heartfit.cli.console import Command
+from heartfit.core.errors import InputError
+from heartfit.io.files import require_writable
+from heartfit.io.fingerprint import fingerprint
+from heartfit.roles import registered
+
+
+def run_mechanism_files(paths: Iterable[Path]) -> list[str]:
+    """Run files that declare mechanisms; return the names of the newly registered mechanisms.
+
+    Raises InputError for a missing file, a failing one (with the line), and one that registers nothing.
+    """
+    return [name for path in paths for name in _run(path)]
+
+
+def _run(path: Path) -> list[str]:
+    if not path.is_file() or path.suffix != ".py":
+        raise InputError(
+            f"{path}: no file of Python; expected one that declares a mechanism: correct the path"
+        )
+    earlier = registered()
+    try:
+        _import(path)
+    except Exception as problem:  # a foreign file may raise anything
+        raise InputError(f"{path}{_line(path, problem)}: {type(problem).__name__}: {problem}") from problem
+    new = [name for name in registered() if name not in earlier]
+    if not new:
+        raise InputError(f"{path}: declares no mechanism; expected a class decorated with @mechanism")
+    return new
+
+
+def _import(path: Path) -> None:
+    spec = spec_from_file_location(f"_mechanism_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise ImportError("cannot be imported")
+    module = module_from_spec(spec)
+    sys.modules[module.__name__] = module  # dataclasses resolve annotations there
+    spec.loader.exec_module(module)
+
+
+def _line(path: Path, problem: Exception) -> str:
+    """Return the last line of the file in the traceback as text."""
+    lines = [frame.lineno for frame in extract_tb(problem.__traceback__) if frame.filename == str(path)]
+    return f", line {lines[-1]}" if lines else ""
+
+
+def diagnose_arguments(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of `diagnose`."""
+    command.add_argument(
+        "measured",
+        type=Path,
+        help="curves (.csv): time_s, lv_volume_ml, and lv_pressure_kpa, rv_volume_ml, aortic_pressure_kpa if measured",
+    )
+    command.add_argument(
+        "--condition",
+        nargs="+",
+        default=[],
+        metavar="NAME=CSV",
+        help="curves of the same heart under another loading, held out from the fit",
+    )
+    command.add_argument(
+        "--rr", type=float, metavar="S", help="period of the beat; that of the file if not given"
+    )
+    command.add_argument(
+        "--mechanism",
+        type=Path,
+        nargs="+",
+        default=[],
+        metavar="PY",
+        help="Python files that declare further mechanisms; they are run",
+    )
+    command.add_argument(
+        "--strict", action="store_true", help="name nothing below a ln Bayes factor of 10 instead of 5"
+    )
+    command.add_argument("-o", "--output", type=Path, default=Path("cause"), help="folder of the cause card")
+
+
+def diagnose(arguments: argparse.Namespace) -> int:
+    """Name the mechanism that a simulation of a recorded heart lacks, within a minute."""
+    from heartfit.cli.diagnose import run_mechanism_files
+    from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES
+    from heartfit.discovery.sphere_model import diagnose as diagnosis
+    from heartfit.io.beats import read_conditions, read_recording
+    from heartfit.io.causes import write_cause_card
+    from heartfit.results.cause_card import verdict_sentence
+    from heartfit.results.cause_figure import render_cause
+
+    run_mechanism_files(arguments.mechanism)
+    recording = read_recording(arguments.measured, arguments.rr)
+    conditions = read_conditions(arguments.condition, recording.period)
+    require_writable(arguments.output)
+    conclusion = diagnosis.diagnose(
+        recording, conditions, rules=STRICT_RULES if arguments.strict else DEFAULT_RULES
+    )
+    code = fingerprint(Path(diagnosis.__file__))
+    write_cause_card(arguments.output, render_cause(conclusion, arguments.measured.stem), code)
+    print(
+        f"{verdict_sentence(conclusion)} See {arguments.output / 'cause.md'} and {arguments.output / 'cause.png'}."
+    )
+    return 0
+
+
+def petab_select_arguments(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of `petab-select`."""
+    command.add_argument("cause", type=Path, help="folder of a cause card")
+    command.add_argument("-o", "--output", type=Path, default=Path("petab_select"), help="folder to write to")
+
+
+def petab_select(arguments: argparse.Namespace) -> int:
+    """Write the models that a diagnosis tried, with their criteria, as a PEtab Select problem."""
+    from heartfit.io.causes import read_tried
+    from heartfit.io.exchange import write_model_space
+    from heartfit.results.model_space import build_model_space
+
+    cause = read_tried(arguments.cause / "cause.json")
+    space = build_model_space(cause.tried, cause.threshold, cause.samples)
+    write_model_space(arguments.output, space)
+    choice = f"{space.choice} has the lowest criterion, the verdict is {cause.verdict}"
+    print(f"{len(cause.tried)} models; {choice}. See {arguments.output / 'problem.yaml'}.")
+    return 0
+
+
+COMMANDS: tuple[Command, ...] = (
+    (diagnose, diagnose_arguments, "name the mechanism that a simulation of a recorded heart lacks"),
+    (petab_select, petab_select_arguments, "write the models that a diagnosis tried for PEtab Select"),
+)

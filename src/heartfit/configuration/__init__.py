@@ -1,1 +1,0 @@
-"""What a study may say: its settings, cases and numbers in SI units, validated before anything runs."""

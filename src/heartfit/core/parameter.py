@@ -1,0 +1,105 @@
+"""Declarations of physical parameters, as fields of the part they belong to.
+
+A part is a frozen dataclass; each of its parameters is declared with value, unit, symbol, meaning and, if
+it may be calibrated, the relative standard deviation of its prior. Tables, schema and documentation are read
+from these declarations.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields, replace
+from functools import cache
+from math import exp
+from typing import Any
+
+from heartfit.core.errors import InputError
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """Declaration of one parameter: SI ``value``, ``unit``, LaTeX ``symbol``, ``meaning``.
+
+    ``sd`` is the relative standard deviation of its log-normal prior (``None``: never calibrated), ``off`` the
+    value at which a mechanism vanishes, ``low`` the bound below which the value makes no physical sense.
+    ``scale``, in ``unit``, is the standard deviation that a search for causes gives a parameter instead: normal about
+    ``off`` where it has one, about ``value`` otherwise, and half-normal where nothing below ``off`` makes sense.
+    """
+
+    name: str
+    value: float
+    unit: str
+    symbol: str
+    meaning: str
+    sd: float | None = None
+    off: float | None = None
+    low: float = 0.0
+    scale: float | None = None
+
+    @property
+    def one_sided(self) -> bool:
+        """True for a switch whose sign is fixed: no value below ``off`` makes sense."""
+        return self.off is not None and self.low >= self.off
+
+    def at(self, x: float) -> float:
+        r"""Return the value ``x`` standard deviations of the search's prior from its centre, never below ``low``.
+
+        .. math:: \theta = \theta_0 + s x \text{ with a scale } s, \qquad
+                  \theta = \theta_0 e^{\mathrm{sd}\, x} \text{ otherwise.}
+
+        Raises ``InputError`` if neither is declared.
+        """
+        if self.scale is not None:
+            return max(self.low, (self.value if self.off is None else self.off) + self.scale * x)
+        if self.sd is None:
+            raise InputError(f"parameter {self.name} cannot be searched: declare its scale or its sd")
+        return self.value * exp(self.sd * x)
+
+
+def parameter(
+    value: float,
+    *,
+    unit: str,
+    symbol: str,
+    meaning: str,
+    sd: float | None = None,
+    off: float | None = None,
+    low: float = 0.0,
+    scale: float | None = None,
+) -> Any:
+    """Return a dataclass field that declares a parameter; see :class:`Parameter`."""
+    description = {"unit": unit, "symbol": symbol, "meaning": meaning}
+    prior = {"sd": sd, "off": off, "low": low, "scale": scale}
+    return field(default=value, metadata={"parameter": description | prior})
+
+
+def parameters_of(part: Any) -> Iterator[Parameter]:
+    """Yield the parameters that a part (class or instance) declares, with the values of the instance."""
+    kind: Any = part if isinstance(part, type) else type(part)
+    for declared in _declarations(kind):
+        yield declared if kind is part else replace(declared, value=getattr(part, declared.name))
+
+
+def parameter_values(part: Any) -> Iterator[tuple[str, float]]:
+    """Yield name and value of every parameter of an instance."""
+    kind: Any = type(part)
+    return ((declared.name, getattr(part, declared.name)) for declared in _declarations(kind))
+
+
+@cache
+def _declarations(kind: Any) -> tuple[Parameter, ...]:
+    """Return the declarations of a class; cached, because a search reads them thousands of times."""
+    entries: list[Any] = [entry for entry in fields(kind) if "parameter" in entry.metadata]
+    return tuple(
+        Parameter(name=entry.name, value=entry.default, **entry.metadata["parameter"]) for entry in entries
+    )
+
+
+def require_admissible(part: Any) -> None:
+    """Raise ``InputError`` unless every parameter of ``part`` is finite and not below its lower bound."""
+    kind: Any = type(part)
+    for declared in _declarations(kind):
+        value = getattr(part, declared.name)
+        if not declared.low <= value < float("inf"):
+            raise InputError(
+                f"{type(part).__name__}.{declared.name} = {value:g} {declared.unit}: expected a finite "
+                f"value of at least {declared.low:g} ({declared.meaning})"
+            )

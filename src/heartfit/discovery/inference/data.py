@@ -1,0 +1,158 @@
+r"""Measured curves, their noise, and the whitened likelihood.
+
+The noise of a block of samples at times :math:`t_i` is Gaussian with the covariance
+
+.. math:: \Sigma_{ij} = s^2 e^{-|t_i - t_j| / \tau} + r^2 e^{-d_{ij} / \tau_r}, \quad
+          d_{ij} = \min_k |t_i - t_j - k T| .
+
+The first term is the instrument's, new in every beat, white where its memory tau is zero; its standard deviation s is
+one of some levels, equally likely. The second is the small error of every model, the same in every beat: the distance
+of phases d makes it periodic. The large error of a wrong model has the covariance
+
+.. math:: K_{ij} = c^2 \exp\Bigl(-\frac{2 \sin^2(\pi (t_i - t_j) / T)}{(2 \pi l / T)^2}\Bigr) ,
+
+smooth and periodic: see :mod:`heartfit.discovery.inference.context`.
+
+Blocks are independent and every level l of a block's noise is equally likely, so that the likelihood of a residual r is
+
+.. math:: p(r) = \prod_b \frac{1}{L_b} \sum_l N(r_b; 0, \Sigma_{bl}) .
+
+Its logarithm has the slope of the mean precision :math:`\bar\Lambda_b = \sum_l w_l \Sigma_{bl}^{-1}`, where w are the
+probabilities of the levels given r. With a discrepancy, :math:`\Sigma + g^2 K` takes the place of Sigma.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import logsumexp, softmax
+
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Noise of a curve in the unit of its values.
+
+    levels: standard deviations s that are tried; memory: tau [s]; roughness: r; roughness_memory: tau_r [s];
+    discrepancy: c; length: l [s].
+    """
+
+    levels: tuple[float, ...]
+    memory: float
+    roughness: float
+    discrepancy: float
+    roughness_memory: float = 0.05
+    length: float = 0.07
+
+    @property
+    def middle(self) -> float:
+        """The expected level of a measurement that does not exist yet."""
+        return self.levels[len(self.levels) // 2]
+
+    def covariance(self, times: Floats, period: float, level: float) -> Floats:
+        """Sigma (k, k) at one of the levels."""
+        lags = np.abs(times[:, None] - times)
+        phases = np.abs(lags - period * np.round(lags / period))
+        instrument = np.exp(-lags / self.memory) if self.memory > 0.0 else np.eye(times.size)
+        return level**2 * instrument + self.roughness**2 * np.exp(-phases / self.roughness_memory)
+
+    def discrepancy_covariance(self, times: Floats, others: Floats, period: float) -> Floats:
+        """K (k, m) between two sets of times."""
+        turn = np.sin(np.pi * (times[:, None] - others) / period) * period / (np.pi * self.length)
+        return self.discrepancy**2 * np.exp(-0.5 * turn**2)
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """One measured curve: its name, its unit, times (k,) [s], which may span several beats, and period [s]."""
+
+    curve: str
+    unit: str
+    times: Floats
+    period: float
+    noise: Noise
+
+
+@dataclass(frozen=True, eq=False)
+class Data:
+    """The measured values (n,), block after block.
+
+    Raises InputError unless values and times match in number and all values are finite.
+    """
+
+    values: Floats
+    blocks: tuple[Block, ...]
+
+    def __post_init__(self) -> None:
+        expected = sum(block.times.size for block in self.blocks)
+        if self.values.shape != (expected,):
+            raise InputError(f"data: {self.values.shape} values; expected ({expected},), one for each time")
+        if not np.isfinite(self.values).all():
+            raise InputError("data: a value is not finite: leave the sample out")
+
+    @property
+    def rows(self) -> tuple[slice, ...]:
+        """Slices of ``values``, one for each block."""
+        ends = np.cumsum([block.times.size for block in self.blocks])
+        return tuple(slice(end - block.times.size, end) for end, block in zip(ends, self.blocks, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class Whitening:
+    """Inverse Cholesky factors of each block and level, (l, k, k), and the logarithms of their densities at 0, (l,)."""
+
+    rows: tuple[slice, ...]
+    roots: tuple[Floats, ...]
+    peaks: tuple[Floats, ...]
+
+    @classmethod
+    def from_data(cls, data: Data, discrepancy: float = 0.0) -> "Whitening":
+        """Whitening of the blocks' noise plus a discrepancy of size g."""
+        roots = tuple(_roots(block, discrepancy) for block in data.blocks)
+        return cls(data.rows, roots, tuple(_peaks(root) for root in roots))
+
+    def log_likelihood(self, residual: Floats) -> float:
+        """ln p(r)."""
+        return float(sum(logsumexp(level) - np.log(level.size) for level in self._levels(residual)))
+
+    def most_probable_levels(self, residual: Floats) -> list[int]:
+        """The most probable level of each block."""
+        return [int(np.argmax(level)) for level in self._levels(residual)]
+
+    def normal(self, residual: Floats, jacobian: Floats) -> tuple[Floats, Floats]:
+        """J' L r (d,) and J' L J (d, d) with the mean precision L."""
+        weights = [softmax(level) for level in self._levels(residual)]
+        grams = self.grams(residual, jacobian)
+        mean = [np.tensordot(weight, gram, 1) for weight, gram in zip(weights, grams, strict=True)]
+        total = np.sum(mean, axis=0)
+        return total[1:, 0], total[1:, 1:]
+
+    def grams(self, residual: Floats, jacobian: Floats) -> list[Floats]:
+        """(r, J)' Sigma^-1 (r, J) of each block, (l, d + 1, d + 1)."""
+        table = np.column_stack([residual, jacobian])
+        white = [root @ table[rows] for root, rows in zip(self.roots, self.rows, strict=True)]
+        return [np.swapaxes(block, 1, 2) @ block for block in white]
+
+    def _levels(self, residual: Floats) -> list[Floats]:
+        """ln N(r_b; 0, Sigma_bl) of each block, (l,)."""
+        white = [root @ residual[rows] for root, rows in zip(self.roots, self.rows, strict=True)]
+        return [
+            peak - 0.5 * np.einsum("lk,lk->l", block, block)
+            for peak, block in zip(self.peaks, white, strict=True)
+        ]
+
+
+def _roots(block: Block, discrepancy: float) -> Floats:
+    extra = discrepancy**2 * block.noise.discrepancy_covariance(block.times, block.times, block.period)
+    covariances = [
+        block.noise.covariance(block.times, block.period, level) + extra for level in block.noise.levels
+    ]
+    factors = np.linalg.cholesky(np.array(covariances))
+    return np.asarray(np.linalg.inv(factors), np.float64)
+
+
+def _peaks(roots: Floats) -> Floats:
+    diagonals = np.diagonal(roots, axis1=1, axis2=2)
+    peaks: Floats = np.log(diagonals).sum(axis=1) - 0.5 * roots.shape[1] * np.log(2.0 * np.pi)
+    return peaks

@@ -1,0 +1,173 @@
+r"""An extension fitted to samples: one unscented step, then steps of one beat each.
+
+The points of the unscented step lie one standard deviation of the prior to either side of its mean, the mechanism
+switched on. Its slopes :math:`A = \mathrm{Cov}(Z, X) P^{-1}` start the descent of
+
+.. math:: \tfrac12 r^T R^{-1} r + \tfrac12 |x|^2 ,
+
+see :mod:`heartfit.discovery.inference.descent`: a step costs one beat, and Broyden's update corrects the slopes after
+each. Slopes are never renewed: a 3-D beat is too expensive, and its limit cycle too rough for short
+differences. The end
+of the descent is the estimate, with the covariance :math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. An
+extension
+may also start at the end of the model without it, with the slopes there: that takes a fifth of the beats, and a weak
+effect is not lost on the way. Laplace's approximation
+
+.. math:: \ln Z = -\tfrac12 r^T R^{-1} r - \tfrac12 |x|^2 + \tfrac12 \ln |C|
+          + \sum_{a \ge 0} \ln 2 \Phi(x_a / \sigma_a) + \mathrm{const}
+
+compares extensions that were fitted to the same samples; the sum is over amplitudes whose sign is known.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from heartfit.calibration.gaussian import Gaussian
+from heartfit.calibration.unscented import CalibrationError, sigma_points, transform
+from heartfit.core.arrays import Floats
+from heartfit.discovery.inference.descent import Descent, InverseProblem, Schedule
+from heartfit.discovery.inference.evidence import laplace
+from heartfit.discovery.refit.model import Extension
+from heartfit.discovery.refit.target import Target, sample, stack
+from heartfit.heart.beat import Beat
+from heartfit.observation.beat import beat_curves
+
+Run = Callable[[Extension, Mapping[str, float]], Beat]
+"""Map from an extended setting and all its parameters, by name [SI], to a beat."""
+
+OBJECTIVE_TOLERANCE = 0.3
+"""[ln Z]: a smaller predicted decrease changes no verdict."""
+LONGEST_STEP = 1.5
+"""Along a coordinate [prior standard deviations]: slopes are not valid further."""
+LEAST_DAMPING = 0.1
+SCHEDULE = Schedule(
+    OBJECTIVE_TOLERANCE, LEAST_DAMPING, longest_step=LONGEST_STEP, correct_on_failure=True, active_set=True
+)
+"""Simulations are expensive: every one corrects the slopes, and none is spent on differences."""
+
+
+@dataclass(frozen=True, eq=False)
+class Refit:
+    """Names (d,), estimate x (d,) and covariance (d, d) of an extension's coordinates, and its parameters there [SI].
+
+    misfit: r^T R^-1 r of n samples at the estimate; objective: the minimised function; log_evidence: up to a
+    constant of
+    the samples; simulations: number of beats; converged: no step was predicted to lower the objective; predicted (n,),
+    slopes (n, d): of the samples at the estimate.
+    """
+
+    names: tuple[str, ...]
+    estimate: Floats
+    covariance: Floats
+    parameters: Mapping[str, float]
+    misfit: float
+    objective: float
+    log_evidence: float
+    samples: int
+    simulations: int
+    converged: bool
+    predicted: Floats
+    slopes: Floats
+
+    @property
+    def sd(self) -> Floats:
+        """Standard deviations (d,) of the coordinates."""
+        return np.sqrt(np.diag(self.covariance))
+
+
+def refit(extension: Extension, run: Run, target: Target, most: int, amplitude: float = 1.0) -> Refit:
+    """Refit an extension by an unscented step and at most ``most`` steps of one beat.
+
+    amplitude: of the mechanism at the centre of the unscented step [scales]. Raises CalibrationError where the beat
+    there or too many about it fail.
+    """
+    forward = _Forward(extension, run, target)
+    start = extension.start(amplitude)
+    return _descend(forward, start, *_unscented(extension.names, forward, start), most)
+
+
+def continue_refit(extension: Extension, run: Run, target: Target, most: int, base: Refit) -> Refit:
+    """Refit from the end of the model without the last mechanisms, with these at half a scale.
+
+    Raises CalibrationError where the beat there fails.
+    """
+    forward = _Forward(extension, run, target)
+    kept = base.estimate.size
+    start = np.concatenate([base.estimate, extension.start(0.5)[kept:]])
+    predicted = forward(start)
+    if predicted is None:
+        raise CalibrationError(f"refit: {', '.join(extension.effects)} half a scale on does not beat")
+    added = [_column(forward, start, predicted, index) for index in range(kept, start.size)]
+    return _descend(forward, start, predicted, np.column_stack([base.slopes, *added]), most)
+
+
+def _column(forward: "_Forward", start: Floats, predicted: Floats, index: int) -> Floats:
+    """Slope (n,) from the start to a point with the amplitude at 0, or another unknown at one standard deviation."""
+    shifted = start.copy()
+    shifted[index] = 0.0 if start[index] else 1.0
+    prediction = forward(shifted)
+    if prediction is None:
+        return np.zeros_like(predicted)
+    return (predicted - prediction) / (start[index] - shifted[index])
+
+
+def _descend(forward: "_Forward", start: Floats, predicted: Floats, slopes: Floats, most: int) -> Refit:
+    extension, target = forward.extension, forward.target
+    lower = np.where(extension.one_sided, 0.0, -np.inf)
+    problem = InverseProblem(forward, target.values(), target, lower)
+    descent = Descent(problem, SCHEDULE, start, predicted, slopes)
+    for _ in range(most):
+        if descent.ended:
+            break
+        descent.advance()
+    covariance = descent.covariance()
+    volume, kept = laplace(descent.x, covariance, extension.one_sided)
+    return Refit(
+        extension.names,
+        descent.x,
+        covariance,
+        extension.parameters(descent.x),
+        target.misfit(descent.predicted),
+        descent.objective,
+        float(-descent.objective + volume + kept),
+        target.values().size,
+        forward.simulations,
+        descent.converged,
+        descent.predicted,
+        descent.jacobian,
+    )
+
+
+def _unscented(names: tuple[str, ...], forward: "_Forward", start: Floats) -> tuple[Floats, Floats]:
+    """Prediction (n,) at the start (d,), and slopes (n, d) about it."""
+    around = Gaussian(names, start, np.eye(start.size) / start.size)
+    points = sigma_points(around)
+    predictions = [forward(point.z) for point in points]
+    centre = predictions[0]
+    if centre is None:
+        raise CalibrationError(
+            "refit: the beat at the centre of the prior fails; choose another prior or mesh"
+        )
+    values = np.array([centre if prediction is None else prediction for prediction in predictions])
+    completed = np.array([prediction is not None for prediction in predictions])
+    moments = transform(points, values, completed=completed)
+    return centre, np.linalg.solve(around.covariance, moments.cov_xz).T
+
+
+class _Forward:
+    """Prediction of the samples (n,) by an extension at coordinates (d,); None where its beat fails."""
+
+    def __init__(self, extension: Extension, run: Run, target: Target) -> None:
+        self.extension, self.run, self.target = extension, run, target
+        self.simulations = 0
+
+    def __call__(self, x: Floats) -> Floats | None:
+        self.simulations += 1
+        parameters = self.extension.parameters(x)
+        beat = self.run(self.extension, parameters)
+        if not beat.completed:
+            return None
+        curves = beat_curves(beat, self.extension.setting.sensors(parameters))
+        return stack(sample(curves, self.target.samples))

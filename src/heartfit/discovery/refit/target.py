@@ -1,0 +1,167 @@
+r"""The data of a refit: fitted samples, their covariance, and held-out samples.
+
+Every other frame of the left ventricle's volume is fitted, and every other block of 40 ms of its pressure where that
+was recorded. The neighbours of fitted samples are the mildest test; the right ventricle's volume, which is not fitted
+at all, is a harder one.
+
+The covariance of the fitted samples about a correct model is
+
+.. math:: R = R_{measurement} + \rho^2 e^{-|t_i - t_j| / \tau} ,
+
+the first term from the noise model of the images or, without one, from the upper half of each curve's own spectrum; the
+second the roughness of any model.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.observation.curve import Curve
+from heartfit.observation.measurement import frame_noise
+from heartfit.observation.noise_model import NoiseModel
+from heartfit.observation.residual import SIMULATION_ROUGHNESS, unbiased_with_noise
+
+BIN, BLOCK = 0.010, 4
+"""Length of the bins over which pressure is averaged [s], and number of bins in a block."""
+
+Sampled = Mapping[str, Samples]
+"""Samples by the name of their curve."""
+
+
+@dataclass(frozen=True, eq=False)
+class Split:
+    """Fitted and held-out samples of one case [SI], at times [s after the trigger]."""
+
+    fitted: Sampled
+    held: Sampled
+
+    @classmethod
+    def from_curves(cls, curves: Mapping[str, Curve]) -> "Split":
+        """Split measured curves without bias: "lv_volume", and optionally "lv_pressure" and "rv_volume"."""
+        fitted, held = {}, {}
+        frames = Samples(curves["lv_volume"].times, curves["lv_volume"].values)
+        fitted["lv_volume"], held["lv_volume"] = _halves(frames, 1)
+        if "lv_pressure" in curves:
+            fitted["lv_pressure"], held["lv_pressure"] = _halves(average_bins(curves["lv_pressure"]), BLOCK)
+        if "rv_volume" in curves:
+            held["rv_volume"] = Samples(curves["rv_volume"].times, curves["rv_volume"].values)
+        return cls(fitted, held)
+
+
+def average_bins(curve: Curve) -> Samples:
+    """Average times and values over equal bins of about 10 ms; an empty bin is left out."""
+    count = max(1, round(curve.period / BIN))
+    phases = np.mod(curve.times, curve.period)
+    places = np.minimum((phases / curve.period * count).astype(int), count - 1)
+    number = np.bincount(places, minlength=count)
+    full = number > 0
+    times, values = (
+        np.bincount(places, column, count)[full] / number[full] for column in (phases, curve.values)
+    )
+    return Samples(times, values)
+
+
+def _halves(samples: Samples, block: int) -> tuple[Samples, Samples]:
+    first = (np.arange(samples.times.size) // block) % 2 == 0
+    return samples.part(first), samples.part(~first)
+
+
+def sample(curves: Mapping[str, Curve], like: Sampled) -> dict[str, Floats]:
+    """The values (k,) of a beat's curves at the times of the samples, by curve."""
+    return {name: curves[name](samples.times) for name, samples in like.items()}
+
+
+def stack(values: Mapping[str, Floats]) -> Floats:
+    """Concatenate all curves (n,)."""
+    return np.concatenate(list(values.values()))
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """Fitted samples (n,) and the covariance (n, n) of a correct model about them."""
+
+    samples: Sampled
+    covariance: Floats
+
+    def values(self) -> Floats:
+        """The samples one after the other (n,)."""
+        return stack({name: samples.values for name, samples in self.samples.items()})
+
+    def log_likelihood(self, residual: Floats) -> float:
+        """-r^T R^-1 r / 2, without the constant, which all models share."""
+        return -0.5 * float(residual @ np.linalg.solve(self.covariance, residual))
+
+    def normal(self, residual: Floats, jacobian: Floats) -> tuple[Floats, Floats]:
+        """J^T R^-1 r (d,) and J^T R^-1 J (d, d)."""
+        weighted = np.linalg.solve(self.covariance, jacobian)
+        return weighted.T @ residual, jacobian.T @ weighted
+
+    def misfit(self, predicted: Floats) -> float:
+        """r^T R^-1 r."""
+        return -2.0 * self.log_likelihood(self.values() - predicted)
+
+
+ROUGHNESS_MEMORY = 0.05
+"""tau of the roughness [s]."""
+
+
+def covariance(fitted: Sampled, measured: Mapping[str, Curve], models: Sequence[NoiseModel]) -> Floats:
+    """R (n, n), in the order of the samples; measured: the curves that the samples belong to."""
+    blocks = [_block(name, samples.times, measured[name], models) for name, samples in fitted.items()]
+    ends = np.cumsum([0, *(len(block) for block in blocks)])
+    total = np.zeros((ends[-1], ends[-1]))
+    for start, end, block in zip(ends[:-1], ends[1:], blocks, strict=True):
+        total[start:end, start:end] = block
+    return total
+
+
+def _block(name: str, times: Floats, curve: Curve, models: Sequence[NoiseModel]) -> Floats:
+    kind = name.rsplit("_", 1)[1]
+    lags = np.abs(times[:, None] - times)
+    rough: Floats = SIMULATION_ROUGHNESS[kind] ** 2 * np.exp(
+        -np.minimum(lags, curve.period - lags) / ROUGHNESS_MEMORY
+    )
+    for model in models if kind == "volume" else ():
+        phases = np.rint(times / curve.period * len(model.curve.names)).astype(int)
+        return rough + model.curve_covariance(curve)[np.ix_(phases, phases)]
+    return rough + frame_noise(curve) ** 2 * np.eye(times.size)
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredCase:
+    """Measured curves as they are (``raw``) and without bias, noise (k,) of their samples, and noise models, if any."""
+
+    raw: Mapping[str, Curve]
+    curves: Mapping[str, Curve]
+    noise: Mapping[str, Floats]
+    models: Sequence[NoiseModel]
+
+    @classmethod
+    def from_curves(cls, measured: Mapping[str, Curve], models: Sequence[NoiseModel]) -> "MeasuredCase":
+        """Remove the bias of measured curves."""
+        corrected = {name: unbiased_with_noise(name, curve, models) for name, curve in measured.items()}
+        curves = {name: curve for name, (curve, _) in corrected.items()}
+        return cls(measured, curves, {name: noise for name, (_, noise) in corrected.items()}, models)
+
+    @property
+    def split(self) -> Split:
+        """Fitted and held-out samples."""
+        return Split.from_curves(self.curves)
+
+    @property
+    def target(self) -> Target:
+        """The target of a refit."""
+        fitted = self.split.fitted
+        return Target(fitted, covariance(fitted, self.raw, self.models))
+
+    def recording(self) -> Recording:
+        """All curves as the recording for the search on the sphere."""
+        samples = {name: Samples(curve.times, curve.values) for name, curve in self.curves.items()}
+        return Recording(self.curves["lv_volume"].period, samples)
+
+    def deviation(self, name: str) -> float:
+        """Root mean square noise of a curve's samples [SI]."""
+        return float(np.sqrt(np.mean(self.noise[name] ** 2)))

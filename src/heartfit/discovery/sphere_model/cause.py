@@ -1,0 +1,169 @@
+"""The result of a diagnosis: verdict, causes with their sizes, and their gains on held-out samples."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.discovery.inference.decide import Verdict
+from heartfit.observation.beat import BeatPhases
+
+
+@dataclass(frozen=True)
+class Cause:
+    """A mechanism: ln Bayes factor over the baseline, amplitude [unit] and its 95 % interval."""
+
+    name: str
+    ln_bayes_factor: float
+    amplitude: float
+    unit: str
+    interval: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Gain:
+    """Root mean square errors [SI] of a held-out curve: ``none`` without and ``extended`` with the cause.
+
+    ratio: extended over none, with a 95 % interval over the phases of the beat; on: description of the held-out data.
+    """
+
+    curve: str
+    on: str
+    none: float
+    extended: float
+    ratio: float
+    interval: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """A measured curve (k,) [SI] beside the fitted ones: ``none`` without and ``extended`` with the cause.
+
+    noise (k,): standard deviation of the samples; lacking, band (k,): discrepancy of the model without the cause and
+    its standard deviation.
+    """
+
+    curve: str
+    times: Floats
+    measured: Floats
+    none: Floats
+    extended: Floats
+    noise: Floats
+    lacking: Floats
+    band: Floats
+
+
+@dataclass(frozen=True)
+class Refitted:
+    """The 3-D model without (``none``) and with an extension (``extended``), both fitted to half of the samples.
+
+    extension: the added causes with refitted amplitudes; ln_bayes_factor: of the two refits; none, extended: parameters
+    [SI] by name; simulations: number of 3-D beats; converged: both refits converged.
+    """
+
+    extension: tuple[Cause, ...]
+    ln_bayes_factor: float
+    none: Mapping[str, float]
+    extended: Mapping[str, float]
+    simulations: int
+    converged: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Attempt:
+    """A trial of an extension that the search did not name: its refit, its gains, and the curves beside both fits."""
+
+    refitted: Refitted
+    gain: tuple[Gain, ...]
+    traces: tuple[Trace, ...]
+
+
+@dataclass(frozen=True)
+class FittedModel:
+    """A model of these effects after its fit to all samples.
+
+    negative_ln_likelihood: at its most probable coordinates; unknowns: number of coordinates.
+    """
+
+    effects: tuple[str, ...]
+    ln_evidence: float
+    negative_ln_likelihood: float
+    unknowns: int
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """The verdict and its grounds.
+
+    - mechanisms: the named causes, all members of a group; alternatives: sets of mechanisms that the data cannot tell
+      from the best; withdrawn: names that did not help on held-out data.
+    - threshold: the least ln Bayes factor of a detection; ranking: ln Bayes factors over the baseline of every single
+      mechanism and, as "unknown", of a GP discrepancy.
+    - refitted: the proof in three dimensions, if there is one; without a named cause, a trial of the best of the
+      ranking.
+    - unsearched: recorded curves that are not searched, with the reason; phases: of the beat without a cause,
+      None where one of its valves never moves.
+    - self_test: median of the largest ln Bayes factors in beats of the model without a hidden effect, None where no
+      sphere was centred or no such beats exist.
+    - tried: every fitted model, without effects, with one and with two; samples: number of data that they were fitted
+      to.
+    """
+
+    verdict: Verdict
+    mechanisms: tuple[Cause, ...]
+    alternatives: tuple[tuple[str, ...], ...]
+    next_measurement: str
+    gain: tuple[Gain, ...]
+    simulations: int
+    period: float
+    threshold: float
+    ranking: Mapping[str, float] = field(default_factory=dict)
+    withdrawn: tuple[str, ...] = ()
+    traces: tuple[Trace, ...] = ()
+    refitted: Refitted | None = None
+    unsearched: Mapping[str, str] = field(default_factory=dict)
+    phases: BeatPhases | None = None
+    self_test: float | None = None
+    tried: tuple[FittedModel, ...] = ()
+    samples: int = 0
+
+
+CLEAR_DEVIATIONS = 2.0
+"""Standard deviations from which a departure exceeds noise."""
+
+
+@dataclass(frozen=True)
+class Departure:
+    """Simulated minus measured value of a curve [SI], its standard deviation, time after the trigger [s], and phase.
+
+    The phase is empty where the beat has none.
+    """
+
+    curve: str
+    phase: str
+    time: float
+    size: float
+    sd: float
+
+    @property
+    def deviations(self) -> float:
+        """The size in standard deviations; positive where the simulation is too high."""
+        return self.size / self.sd
+
+    @property
+    def clear(self) -> bool:
+        """True if the departure exceeds noise."""
+        return abs(self.deviations) >= CLEAR_DEVIATIONS
+
+
+def departures(diagnosis: Diagnosis) -> list[Departure]:
+    """The largest departure of each curve, of the simulation without a cause."""
+    return [_departure(trace, diagnosis) for trace in diagnosis.traces]
+
+
+def _departure(trace: Trace, diagnosis: Diagnosis) -> Departure:
+    worst = int(np.argmax(np.abs(trace.lacking) / trace.band))
+    time = float(trace.times[worst] % diagnosis.period)
+    phase = "" if diagnosis.phases is None else diagnosis.phases.names_at(np.array([time]))[0]
+    return Departure(trace.curve, phase, time, -float(trace.lacking[worst]), float(trace.band[worst]))

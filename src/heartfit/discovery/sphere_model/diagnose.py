@@ -1,0 +1,245 @@
+"""The diagnosis of a recording: search on the sphere, held-out tests, and the next measurement."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from heartfit.discovery.inference.data import Data, Whitening
+from heartfit.discovery.inference.decide import DEFAULT_RULES, Effects, Rules, Verdict
+from heartfit.discovery.inference.evidence import Explanation
+from heartfit.discovery.inference.search import Findings, search
+from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, FittedModel, Trace
+from heartfit.discovery.sphere_model.forward_model import (
+    Candidate,
+    SphereForwardModel,
+    candidates,
+    hypothesis,
+)
+from heartfit.discovery.sphere_model.held_out import HeldOutPrediction, predict_condition, predict_half
+from heartfit.discovery.sphere_model.limits import RECORD_PRESSURE, next_measurement
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, NominalHeart
+from heartfit.discovery.sphere_model.recording import UNSEARCHED, Recording, search_data
+from heartfit.observation.beat import BeatPhases, beat_curves
+
+
+def traces(findings: Findings, explained: Explanation, data: Data) -> tuple[Trace, ...]:
+    """One trace for each curve; noise: at the level that is most probable under the explanation."""
+    baseline, best = findings.survey.baseline.fit, explained.fit
+    levels = Whitening.from_data(data).most_probable_levels(data.values - best.predicted)
+    parts = zip(data.blocks, data.rows, levels, findings.baseline_discrepancy, strict=True)
+    return tuple(
+        Trace(
+            block.curve,
+            block.times,
+            data.values[rows],
+            baseline.predicted[rows],
+            best.predicted[rows],
+            np.sqrt(np.diag(block.noise.covariance(block.times, block.period, block.noise.levels[level]))),
+            lacking.mean,
+            lacking.sd,
+        )
+        for block, rows, level, lacking in parts
+    )
+
+
+VOLUME_ONLY_THRESHOLD = 10.0
+"""ln Bayes factor that a recording of the volume alone must give: it shows one in nine of the effects that pressure
+reveals, and an instrument explains a single curve as well as a heart does."""
+NAMING_VERDICTS = ("named", "two", "group")
+
+
+@dataclass(frozen=True, eq=False)
+class SearchedRecording:
+    """A recording with the findings of its search."""
+
+    recording: Recording
+    model: SphereForwardModel
+    library: Mapping[str, Candidate]
+    data: Data
+    findings: Findings
+    rules: Rules
+
+    @classmethod
+    def search(
+        cls, recording: Recording, nominal: NominalHeart | None = None, rules: Rules = DEFAULT_RULES
+    ) -> "SearchedRecording":
+        """Fit every mechanism, pairs and the GP discrepancy to the recording; nominal: see :func:`diagnose`."""
+        data = search_data(recording)
+        model = SphereForwardModel(
+            nominal or ADULT.scaled_to(recording), {block.curve: block.times for block in data.blocks}
+        )
+        library = candidates(model)
+        if recording.searched == ("lv_volume",):
+            rules = replace(rules, detected=max(rules.detected, VOLUME_ONLY_THRESHOLD))
+        findings = search(
+            data,
+            hypothesis(model),
+            [hypothesis(model, (candidate,)) for candidate in library.values()],
+            lambda names: hypothesis(model, tuple(library[name] for name in names)),
+            rules,
+        )
+        return cls(recording, model, library, data, findings, rules)
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """The verdict of the search, before held-out tests."""
+        verdict = self.findings.decision.verdict
+        alone = self.recording.searched == ("lv_volume",)
+        return "insufficient" if alone and verdict not in NAMING_VERDICTS else verdict
+
+    @property
+    def explanations(self) -> tuple[Effects, ...]:
+        """Named effects: the best ones, and in a group all that the data cannot tell from them."""
+        decision = self.findings.decision
+        others = decision.alternatives if self.verdict == "group" else ()
+        return (decision.effects, *others) if decision.effects else ()
+
+    def cause(self, effects: Effects, name: str) -> Cause:
+        """A mechanism with its amplitude in the explanation by these effects."""
+        explained = self.findings.explanation(effects)
+        switch = self.library[name].unknowns[0]
+        amplitude, low, high = map(switch.at, explained.interval(f"{name}.{switch.name}"))
+        factor = self.findings.log_bayes_factor(effects)
+        return Cause(name, factor, amplitude, switch.unit, (low, high))
+
+    def ranking(self) -> dict[str, float]:
+        """ln Bayes factors over the baseline, in descending order."""
+        evidences = self.findings.evidences
+        factors = {effects[0]: value - evidences.baseline for effects, value in evidences.singles.items()}
+        factors["unknown"] = evidences.discrepancy - evidences.baseline
+        return dict(sorted(factors.items(), key=lambda item: -item[1]))
+
+    def tried(self) -> tuple[FittedModel, ...]:
+        """Every fitted model: without effects, with one, with two."""
+        survey = self.findings.survey
+        return tuple(map(_tried, (survey.baseline, *survey.singles, *survey.pairs)))
+
+    def phases(self) -> BeatPhases | None:
+        """Phases of the baseline's beat; None where one of its valves never moves."""
+        simulated = self.model.simulate(self.findings.survey.baseline.fit.x)
+        if simulated is None:
+            return None
+        heart, beat = simulated
+        try:
+            return BeatPhases.from_curves(beat_curves(replace(beat, trigger=heart.trigger)))
+        except ValueError:
+            return None
+
+
+def _tried(explained: Explanation) -> FittedModel:
+    """Summary of a fit, whose objective is -ln p(y | x) + |x|^2 / 2."""
+    fit = explained.fit
+    likelihood = fit.objective - 0.5 * float(fit.x @ fit.x)
+    return FittedModel(explained.effects, explained.log_evidence, likelihood, fit.x.size)
+
+
+def diagnose(
+    recording: Recording,
+    conditions: Mapping[str, Recording] | None = None,
+    nominal: NominalHeart | None = None,
+    rules: Rules = DEFAULT_RULES,
+) -> Diagnosis:
+    """Diagnose the effects that the model of the heart lacks to explain the recording.
+
+    conditions: recordings of the same heart under other loading, by name; only the loading is fitted to them. nominal:
+    a sphere that was fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None. Raises
+    InputError where the nominal heart does not beat.
+    """
+    return conclude(SearchedRecording.search(recording, nominal, rules), conditions or {})
+
+
+def conclude(case: SearchedRecording, conditions: Mapping[str, Recording]) -> Diagnosis:
+    """The diagnosis with the names that help on held-out data."""
+    tried = predict_held_out(case, conditions)
+    helping = [effects for effects, tests in tried.items() if all(test.helps() for test in tests)]
+    scores = {
+        effects: case.findings.log_bayes_factor(effects) + _condition_gain(tried[effects], conditions)
+        for effects in helping
+    }
+    kept = near_best(scores, case.rules.group)
+    verdict = _verdict(case, kept)
+    best = next(iter([*kept, *tried]), ())
+    return Diagnosis(
+        verdict,
+        tuple(case.cause(effects, name) for effects in kept for name in effects),
+        tuple(kept[1:]) if case.verdict == "group" else case.findings.decision.alternatives,
+        _next_measurement(case, verdict, kept),
+        tuple(gain for test in tried.get(best, ()) for gain in test.gains()),
+        case.model.simulations,
+        case.recording.period,
+        case.rules.detected,
+        case.ranking(),
+        tuple(name for effects in tried if effects not in helping for name in effects),
+        traces(case.findings, case.findings.explanation(best), case.data),
+        unsearched={name: why for name, why in UNSEARCHED.items() if name in case.recording.curves},
+        phases=case.phases(),
+        tried=case.tried(),
+        samples=case.data.values.size,
+    )
+
+
+def predict_held_out(
+    case: SearchedRecording, conditions: Mapping[str, Recording]
+) -> dict[Effects, list[HeldOutPrediction]]:
+    """Predictions of other conditions by each explanation.
+
+    Without conditions half of the recording is held out, and the best explanation stands for its group: half of
+    the data
+    cannot tell effects apart that all data cannot.
+    """
+    if conditions:
+        return {effects: predict_explanation(case, effects, conditions) for effects in case.explanations}
+    best = predict_explanation(case, case.explanations[0], {}) if case.explanations else []
+    return dict.fromkeys(case.explanations, best)
+
+
+def predict_explanation(
+    case: SearchedRecording, effects: Effects, conditions: Mapping[str, Recording]
+) -> list[HeldOutPrediction]:
+    """Predictions without and with the effects, of every condition or, without any, of half of the recording."""
+    added = tuple(case.library[name] for name in effects)
+    fits = case.findings.survey.baseline.fit.x, case.findings.explanation(effects).fit.x
+    nominal = case.model.nominal
+    tests = [
+        predict_condition(name, nominal, search_data(condition), added, *fits)
+        for name, condition in conditions.items()
+    ] or [predict_half(nominal, case.data, added, *fits)]
+    return [test for test in tests if test is not None]
+
+
+def _condition_gain(tests: Sequence[HeldOutPrediction], conditions: Mapping[str, Recording]) -> float:
+    """ln likelihood that other conditions add; half of the recording adds nothing, since the search has used it."""
+    return sum(test.log_likelihood_gain() for test in tests) if conditions else 0.0
+
+
+def near_best(score: Mapping[Effects, float], within: float) -> list[Effects]:
+    """The effects whose score lies ``within`` that of the best, the best first."""
+    least = max(score.values(), default=0.0) - within
+    return sorted(
+        (effects for effects in score if score[effects] > least), key=lambda effects: -score[effects]
+    )
+
+
+def _verdict(case: SearchedRecording, kept: Sequence[Effects]) -> Verdict:
+    if not case.explanations:
+        return case.verdict
+    if not kept:
+        return "unknown"
+    return "named" if case.verdict == "group" and len(kept) == 1 else case.verdict
+
+
+def _next_measurement(case: SearchedRecording, verdict: Verdict, kept: Sequence[Effects]) -> str:
+    """The measurement that decides between the members of a group, or between the two best effects if unknown."""
+    if "lv_pressure" not in case.recording.curves:
+        return RECORD_PRESSURE
+    if verdict == "group":
+        explanations = [case.findings.explanation(effects) for effects in kept[:3]]
+    elif verdict == "unknown":
+        explanations = list(case.findings.survey.singles[:2])
+    else:
+        return ""
+    if len(explanations) < 2:
+        return ""
+    return next_measurement(case.model.nominal, case.data, case.library, explanations)

@@ -1,0 +1,175 @@
+"""The sphere forward model, and every mechanism as a hypothesis about it."""
+
+from collections import OrderedDict
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import reduce
+from operator import add
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import Parameter, parameters_of
+from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
+from heartfit.discovery.sphere_model.nominal_heart import (
+    FREE_PARAMETERS,
+    TIME_SHIFT_INDEX,
+    NominalHeart,
+    perturb,
+)
+from heartfit.heart.beat import Beat
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics
+from heartfit.roles import Mechanism, Sensor, registered
+
+NUMERICS = Numerics(time_step=5e-3, max_beats=30, drift=1e-5)
+"""Finite differences need a limit cycle: at a drift of 1 % beats differ by 1 mL and 0.3 kPa from it, here by 0.1 mL and
+0.02 kPa at most."""
+
+CACHED_BEATS = 256
+"""Number of beats kept for hypotheses that differ by an instrument only, which does not change the beat."""
+
+
+@dataclass(eq=False)
+class SphereForwardModel:
+    """Predictions of curves at their ``times`` [s after the trigger], by name.
+
+    simulations: number of beats that were run; an instrument costs none.
+    """
+
+    nominal: NominalHeart
+    times: Mapping[str, Floats]
+    simulations: int = 0
+    _beats: "OrderedDict[bytes, Beat]" = field(default_factory=OrderedDict)
+
+    def predict(self, x: Floats, effects: Sequence[Mechanism]) -> Floats | None:
+        """The curves (n,) [SI], one after the other, at the coordinates x (23,); None where the simulation fails."""
+        simulated = self.simulate(x, effects)
+        if simulated is None:
+            return None
+        heart, beat = simulated
+        curves = [observe_curve(beat, heart, name, times) for name, times in self.times.items()]
+        return np.concatenate(curves)
+
+    def simulate(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Heart, Beat] | None:
+        """The heart at the coordinates x (23,) and its beat; None where the simulation fails."""
+        try:
+            nominal = perturb(self.nominal, x)
+            heart = reduce(add, effects, nominal.heart)
+            beat = self._beat(replace(nominal, heart=heart), x, effects)
+        except ValueError:  # coordinates outside the range of a parameter
+            return None
+        return (heart, beat) if beat.completed and beat.volume["lv"].min() > 0.0 else None
+
+    def _beat(self, nominal: NominalHeart, x: Floats, effects: Sequence[Mechanism]) -> Beat:
+        physical = [effect for effect in effects if not isinstance(effect, Sensor)]
+        key = np.delete(x[: len(FREE_PARAMETERS)], TIME_SHIFT_INDEX).tobytes() + repr(physical).encode()
+        beat = self._beats.pop(key, None)
+        if beat is None:
+            self.simulations += 1
+            beat = nominal.beat(NUMERICS)
+        self._beats[key] = beat
+        if len(self._beats) > CACHED_BEATS:
+            self._beats.popitem(last=False)
+        return beat
+
+
+def observe_curve(beat: Beat, heart: Heart, name: str, times: Floats) -> Floats:
+    """A curve of the beat (k,) [SI] through the heart's sensors at ``times`` (k,) [s after the trigger]."""
+    start, values = beat.time[:-1] - heart.trigger, beat.signals()[name][:-1]
+    for sensor in heart.sensors:
+        if name in sensor.measures:
+            values = sensor.distort(start, values, beat.period)
+    return interpolate(np.mod(times - start[0], beat.period) / beat.period, values)
+
+
+def interpolate(phases: Floats, values: Floats) -> Floats:
+    """Interpolate equidistant samples (m,) of one period at ``phases`` (k,), 0 <= phase < 1.
+
+    Cubic with the slopes of central differences: with straight lines the derivative by a delay would jump at every
+    sample.
+    """
+    count = values.size
+    index = np.floor(phases * count).astype(np.int64)
+    u = phases * count - index
+    left, right = values[index % count], values[(index + 1) % count]
+    before, after = values[(index - 1) % count], values[(index + 2) % count]
+    bend = u * (2.0 * before - 5.0 * left + 4.0 * right - after + u * (3.0 * (left - right) + after - before))
+    return left + 0.5 * u * (right - before + bend)
+
+
+BASE_COORDINATES = tuple(Coordinate(parameter.name) for parameter in FREE_PARAMETERS)
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A mechanism and its unknowns: the amplitude first, then all other parameters with a prior."""
+
+    kind: type[Mechanism]
+    unknowns: tuple[Parameter, ...]
+
+    @classmethod
+    def from_mechanism(cls, kind: type[Mechanism]) -> "Candidate":
+        """The candidate of a mechanism of the registry."""
+        switch = kind.switch()
+        others = [
+            parameter
+            for parameter in parameters_of(kind)
+            if parameter.name != switch.name and (parameter.sd is not None or parameter.scale is not None)
+        ]
+        return cls(kind, (switch, *others))
+
+    @property
+    def name(self) -> str:
+        """Name of the mechanism."""
+        return self.kind.__name__
+
+    def at(self, x: Floats) -> Mechanism:
+        """The mechanism at its coordinates (k,); raises ValueError outside the range of a parameter."""
+        values = {unknown.name: unknown.at(float(z)) for unknown, z in zip(self.unknowns, x, strict=True)}
+        return self.kind(**values)
+
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """One for each unknown."""
+        return tuple(
+            Coordinate(f"{self.name}.{unknown.name}", unknown.one_sided, amplitude=unknown.off is not None)
+            for unknown in self.unknowns
+        )
+
+
+def candidates(model: SphereForwardModel) -> dict[str, Candidate]:
+    """All mechanisms that the nominal heart lacks and that act on a recorded curve, by name."""
+    present = {type(mechanism) for mechanism in model.nominal.heart.mechanisms}
+    kinds = {name: kind for name, kind in registered().items() if kind not in present}
+    return {
+        name: Candidate.from_mechanism(kind)
+        for name, kind in kinds.items()
+        if _is_observable(kind, set(model.times))
+    }
+
+
+def _is_observable(kind: type[Mechanism], recorded: set[str]) -> bool:
+    return kind.switch().scale is not None and (
+        not issubclass(kind, Sensor) or bool(recorded & set(kind.measures))
+    )
+
+
+def hypothesis(model: SphereForwardModel, effects: Sequence[Candidate] = ()) -> Hypothesis:
+    """The hypothesis of a heart with these mechanisms, all their unknowns free."""
+    added = tuple(coordinate for effect in effects for coordinate in effect.coordinates())
+    names = tuple(effect.name for effect in effects)
+    return Hypothesis(names, BASE_COORDINATES + added, _forward(model, effects))
+
+
+def _forward(model: SphereForwardModel, effects: Sequence[Candidate]) -> Callable[[Floats], Floats | None]:
+    ends = np.cumsum([len(BASE_COORDINATES), *(len(effect.unknowns) for effect in effects)])
+
+    def forward(x: Floats) -> Floats | None:
+        parts = np.split(x, ends[:-1])[1:]
+        try:
+            mechanisms = [effect.at(part) for effect, part in zip(effects, parts, strict=True)]
+        except ValueError:
+            return None
+        return model.predict(x, mechanisms)
+
+    return forward

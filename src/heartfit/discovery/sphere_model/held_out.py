@@ -1,0 +1,150 @@
+"""Gains of a cause on held-out data: half of the recording, or the same heart under another condition.
+
+Half of the recording: every other beat or, of a single beat, every other frame and every other 50 ms of pressure.
+Without and with the cause the model is fitted to one half and predicts the other. Another condition: the fitted model
+beats at the rate of that condition, and only its loading, the atrial pressure and the peripheral resistance, is
+refitted.
+
+The interval of the error ratio comes from a bootstrap over eighths of the beat: errors of neighbouring samples are not
+independent.
+"""
+
+from dataclasses import dataclass, replace
+from math import exp
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.data import Data
+from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
+from heartfit.discovery.sphere_model.cause import Gain
+from heartfit.discovery.sphere_model.forward_model import Candidate, SphereForwardModel, hypothesis
+from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
+
+BLOCK = 0.05
+"""Length of a block of pressure samples that are fitted or held out together [s]."""
+LOADING = {"circulation.left_atrium": 0.3, "circulation.systemic.R_p": 0.3}
+"""Parameters that another condition may change, with the standard deviations of the logarithm of the change."""
+PHASE_PARTS, BOOTSTRAP_DRAWS = 8, 2000
+"""Parts of the beat and random draws of the bootstrap."""
+
+
+@dataclass(frozen=True, eq=False)
+class HeldOutPrediction:
+    """Held-out data and their predictions (n,) without (``baseline``) and with the cause (``extended``)."""
+
+    on: str
+    data: Data
+    baseline: Floats
+    extended: Floats
+
+    def helps(self) -> bool:
+        """True if the cause makes the held-out data more likely."""
+        return self.log_likelihood_gain() > 0.0
+
+    def log_likelihood_gain(self) -> float:
+        """ln likelihood of the held-out data with the cause, minus that without."""
+        whitening = FitContext(self.data).whitening
+        baseline, extended = (
+            whitening.log_likelihood(self.data.values - predicted)
+            for predicted in (self.baseline, self.extended)
+        )
+        return extended - baseline
+
+    def gains(self) -> tuple[Gain, ...]:
+        """One gain for each curve."""
+        return tuple(self._gain(index) for index in range(len(self.data.blocks)))
+
+    def _gain(self, index: int) -> Gain:
+        block, rows = self.data.blocks[index], self.data.rows[index]
+        errors = [(self.data.values - predicted)[rows] for predicted in (self.baseline, self.extended)]
+        ratio, interval = error_ratio(np.mod(block.times, block.period) / block.period, *errors)
+        before, after = (float(np.sqrt(np.mean(error**2))) for error in errors)
+        return Gain(block.curve, self.on, before, after, ratio, interval)
+
+
+def error_ratio(phase: Floats, baseline: Floats, extended: Floats) -> tuple[float, tuple[float, float]]:
+    """Ratio of the root mean square errors (k,), extended over baseline, and its 95 % interval over the phases."""
+    part = np.minimum((phase * PHASE_PARTS).astype(int), PHASE_PARTS - 1)
+    sums = np.array([np.bincount(part, error**2, PHASE_PARTS) for error in (baseline, extended)])
+    drawn = np.random.default_rng(0).integers(PHASE_PARTS, size=(BOOTSTRAP_DRAWS, PHASE_PARTS))
+    totals = np.maximum(sums[:, drawn].sum(axis=2), np.finfo(float).tiny)
+    low, high = np.quantile(np.sqrt(totals[1] / totals[0]), [0.025, 0.975]).tolist()
+    return float(np.sqrt(sums[1].sum() / sums[0].sum())), (low, high)
+
+
+def predict_half(
+    nominal: NominalHeart, data: Data, effects: tuple[Candidate, ...], baseline: Floats, extended: Floats
+) -> HeldOutPrediction | None:
+    """Prediction of one half of the data by both models fitted to the other half; None where a fit fails.
+
+    baseline, extended: coordinates of the fits to all data, at which the fits to the half start.
+    """
+    masks = [_fitted_mask(block.times, block.period, block.curve) for block in data.blocks]
+    kept, held = (_select(data, [mask == side for mask in masks]) for side in (True, False))
+    models = (((), baseline), (effects, extended))
+    predictions = [_fit_and_predict(nominal, kept, held, added, start) for added, start in models]
+    if predictions[0] is None or predictions[1] is None:
+        return None
+    return HeldOutPrediction("half of the recording", held, predictions[0], predictions[1])
+
+
+def _fitted_mask(times: Floats, period: float, curve: str) -> np.ndarray:
+    """Mask (k,) of the fitted samples."""
+    if np.ptp(times) > 1.5 * period:
+        return np.floor(times / period).astype(int) % 2 == 0
+    if curve.endswith("_volume"):
+        return np.arange(times.size) % 2 == 0
+    return np.floor(times / BLOCK).astype(int) % 2 == 0
+
+
+def _select(data: Data, masks: list[np.ndarray]) -> Data:
+    blocks = tuple(
+        replace(block, times=block.times[mask]) for block, mask in zip(data.blocks, masks, strict=True)
+    )
+    return Data(data.values[np.concatenate(masks)], blocks)
+
+
+def _fit_and_predict(
+    nominal: NominalHeart, kept: Data, held: Data, effects: tuple[Candidate, ...], start: Floats
+) -> Floats | None:
+    explanation = FitContext(kept).explain(hypothesis(_forward_model(nominal, kept), effects), start)
+    if explanation is None:
+        return None
+    return hypothesis(_forward_model(nominal, held), effects).forward(explanation.fit.x)
+
+
+def _forward_model(nominal: NominalHeart, data: Data) -> SphereForwardModel:
+    return SphereForwardModel(nominal, {block.curve: block.times for block in data.blocks})
+
+
+def predict_condition(
+    name: str,
+    nominal: NominalHeart,
+    data: Data,
+    effects: tuple[Candidate, ...],
+    baseline: Floats,
+    extended: Floats,
+) -> HeldOutPrediction | None:
+    """Prediction of another condition by both fitted models with refitted loading; None where a fit fails."""
+    paced = nominal.at_period(data.blocks[0].period)
+    models = (((), baseline), (effects, extended))
+    predictions = [_fit_loading(paced, data, added, x) for added, x in models]
+    if predictions[0] is None or predictions[1] is None:
+        return None
+    return HeldOutPrediction(name, data, predictions[0], predictions[1])
+
+
+def _fit_loading(
+    nominal: NominalHeart, data: Data, effects: tuple[Candidate, ...], x: Floats
+) -> Floats | None:
+    def forward(change: Floats) -> Floats | None:
+        pairs = zip(LOADING.items(), change.tolist(), strict=True)
+        changed = {path: nominal.values[path] * exp(sd * z) for (path, sd), z in pairs}
+        loaded = replace(nominal, heart=nominal.heart.with_parameters(changed))
+        return hypothesis(_forward_model(loaded, data), effects).forward(x)
+
+    loading = Hypothesis((), tuple(Coordinate(path) for path in LOADING), forward)
+    explanation = FitContext(data).explain(loading, loading.at(0.0))
+    return None if explanation is None else explanation.fit.predicted

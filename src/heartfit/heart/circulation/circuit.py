@@ -1,0 +1,138 @@
+r"""Circuit of one time step, with the ventricles condensed to their linear response to pressure.
+
+The unknowns are the pressures p of v ventricles and of their arteries:
+
+.. math:: v + G (p_v - p_v^0) + \Delta t\, q_v(p) = 0, \qquad p_a - a + b\, q_a(p) = 0,
+
+with v the change of the ventricular volumes since the start of the step at :math:`p^0`, G their compliance, q the net
+outflow of the compartments and (a, b) the coefficients of the Windkessels. The equations are monotone, with kinks at
+the valves; Newton's method with a line search solves them. One compiled function serves meshes and spheres.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from heartfit.core.arrays import Floats, Integers
+from heartfit.heart.circulation.network import NetworkStep, net_outflow
+
+ONE_MILLILITRE, ONE_KILOPASCAL = 1e-6, 1e3
+"""Units of the residual: volume [m^3] of a ventricle, pressure [Pa] of an artery."""
+
+NEWTON_ITERATIONS, LINE_SEARCH_HALVINGS, RESIDUAL_TOLERANCE = 40, 10, 1e-9
+
+CONSTANT, WEIGHT, REFERENCE, STORAGE = range(4)
+"""Columns of a system, whose rows are the compartments:
+residual = constant + weight * net outflow + storage (p - reference); the storage fills the last columns."""
+
+RESIDUAL, DIRECTION, PREVIOUS = range(3)
+"""Rows of the workspace of the solution: residual, then Newton direction, and the previous pressures."""
+
+
+@dataclass(frozen=True, eq=False)
+class Circuit:
+    """Condensed circuit of both ventricles, see the equations of the module.
+
+    ``windkessels`` (2, 2) are the rows (a, b) of the arteries, ``volume_change`` (2,) [m^3] and ``compliance`` (2, 2)
+    [m^3/Pa] those of the ventricles at the pressures ``start`` (4,) [Pa].
+    """
+
+    network: NetworkStep
+    windkessels: Floats
+    volume_change: Floats
+    compliance: Floats
+    start: Floats
+
+    def solve(self) -> Floats:
+        """Pressures (4,) [Pa] that balance the circuit; the last ones where the line search fails first."""
+        p = self.start.copy()
+        solve_circuit(*self._branches(), self._system(), p, np.empty((3, 4)), np.empty((4, 4)))
+        return p
+
+    def residuals(self, p: Floats) -> Floats:
+        """Residual (4,) at the pressures p, [m^3] for the ventricles and [Pa] for the arteries."""
+        work = np.empty((3, 4))
+        circuit_residual(*self._branches(), self._system(), p, work, np.empty((4, 4)))
+        return work[RESIDUAL] * np.repeat([ONE_MILLILITRE, ONE_KILOPASCAL], 2)
+
+    def _branches(self) -> tuple[Integers, Floats, Floats, Floats, int]:
+        network = self.network
+        return network.ends, network.laws, network.branch_states, network.atrial[None], 0
+
+    def _system(self) -> Floats:
+        system = np.zeros((4, 7))
+        a, b = self.windkessels.T
+        system[:2, CONSTANT], system[:2, WEIGHT] = self.volume_change, self.network.dt
+        system[:2, REFERENCE], system[:2, STORAGE : STORAGE + 2] = self.start[:2], self.compliance
+        system[2:, WEIGHT], system[2:, REFERENCE], system[2:, STORAGE + 2 :] = b, a, np.eye(2)
+        system[:, [CONSTANT, WEIGHT, *range(STORAGE, 7)]] /= np.repeat([ONE_MILLILITRE, ONE_KILOPASCAL], 2)[
+            :, None
+        ]
+        return system
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def circuit_residual(ends, laws, branch_states, atria, t, system, p, work, jacobian):  # type: ignore[no-untyped-def]
+    """Fill residual and Jacobian at the pressures p (2 v,); return the norm of the residual."""
+    net_outflow(ends, laws, branch_states, atria, t, p, work, jacobian)
+    size = 0.0
+    for i in range(p.size):
+        residual = system[i, CONSTANT] + system[i, WEIGHT] * work[RESIDUAL, i]
+        for j in range(p.size):
+            storage = system[i, STORAGE + j]
+            residual += storage * (p[j] - system[j, REFERENCE])
+            jacobian[i, j] = storage + system[i, WEIGHT] * jacobian[i, j]
+        work[RESIDUAL, i] = residual
+        size += residual * residual
+    return np.sqrt(size)
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def solve_circuit(ends, laws, branch_states, atria, t, system, p, work, jacobian):  # type: ignore[no-untyped-def]
+    """Move the pressures p (2 v,) to the balance of the circuit; return the norm of the residual at the start.
+
+    Branches as in :func:`~heartfit.heart.circulation.network.net_outflow`, ``system`` (2 v, 3 + 2 v) as the module's
+    columns say; ``work`` (3, 2 v), whose rows the module names, and ``jacobian`` (2 v, 2 v) are overwritten.
+    """
+    size = first = circuit_residual(ends, laws, branch_states, atria, t, system, p, work, jacobian)
+    for _ in range(NEWTON_ITERATIONS):
+        if size < RESIDUAL_TOLERANCE:
+            break
+        solve_linear(jacobian, work)
+        for i in range(p.size):
+            work[DIRECTION, i], work[PREVIOUS, i] = work[RESIDUAL, i], p[i]
+        share, following = 1.0, np.inf
+        for _ in range(LINE_SEARCH_HALVINGS):
+            for i in range(p.size):
+                p[i] = work[PREVIOUS, i] - share * work[DIRECTION, i]
+            following = circuit_residual(ends, laws, branch_states, atria, t, system, p, work, jacobian)
+            if following < size:
+                break
+            share *= 0.5
+        size = following
+    return first
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def solve_linear(matrix, work):  # type: ignore[no-untyped-def]
+    """Replace the residual row of ``work`` by the solution, by Gaussian elimination with row pivots."""
+    n = matrix.shape[0]
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(matrix[i, k]) > abs(matrix[best, k]):
+                best = i
+        if best != k:
+            for j in range(k, n):
+                matrix[k, j], matrix[best, j] = matrix[best, j], matrix[k, j]
+            work[RESIDUAL, k], work[RESIDUAL, best] = work[RESIDUAL, best], work[RESIDUAL, k]
+        for i in range(k + 1, n):
+            factor = matrix[i, k] / matrix[k, k]
+            for j in range(k, n):
+                matrix[i, j] -= factor * matrix[k, j]
+            work[RESIDUAL, i] -= factor * work[RESIDUAL, k]
+    for k in range(n - 1, -1, -1):
+        for j in range(k + 1, n):
+            work[RESIDUAL, k] -= matrix[k, j] * work[RESIDUAL, j]
+        work[RESIDUAL, k] /= matrix[k, k]

@@ -1,0 +1,232 @@
+r"""One time step of wall and circuit together.
+
+The unknowns are those of the body, x, and the pressures of ventricles and arteries. Newton's method solves
+
+.. math:: f(x) - \sum_c P_c \nabla V_c(x) = 0, \quad V_c(x) - V_c^* + w \sum q = 0, \quad
+          P_a = a + b \sum q
+
+with w and the starting values of :mod:`heartfit.heart.time_step`, and a factorisation K of
+:math:`\partial f/\partial x` that is kept over many steps. In every iteration the body is condensed to its compliance
+:math:`\nabla V^T K^{-1} \nabla V`, and the small circuit is solved to convergence, so that the kinks of the valves do
+not affect the large system.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.heart.circulation.circuit import Circuit
+from heartfit.heart.circulation.elements import WindkesselState
+from heartfit.heart.circulation.enclosure import EnclosedBody
+from heartfit.heart.circulation.network import Circulation, NetworkStep
+from heartfit.heart.finite_elements.body import StepFailed
+from heartfit.heart.muscle.tissue import Tissue
+from heartfit.heart.time_step import Anderson, TimeStep
+from heartfit.roles import External, Mechanism
+
+EXTRAPOLATION_WEIGHTS: tuple[tuple[float, ...], ...] = ((), (1.0,), (2.0, -1.0))
+"""Weights of the last velocities in the predicted one, by the number of velocities available."""
+
+NEWTON_HALVINGS = 6
+"""Largest number of halvings of a Newton step before the time step fails."""
+
+PRESSURE_WEIGHT = 1e-4
+"""Weight of a pressure [1/Pa], beside the weights of the body, in the Anderson mixing."""
+
+
+class Body(Protocol):
+    """Interface of a pair of ventricles: finite elements, or two spheres of the same tissue."""
+
+    @property
+    def tissue(self) -> Tissue: ...
+    def rest(self) -> Any: ...
+    def volumes(self, x: Floats) -> Floats: ...
+    def volume_gradients(self, x: Floats) -> Floats: ...
+    def step(self, state: Any, step: TimeStep) -> Any: ...
+    def wall_volume(self, x: Floats) -> float: ...
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """Convergence criteria of a step: residuals of the wall [N], the volumes [m^3] and the arterial pressures [Pa].
+
+    A step takes up to ``iterations``; the factorisation is renewed where the residual shrinks by less than the factor
+    ``contraction``.
+    """
+
+    force: float = 4e-2
+    volume: float = 1e-10
+    pressure: float = 1.0
+    iterations: int = 25
+    contraction: float = 0.8
+
+
+@dataclass(frozen=True, eq=False)
+class HeartState:
+    """State of wall and circuit at one time; ``before`` is the state one step of length ``last`` [s] earlier.
+
+    ``pressures`` (4,) [Pa] and ``volumes`` (2,) [m^3]; ``trend`` holds up to two velocities of x, the last one first.
+    """
+
+    body: Any
+    pressures: Floats
+    volumes: Floats
+    trees: tuple[WindkesselState, WindkesselState]
+    trend: tuple[Floats, ...] = ()
+    last: float | None = None
+    before: "HeartState | None" = None
+
+    def starting_values(self, step: TimeStep) -> tuple[Floats, tuple[WindkesselState, WindkesselState]]:
+        """Volumes and Windkessels at which the effective step starts."""
+        before = self.before or self
+        systemic, pulmonary = (
+            WindkesselState(step.starting_value(now.P_c, then.P_c), step.starting_value(now.q_L, then.q_L))
+            for now, then in zip(self.trees, before.trees, strict=True)
+        )
+        return step.starting_value(self.volumes, before.volumes), (systemic, pulmonary)
+
+    def shift_pressures(self, shifts: Sequence[float]) -> "HeartState":
+        """State with the pressures of both Windkessels raised by ``shifts`` (2,) [Pa], now and one step before."""
+        systemic, pulmonary = (
+            replace(tree, P_c=tree.P_c + shift) for tree, shift in zip(self.trees, shifts, strict=True)
+        )
+        pressures = self.pressures + np.array([0.0, 0.0, *shifts])
+        before = self.before and self.before.shift_pressures(shifts)
+        return replace(self, trees=(systemic, pulmonary), pressures=pressures, before=before)
+
+
+@dataclass(frozen=True, eq=False)
+class Iterate:
+    """Trial state: unknowns, forces (N,), pressures (4,), volumes (2,) and their gradients (N, 2)."""
+
+    x: Floats
+    forces: Floats
+    pressures: Floats
+    volumes: Floats
+    gradients: Floats
+
+    @property
+    def residual(self) -> Floats:
+        """Imbalance (N,) of the wall and the cavity pressures."""
+        result: Floats = self.forces - self.gradients @ self.pressures[:2]
+        return result
+
+
+class CoupledStep:
+    """Equations of one step of wall and circuit."""
+
+    def __init__(
+        self, body: Any, step: Any, network: NetworkStep, time_step: TimeStep, state: HeartState
+    ) -> None:
+        self._body, self.step, self._network, self._state = body, step, network, state
+        self._time_step = time_step
+        self._volumes, self._trees = state.starting_values(time_step)
+        self._windkessels = network.windkessels(self._trees)
+
+    def predict(self) -> Iterate:
+        """Initial iterate by extrapolation, or the old state if that is not admissible."""
+        state, dt = self._state, self._time_step.length
+        weighted = zip(EXTRAPOLATION_WEIGHTS[len(state.trend)], state.trend, strict=True)
+        velocity = sum(
+            (weight * velocity_before for weight, velocity_before in weighted), np.zeros_like(state.body.x)
+        )
+        try:
+            return self._at(state.body.x + dt * velocity, state.pressures)
+        except StepFailed:
+            return self._at(state.body.x, state.pressures)
+
+    def _at(self, x: Floats, pressures: Floats) -> Iterate:
+        forces = self.step.forces(x)
+        return Iterate(x, forces, pressures, self._body.volumes(x), self._body.volume_gradients(x))
+
+    def residuals(self, now: Iterate) -> Floats:
+        """Residuals (4,) of the circuit: volumes of the ventricles [m^3], pressures of the arteries [Pa]."""
+        return self._circuit(now, np.zeros_like(now.residual), np.zeros_like(now.gradients)).residuals(
+            now.pressures
+        )
+
+    def pressures(self, now: Iterate, change: Floats, response: Floats) -> Floats:
+        """Pressures (4,) [Pa] that balance the circuit, with the body linearised about ``now`` plus ``change``."""
+        return self._circuit(now, change, response).solve()
+
+    def _circuit(self, now: Iterate, change: Floats, response: Floats) -> Circuit:
+        volumes = now.volumes + now.gradients.T @ change - self._volumes
+        compliance = now.gradients.T @ response
+        return Circuit(self._network, self._windkessels, volumes, compliance, now.pressures)
+
+    def move(self, now: Iterate, change: Floats, pressures: Floats) -> Iterate:
+        """Iterate after ``change``, which is halved until no element collapses."""
+        for halving in range(NEWTON_HALVINGS):
+            try:
+                return self._at(now.x + 0.5**halving * change.reshape(now.x.shape), pressures)
+            except StepFailed:
+                continue
+        raise StepFailed("no admissible Newton step: elements collapse")
+
+    def commit(self, now: Iterate) -> HeartState:
+        """State at the end of the step; the inflow of the Windkessels is the outflow of the ventricles."""
+        state, length = self._state, self._time_step.length
+        trees = self._network.advance(self._trees, now.pressures)
+        trend = ((now.x - state.body.x) / length, *state.trend[:1])
+        before = replace(state, before=None)
+        return HeartState(self.step.commit(now.x), now.pressures, now.volumes, trees, trend, length, before)
+
+
+class Coupling:
+    """Time stepper of body and circuit; owns the factorisation that the steps share."""
+
+    def __init__(
+        self, body: Body, circulation: Circulation, mechanisms: Sequence[Mechanism], tolerances: Tolerances
+    ) -> None:
+        self.circulation, self.mechanisms = circulation, mechanisms
+        loaded = any(isinstance(m, External) for m in mechanisms)
+        self.body = EnclosedBody(body, mechanisms) if loaded else body
+        self.tolerances = tolerances
+        self.iterations = self.factorisations = 0
+        self._factor: Any = None
+        self._response = np.empty((0, 2))
+        self._length = 0.0
+
+    def advance(self, state: HeartState, step: TimeStep) -> HeartState:
+        """State after ``step``; raises StepFailed if Newton's method does not converge."""
+        equations = self.body.step(state.body, step)
+        network = NetworkStep(self.circulation, self.mechanisms, step.end, step.effective, step.period)
+        if step.effective != self._length:
+            self._factor, self._length = None, step.effective
+        coupled = CoupledStep(self.body, equations, network, step, state)
+        return coupled.commit(self._newton(coupled))
+
+    def _newton(self, coupled: CoupledStep) -> Iterate:
+        now, previous, renew = coupled.predict(), np.inf, False
+        anderson = Anderson(np.append(coupled.step.weights(now.x), np.full(4, PRESSURE_WEIGHT)))
+        for _ in range(self.tolerances.iterations):
+            size = coupled.step.size(now.residual)
+            if size < self.tolerances.force and self._balanced(coupled.residuals(now)):
+                return now
+            stale = not renew and size > self.tolerances.contraction * previous
+            renew, previous = self._factor is None or stale, size
+            if renew:
+                self._renew(coupled.step, now)
+                anderson.forget()
+            now = self._iterate(coupled, now, anderson)
+            self.iterations += 1
+        raise StepFailed(f"no equilibrium in {self.tolerances.iterations} iterations, residual {size:.3g} N")
+
+    def _balanced(self, residuals: Floats) -> bool:
+        volume, pressure = np.abs(residuals[:2]).max(), np.abs(residuals[2:]).max()
+        return bool(volume < self.tolerances.volume and pressure < self.tolerances.pressure)
+
+    def _renew(self, step: Any, now: Iterate) -> None:
+        self._factor = step.tangent(now.x)
+        self._response = self._factor.solve(now.gradients)
+        self.factorisations += 1
+
+    def _iterate(self, coupled: CoupledStep, now: Iterate, anderson: Anderson) -> Iterate:
+        change = -self._factor.solve(now.residual)
+        pressures = coupled.pressures(now, change, self._response)
+        change += self._response @ (pressures - now.pressures)[:2]
+        mixed = anderson.mix(np.append(now.x, now.pressures), np.append(change, pressures - now.pressures))
+        return coupled.move(now, mixed[:-4], now.pressures + mixed[-4:])

@@ -1,0 +1,187 @@
+r"""Network of the circulation: compartments connected by branches.
+
+Ventricles store blood, :math:`\dot V = \sum q_{in} - \sum q_{out}`; arteries respond to their inflow as a Windkessel;
+atria have a prescribed pressure. Every flow leaves one compartment and enters another, so blood is conserved by
+construction.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numba import njit
+
+from heartfit.core.arrays import Floats
+from heartfit.core.parameter import parameter
+from heartfit.heart.circulation.elements import PULMONARY, LinearValve, Valve, Windkessel, WindkesselState
+from heartfit.roles import COMPARTMENTS, Flow, Mechanism, Narrowing, Pressure
+from heartfit.roles.laws import Branch, inertial_flow
+
+ATRIOVENTRICULAR, ARTERIAL = LinearValve(open=4e-6), LinearValve(open=5e-6)
+ARTERIES, ATRIA = COMPARTMENTS[2:4], COMPARTMENTS[4:]
+VALVES = {
+    "mitral": ("left_atrium", "lv"),
+    "aortic": ("lv", "aorta"),
+    "tricuspid": ("right_atrium", "rv"),
+    "pulmonary": ("rv", "pulmonary_artery"),
+}
+
+
+@dataclass(frozen=True)
+class Circulation:
+    """The circulation slot: valves, arteries and the resting pressures of the atria."""
+
+    systemic: Windkessel = field(default_factory=Windkessel)
+    pulmonary_tree: Windkessel = PULMONARY
+    mitral: Valve = ATRIOVENTRICULAR
+    aortic: Valve = ARTERIAL
+    tricuspid: Valve = ATRIOVENTRICULAR
+    pulmonary: Valve = ARTERIAL
+    left_atrium: float = parameter(600.0, unit="Pa", symbol="P_{LA}", meaning="left atrial pressure at rest")
+    right_atrium: float = parameter(
+        200.0, unit="Pa", symbol="P_{RA}", meaning="right atrial pressure at rest"
+    )
+    first_stroke: float = parameter(
+        1.05e-4, unit="m^3", symbol="V_s(0)", meaning="stroke volume that the first arterial pressures hold"
+    )
+
+    def trees(self) -> tuple[Windkessel, Windkessel]:
+        """Systemic and pulmonary Windkessel."""
+        return self.systemic, self.pulmonary_tree
+
+    def start(self, period: float) -> tuple[WindkesselState, WindkesselState]:
+        """States of both Windkessels before the first beat."""
+        left, right = (tree.periodic_start(self.first_stroke, period) for tree in self.trees())
+        return left, right
+
+    def atrial(
+        self, time: Floats | float, period: float, mechanisms: Sequence[Mechanism], sides: int = 2
+    ) -> Floats:
+        """Pressures (sides, ...) of the atria [Pa] at ``time`` (...) [s], left before right."""
+        added = mechanism_pressures(ATRIA[:sides], time, period, mechanisms)
+        resting = np.array([self.left_atrium, self.right_atrium])[:sides]
+        pressures: Floats = (added.T + resting).T
+        return pressures
+
+
+def mechanism_pressures(
+    compartments: Sequence[str], time: Floats | float, period: float, mechanisms: Sequence[Mechanism]
+) -> Floats:
+    """Pressures (k, ...) [Pa] that ``mechanisms`` add to the k compartments at ``time`` (...) [s]."""
+    added = np.zeros((len(compartments), *np.shape(time)))
+    for mechanism in (m for m in mechanisms if isinstance(m, Pressure)):
+        for k, name in enumerate(compartments):
+            if name in mechanism.compartments:
+                added[k] += mechanism.pressure(name, time, period)  # type: ignore[arg-type]
+    return added
+
+
+class Network:
+    """Branches of a circulation with its mechanisms: the valves, narrowed where they are stenosed, then the leaks.
+
+    With ``sides`` = 1 these are the branches among the compartments of the left heart.
+    """
+
+    def __init__(self, circulation: Circulation, mechanisms: Sequence[Mechanism], sides: int = 2) -> None:
+        present = {name for i, name in enumerate(COMPARTMENTS) if i % 2 < sides}
+        valves = {
+            name: getattr(circulation, name).law() for name, ends in VALVES.items() if present >= {*ends}
+        }
+        for mechanism in mechanisms:
+            if isinstance(mechanism, Narrowing) and mechanism.valve in valves:
+                valves[mechanism.valve] = valves[mechanism.valve].with_narrowing(mechanism.inverse_square())
+        leaks = [m for m in mechanisms if isinstance(m, Flow) and present >= {m.upstream, m.downstream}]
+        self._valves, self._leaks = list(valves.values()), leaks
+        self.names = [*valves, *(type(leak).__name__ for leak in leaks)]
+        ends = [*(VALVES[name] for name in valves), *((leak.upstream, leak.downstream) for leak in leaks)]
+        self.ends = np.array([[COMPARTMENTS.index(end) for end in pair] for pair in ends])
+
+    def laws(self, time: Floats | float) -> Floats:
+        """Coefficients (..., branches, 5) of the branches at ``time`` (...) [s]; see ``Branch``."""
+        time = np.asarray(time)
+        laws = [*self._valves, *(leak.law(time) for leak in self._leaks)]
+        result = np.empty((*time.shape, len(laws), len(Branch._fields)))
+        for k, law in enumerate(laws):
+            for c, coefficient in enumerate(law):
+                result[..., k, c] = coefficient
+        return result
+
+
+class NetworkStep:
+    """Flows at the end of one step as functions of the unknown pressures (4,)."""
+
+    def __init__(
+        self, circulation: Circulation, mechanisms: Sequence[Mechanism], time: float, dt: float, period: float
+    ) -> None:
+        self._circulation, network = circulation, Network(circulation, mechanisms)
+        self.dt, self._names = dt, network.names
+        self.atrial = circulation.atrial(time, period, mechanisms)
+        self._arterial = mechanism_pressures(ARTERIES, time, period, mechanisms)
+        self.ends, self.laws = network.ends, network.laws(time)[None]
+        self.branch_states = np.zeros((3, len(self.ends)))
+
+    def flows(self, pressures: Floats) -> dict[str, float]:
+        """Flow of every branch by name [m^3/s]."""
+        self.outflow(pressures)
+        return dict(zip(self._names, self.branch_states[2].tolist(), strict=True))
+
+    def outflow(self, pressures: Floats) -> tuple[Floats, Floats]:
+        """Net outflow (4,) of the unknown compartments [m^3/s] and its Jacobian (4, 4)."""
+        out, slope = np.empty((1, 4)), np.empty((4, 4))
+        net_outflow(self.ends, self.laws, self.branch_states, self.atrial[None], 0, pressures, out, slope)
+        return out[0], slope
+
+    def windkessels(self, trees: Sequence[WindkesselState]) -> Floats:
+        """Rows (a, b) of the arterial pressures a + b q at the end of the step, aorta first."""
+        sides = zip(self._circulation.trees(), trees, strict=True)
+        rows = np.array([tree.affine_pressure(state, self.dt) for tree, state in sides])
+        rows[:, 0] += self._arterial
+        return rows
+
+    def advance(
+        self, trees: Sequence[WindkesselState], pressures: Floats
+    ) -> tuple[WindkesselState, WindkesselState]:
+        """States of the Windkessels at the end of the step, at which the pressures are ``pressures`` (4,)."""
+        out, _ = self.outflow(pressures)
+        systemic, pulmonary = self._circulation.trees()
+        return systemic.advance(trees[0], -out[2], self.dt), pulmonary.advance(trees[1], -out[3], self.dt)
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def net_outflow(ends, laws, branch_states, atria, t, p, out, slope):  # type: ignore[no-untyped-def]
+    """Fill row 0 of ``out`` with the net outflow (2 v,) of v ventricles and their arteries, and its Jacobian ``slope``.
+
+    p (2 v,) are their pressures; ``atria`` (t, v) and ``laws`` (t, k, 5) are the atrial pressures and the coefficients
+    of the branches with the ``ends`` (k, 2) at many times, of which row t applies. The rows of ``branch_states`` (3, k)
+    are the inertances of the branches over the length of the step, the flows at its start and the flows, which are
+    filled.
+    """
+    n = p.size
+    for i in range(n):
+        out[0, i] = 0.0
+        for j in range(n):
+            slope[i, j] = 0.0
+    for k in range(ends.shape[0]):
+        upstream, downstream = ends[k, 0], ends[k, 1]
+        i, j = _unknown(upstream, n // 2), _unknown(downstream, n // 2)
+        up = p[i] if i >= 0 else atria[t, upstream - 4]
+        down = p[j] if j >= 0 else atria[t, downstream - 4]
+        q, dq = inertial_flow(laws, t, k, up - down, branch_states[0, k], branch_states[1, k])
+        branch_states[2, k] = q
+        if i >= 0:
+            out[0, i] += q
+            slope[i, i] += dq
+        if j >= 0:
+            out[0, j] -= q
+            slope[j, j] += dq
+        if i >= 0 and j >= 0:
+            slope[i, j] -= dq
+            slope[j, i] -= dq
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def _unknown(compartment, v):  # type: ignore[no-untyped-def]
+    """Index of a compartment among the unknown pressures; -1 for an atrium."""
+    if compartment < 2:
+        return compartment
+    return v + compartment - 2 if compartment < 4 else -1

@@ -1,0 +1,111 @@
+"""Kinematics of linear tetrahedra.
+
+Symmetric tensors are six-vectors, see :mod:`heartfit.core.arrays`; tangents map engineering strains (shears doubled) to
+second Piola-Kirchhoff stresses. The first axis of arrays runs over the elements.
+"""
+
+import numpy as np
+from numba import njit
+
+from heartfit.core.arrays import COLUMN as COLUMN
+from heartfit.core.arrays import ROW as ROW
+from heartfit.core.arrays import Floats, Integers
+
+
+class StepFailed(ArithmeticError):
+    """A step or a load has no admissible state; the message states the reason."""
+
+
+def shape_gradients(points: Floats, tets: Integers) -> tuple[Floats, Floats]:
+    r"""Gradients :math:`\nabla N_a` (m, 4, 3) of the linear shape functions and volumes (m,) of the tetrahedra.
+
+    Raises StepFailed unless all volumes are positive.
+    """
+    edges = points[tets[:, 1:]] - points[tets[:, :1]]
+    volumes = np.linalg.det(edges) / 6.0
+    if not (volumes > 0.0).all():
+        worst = int(np.argmin(volumes))
+        raise StepFailed(f"tetrahedron {worst} has volume {volumes[worst]:g} m^3: expected a positive volume")
+    inner = np.linalg.inv(edges).transpose(0, 2, 1)
+    return np.concatenate([-inner.sum(axis=1, keepdims=True), inner], axis=1), volumes
+
+
+@njit(cache=True)
+def deformation_gradient(u: Floats, tets: Integers, gradients: Floats, F: Floats) -> None:
+    r"""Fill ``F`` (m, 3, 3) with :math:`F = I + \sum_a u_a \otimes \nabla N_a`; ``u`` is (n, >= 3)."""
+    for e in range(tets.shape[0]):
+        for i in range(3):
+            for j in range(3):
+                value = 1.0 if i == j else 0.0
+                for a in range(4):
+                    value += u[tets[e, a], i] * gradients[e, a, j]
+                F[e, i, j] = value
+
+
+@njit(cache=True)
+def right_cauchy_green(F: Floats, C: Floats, J: Floats) -> None:
+    r"""Fill ``C`` (m, 6) with :math:`F^T F` and ``J`` (m,) with :math:`\det F`."""
+    for e in range(F.shape[0]):
+        for i in range(6):
+            r, c = ROW[i], COLUMN[i]
+            C[e, i] = F[e, 0, r] * F[e, 0, c] + F[e, 1, r] * F[e, 1, c] + F[e, 2, r] * F[e, 2, c]
+        J[e] = (
+            F[e, 0, 0] * (F[e, 1, 1] * F[e, 2, 2] - F[e, 1, 2] * F[e, 2, 1])
+            - F[e, 0, 1] * (F[e, 1, 0] * F[e, 2, 2] - F[e, 1, 2] * F[e, 2, 0])
+            + F[e, 0, 2] * (F[e, 1, 0] * F[e, 2, 1] - F[e, 1, 1] * F[e, 2, 0])
+        )
+
+
+@njit(cache=True)
+def deform(
+    x: Floats, tets: Integers, gradients: Floats, dyads: Floats, F: Floats, C: Floats, J: Floats, e: Floats
+) -> float:
+    """Fill F, C, J and the fibre strains ``e`` (m,) at the unknowns ``x`` (n, >= 3); return the smallest J."""
+    deformation_gradient(x, tets, gradients, F)
+    right_cauchy_green(F, C, J)
+    for i in range(e.size):
+        normal = dyads[i, 0] * C[i, 0] + dyads[i, 1] * C[i, 1] + dyads[i, 2] * C[i, 2]
+        shear = dyads[i, 3] * C[i, 3] + dyads[i, 4] * C[i, 4] + dyads[i, 5] * C[i, 5]
+        e[i] = 0.5 * (normal - 1.0) + shear
+    return J.min()
+
+
+@njit(cache=True)
+def inverse(C: Floats, determinant: float, out: Floats) -> None:
+    """Fill ``out`` (6,) with the inverse of the symmetric tensor ``C`` (6,), whose ``determinant`` is known."""
+    out[0] = (C[1] * C[2] - C[5] * C[5]) / determinant
+    out[1] = (C[0] * C[2] - C[4] * C[4]) / determinant
+    out[2] = (C[0] * C[1] - C[3] * C[3]) / determinant
+    out[3] = (C[4] * C[5] - C[3] * C[2]) / determinant
+    out[4] = (C[3] * C[5] - C[4] * C[1]) / determinant
+    out[5] = (C[3] * C[4] - C[0] * C[5]) / determinant
+
+
+@njit(cache=True)
+def symmetric_product(A: Floats, i: int, j: int) -> float:
+    r"""Entry (i, j) of :math:`A \odot A`, which maps X to A X A: :math:`\frac12 (A_{ik} A_{jl} + A_{il} A_{jk})`."""
+    r, c, k, m = ROW[i], COLUMN[i], ROW[j], COLUMN[j]
+    return 0.5 * (A[VOIGT[r, k]] * A[VOIGT[c, m]] + A[VOIGT[r, m]] * A[VOIGT[c, k]])
+
+
+VOIGT = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])
+"""Positions of the entries of a symmetric tensor in its six-vector."""
+
+
+def fibre_dyads(fibres: Floats) -> Floats:
+    r"""Six-vectors (m, 6) of :math:`f \otimes f` for unit fibres (m, 3)."""
+    return np.ascontiguousarray(fibres[:, ROW] * fibres[:, COLUMN])
+
+
+def push_forward(dyads: Floats, F: Floats) -> Floats:
+    r"""Six-vectors (m, 6) of :math:`F H F^T / \mathrm{tr}`: mean dyads H of unit fibres, mapped by F (m, 3, 3)."""
+    deformed = np.einsum("eij,ejk,elk->eil", F, dyads[:, VOIGT], F)
+    unit: Floats = (deformed / np.trace(deformed, axis1=1, axis2=2)[:, None, None])[:, ROW, COLUMN]
+    return unit
+
+
+def fibre_strain(C: Floats, dyads: Floats) -> Floats:
+    r"""Green-Lagrange fibre strain :math:`e_{1D} = (f \cdot C f - 1)/2`, (m,); its mean for mean dyads."""
+    doubled = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
+    strain: Floats = 0.5 * (np.einsum("ei,ei->e", C, dyads * doubled) - 1.0)
+    return strain

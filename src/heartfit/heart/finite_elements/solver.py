@@ -1,0 +1,221 @@
+"""Multifrontal factorisation of the symmetric tangent.
+
+A front holds the dense blocks :math:`F_{11}` of its own unknowns, :math:`F_{21}` and :math:`F_{22}` of the rows it
+touches. Its elimination keeps :math:`S = F_{11}^{-1}` and :math:`G = F_{21} S` and leaves :math:`F_{22} - G F_{21}^T`
+to its parent; a solution needs one product with G in the forward sweep, and one with G and one with S in the backward
+sweep. The dense algebra is in single precision, which suffices for the direction of a Newton step. The matrix is
+symmetric but indefinite: LAPACK pivots within a front; no pivoting takes place between fronts, since the matrix of the
+mixed element is quasi-definite. Source: Duff and Reid, ACM Trans. Math. Softw. 9 (1983) 302.
+"""
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from heartfit.core.arrays import Floats, Integers
+from heartfit.heart.finite_elements.elimination import find_fronts
+from heartfit.heart.finite_elements.kinematics import StepFailed
+
+UPDATE_BLOCK = 96
+"""Number of rows of an update computed at a time, up to their diagonal block; the rest of its upper triangle is not."""
+
+Singles = np.ndarray[tuple[int, ...], np.dtype[np.float32]]
+
+
+class Elimination:
+    """Symbolic factorisation for one mesh, with ``dofs`` unknowns per node."""
+
+    def __init__(self, tets: Integers, nodes: int, dofs: int) -> None:
+        f = self._fronts = find_fronts(tets, nodes)
+        self.dofs = dofs
+        self.permutation = (dofs * f.order[:, None] + np.arange(dofs)).ravel()
+        position = np.empty(nodes, dtype=np.int64)
+        position[f.order] = np.arange(nodes)
+        self._tets = position[tets]
+        home = np.repeat(np.arange(len(f.parents)), np.diff(f.starts))[self._tets.min(axis=1)]
+        self._elements = np.argsort(home, kind="stable")
+        self._element_starts = np.searchsorted(home[self._elements], np.arange(len(f.parents) + 1))
+        own, touched = dofs * np.diff(f.starts), dofs * np.diff(f.row_starts)
+        self._inverse_starts = np.concatenate([[0], np.cumsum(own * own)])
+        self._coupling_starts = np.concatenate([[0], np.cumsum(own * touched)])
+        self._stack = _stack_size(touched, f.parents)
+
+    @property
+    def shape(self) -> tuple[Any, ...]:
+        """Index arrays of the substitutions: fronts, their rows, and the places of their blocks."""
+        f = self._fronts
+        return f.starts, f.rows, f.row_starts, self._inverse_starts, self._coupling_starts
+
+    def factorise(self, elements: Floats, nodes: Floats) -> "Factor":
+        """Factorise the sum of element matrices (m, 4 dofs, 4 dofs) and nodal blocks (n, dofs, dofs).
+
+        Raises StepFailed if the sum is singular to single precision or not finite.
+        """
+        inverses = np.empty(self._inverse_starts[-1], dtype=np.float32)
+        couplings = np.empty(self._coupling_starts[-1], dtype=np.float32)
+        f, matrix = self._fronts, (elements, nodes[self._fronts.order])
+        arguments = (
+            *matrix,
+            self._tets,
+            self._elements,
+            self._element_starts,
+            *self.shape,
+            f.parents,
+            self._stack,
+        )
+        try:
+            _eliminate(*arguments, inverses, couplings)  # type: ignore[call-arg]
+        except (np.linalg.LinAlgError, ZeroDivisionError) as failure:
+            raise StepFailed(f"the tangent cannot be factorised: {failure}") from failure
+        return Factor(self, inverses, couplings)
+
+
+class Factor:
+    """Factors of a matrix, as computed by :meth:`Elimination.factorise`."""
+
+    def __init__(self, elimination: Elimination, inverses: Singles, couplings: Singles) -> None:
+        self._elimination, self._inverses, self._couplings = elimination, inverses, couplings
+
+    def solve(self, right: Floats) -> Floats:
+        """Solution (N,) or (N, k), in the numbering of the mesh; not finite where single precision overflows."""
+        permutation = self._elimination.permutation
+        solution = np.empty_like(right)
+        with np.errstate(over="ignore"):
+            y = np.ascontiguousarray(right[permutation].T, dtype=np.float32)
+        arguments = (self._elimination.dofs, *self._elimination.shape, self._inverses, self._couplings)
+        for column in y.reshape(-1, len(right)):
+            _substitute(column, *arguments)
+        solution[permutation] = y.T
+        return solution
+
+
+@njit(cache=True)
+def _stack_size(touched: Integers, parents: Integers) -> int:
+    """Largest total number of entries of the updates that wait for their parents."""
+    waiting, largest = 0, 0
+    released = np.zeros(len(parents), dtype=np.int64)
+    for s in range(len(parents)):
+        waiting += touched[s] ** 2 - released[s]
+        if parents[s] >= 0:
+            released[parents[s]] += touched[s] ** 2
+        largest = max(largest, waiting)
+    return largest
+
+
+@njit(cache=True)
+def _eliminate(  # type: ignore[no-untyped-def]
+    elements, nodes, tets, chosen, chosen_starts,
+    starts, rows, row_starts, inverse_starts, coupling_starts, parents, stack_size, inverses, couplings,
+):  # fmt: skip
+    """Fill ``inverses`` and ``couplings`` with S and G of every front; ``chosen`` lists the elements by front."""
+    dofs = nodes.shape[1]
+    place, corners = np.empty(len(nodes), dtype=np.int64), np.empty(4, dtype=np.int64)
+    stack, filled = np.empty(stack_size, dtype=np.float32), 0
+    waiting, top = np.empty(len(parents), dtype=np.int64), 0
+    largest = (np.diff(starts) + np.diff(row_starts)).max()
+    work = np.empty((dofs * largest) ** 2, dtype=np.float32)
+    for s in range(len(parents)):
+        touched = rows[row_starts[s] : row_starts[s + 1]]
+        c, r = dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
+        place[starts[s] : starts[s + 1]] = np.arange(0, c, dofs)
+        place[touched] = np.arange(c, c + r, dofs)
+        front = work[: (c + r) ** 2].reshape(c + r, c + r)
+        front[:] = 0.0
+        for i in range(starts[s], starts[s + 1]):
+            _extend_add(front, nodes[i], place[i : i + 1], dofs)
+        for e in chosen[chosen_starts[s] : chosen_starts[s + 1]]:
+            for a in range(4):
+                corners[a] = place[tets[e, a]]
+            _extend_add(front, elements[e], corners, dofs)
+        while top > 0 and parents[waiting[top - 1]] == s:
+            top -= 1
+            left = rows[row_starts[waiting[top]] : row_starts[waiting[top] + 1]]
+            size = dofs * len(left)
+            filled -= size * size
+            _extend_add(front, stack[filled : filled + size * size].reshape(size, size), place[left], dofs)
+        inverse = _inverse(front[:c, :c])
+        inverses[inverse_starts[s] : inverse_starts[s + 1]] = inverse.ravel()
+        if r:
+            below = front[c:, :c].copy()
+            coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
+            np.dot(below, inverse, coupling)
+            _schur_complement(front[c:, c:], coupling, below, stack[filled : filled + r * r].reshape(r, r))
+            filled += r * r
+            waiting[top] = s
+            top += 1
+
+
+@njit(cache=True)
+def _extend_add(front, block, places, dofs):  # type: ignore[no-untyped-def]
+    """Add a symmetric ``block``, whose nodes have the columns ``places``, to the lower triangle of ``front``.
+
+    Only the lower triangle of the block is read if ``places`` ascend.
+    """
+    n = dofs * len(places)
+    columns = np.empty(n, dtype=np.int64)
+    for i in range(len(places)):
+        for k in range(dofs):
+            columns[dofs * i + k] = places[i] + k
+    ascend = (np.diff(places) > 0).all()
+    for i in range(n):
+        row, source = columns[i], block[i]
+        target = front[row]
+        for j in range(i + 1 if ascend else n):
+            if columns[j] <= row:
+                target[columns[j]] += source[j]
+
+
+@njit(cache=True)
+def _schur_complement(rest, coupling, below, update):  # type: ignore[no-untyped-def]
+    """Fill the lower triangle of ``update`` with the Schur complement F22 - G F21^T of the eliminated block."""
+    block = UPDATE_BLOCK if len(rest) > 2 * UPDATE_BLOCK else len(rest)
+    for start in range(0, len(rest), block):
+        end = min(start + block, len(rest))
+        update[start:end, :end] = rest[start:end, :end]
+        update[start:end, :end] -= np.dot(coupling[start:end], below[:end].T)
+
+
+@njit(cache=True)
+def _inverse(lower):  # type: ignore[no-untyped-def]
+    """Inverse of the symmetric matrix with the triangle ``lower``, equilibrated for LAPACK."""
+    n = len(lower)
+    scale, full = np.empty(n, dtype=np.float32), np.empty((n, n), dtype=np.float32)
+    for i in range(n):
+        scale[i] = 1.0 / np.sqrt(abs(lower[i, i]))
+        for j in range(i + 1):
+            full[i, j] = lower[i, j] * scale[i] * scale[j]
+            full[j, i] = full[i, j]
+    result = np.linalg.inv(full)
+    for i in range(n):
+        for j in range(n):
+            result[i, j] *= scale[i] * scale[j]
+    return result
+
+
+@njit(cache=True)
+def _substitute(y, dofs, starts, rows, row_starts, inverse_starts, coupling_starts, inverses, couplings):  # type: ignore[no-untyped-def]
+    """Solve in place for ``y`` (N,), in the order of elimination: forward sweep, then backward sweep."""
+    k = len(starts) - 1
+    for s in range(k):
+        touched = rows[row_starts[s] : row_starts[s + 1]]
+        a, c, r = dofs * starts[s], dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
+        if r:
+            coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
+            down = np.dot(coupling, y[a : a + c])
+            for i in range(len(touched)):
+                for m in range(dofs):
+                    y[dofs * touched[i] + m] -= down[dofs * i + m]
+    for s in range(k - 1, -1, -1):
+        touched = rows[row_starts[s] : row_starts[s + 1]]
+        a, c, r = dofs * starts[s], dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
+        inverse = inverses[inverse_starts[s] : inverse_starts[s + 1]].reshape(c, c)
+        x = np.dot(inverse, y[a : a + c])
+        if r:
+            coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
+            gathered = np.empty(r, dtype=np.float32)
+            for i in range(len(touched)):
+                for m in range(dofs):
+                    gathered[dofs * i + m] = y[dofs * touched[i] + m]
+            x -= np.dot(gathered, coupling)
+        y[a : a + c] = x

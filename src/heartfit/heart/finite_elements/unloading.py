@@ -1,0 +1,218 @@
+r"""Static equilibria of the relaxed wall: inflation, and the stress-free reference of a loaded mesh.
+
+Inflation finds x at given X and cavity pressures P, in increments of P. Unloading is the inverse: given the positions x
+of ventricles that were measured under the pressures P, at end diastole, find reference positions X with
+
+.. math:: f(x - X; X) = \sum_c P_c \nabla V_c(x) .
+
+The load depends on x alone and is therefore fixed. At fixed x the Cauchy stress depends on X through F only, and moving
+the reference by :math:`-\delta u` changes F as a displacement :math:`F \delta u` of x would; so the tangent is the
+forward one, without the terms due to the change of x, times F:
+
+.. math:: \frac{\partial f_a}{\partial u_b} = \big(K_{ab} + f_b \otimes h_a - f_a \otimes h_b\big) F, \qquad
+          h_a = F^{-T} \nabla N_a,
+
+with :math:`f_a` the forces of the element on its node a. Without these terms, which are of the order of K times the
+strain, nearly incompressible linear tetrahedra do not converge. Supports and fibres follow the reference too; their
+contribution, and terms of the order of the strain in the equation of the wall pressure, are left to Anderson mixing.
+Source: Govindjee and Mihalic, Comput. Methods Appl. Mech. Eng. 136 (1996) 47 (inverse finite elastostatics).
+"""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from scipy.sparse import coo_array, csc_array, diags_array
+from scipy.sparse.linalg import splu
+
+from heartfit.core.arrays import Floats, Integers
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart.finite_elements import kinematics
+from heartfit.heart.finite_elements.body import FiniteElementBody, Step, Tissue, mean_dyads
+from heartfit.heart.finite_elements.kinematics import VOIGT, StepFailed
+from heartfit.heart.time_step import Anderson
+
+
+class GeneralFactor:
+    """Equilibrated single-precision LU factors of the sum of element matrices and nodal blocks.
+
+    ``elements`` (m, 4 d, 4 d) are the matrices of the tetrahedra ``tets`` (m, 4), ``nodes`` (n, d, d) the nodal blocks;
+    ``permutation`` (n d,) is the order in which the unknowns are eliminated. Raises StepFailed if the sum is singular.
+    """
+
+    def __init__(self, tets: Integers, elements: Floats, nodes: Floats, permutation: Integers) -> None:
+        matrix = _assemble(tets, elements, nodes)[permutation][:, permutation]
+        self._permutation = permutation
+        self._scale = 1.0 / np.sqrt(np.abs(matrix.diagonal()))
+        scaling = diags_array(self._scale)
+        single = csc_array(scaling @ matrix @ scaling, dtype=np.float32)
+        try:
+            self._factors = splu(single, permc_spec="NATURAL", diag_pivot_thresh=0.0)
+        except RuntimeError as failure:
+            raise StepFailed(
+                f"the tangent of the unloaded reference cannot be factorised: {failure}"
+            ) from failure
+
+    def solve(self, right: Floats) -> Floats:
+        """Solution (N,); not finite where single precision overflows."""
+        solution = np.empty_like(right)
+        with np.errstate(over="ignore"):
+            permuted = (right[self._permutation] * self._scale).astype(np.float32)
+        solution[self._permutation] = self._factors.solve(permuted) * self._scale
+        return solution
+
+
+def _assemble(tets: Integers, elements: Floats, nodes: Floats) -> csc_array:
+    n, d = nodes.shape[:2]
+    unknowns = (d * tets[:, :, None] + np.arange(d)).reshape(len(tets), -1)
+    blocks = d * np.arange(n)[:, None] + np.arange(d)
+    rows = [np.repeat(indices, indices.shape[1], axis=1).ravel() for indices in (unknowns, blocks)]
+    columns = [np.tile(indices, (1, indices.shape[1])).ravel() for indices in (unknowns, blocks)]
+    values = np.concatenate([elements.ravel(), nodes.ravel()])
+    places = (np.concatenate(rows), np.concatenate(columns))
+    return csc_array(coo_array((values, places), shape=(n * d, n * d)).tocsc())
+
+
+INFLATION_INCREMENTS = 6
+INFLATION_ITERATIONS = 40
+INFLATION_FORCE_TOLERANCE = 1e-6
+"""Residual force of the inflated wall [N]; every beat starts at such a state."""
+
+INFLATION_CONTRACTION = 0.4
+"""Ratio of successive residuals above which the tangent is renewed."""
+
+
+def inflate(body: Any, pressures: Floats, increments: int = INFLATION_INCREMENTS) -> Any:
+    """State of ``body`` inflated from rest to ``pressures`` (2,) [Pa]; raises StepFailed if it has none."""
+    state, factor = body.rest(), None
+    for share in np.linspace(0.0, 1.0, increments + 1)[1:]:
+        state, factor = _equilibrium(body, state, share * pressures, factor)
+    return state
+
+
+def _equilibrium(body: Any, state: Any, pressures: Floats, factor: Any) -> tuple[Any, Any]:
+    """State in equilibrium with ``pressures``, and the last factor of the tangent, for the next increment."""
+    step, x, previous = body.static_step(state), state.x.copy(), np.inf
+    for _ in range(INFLATION_ITERATIONS):
+        residual = step.forces(x) - body.volume_gradients(x) @ pressures
+        size = step.size(residual)
+        if size < INFLATION_FORCE_TOLERANCE:
+            return step.commit(x), factor
+        if factor is None or size > INFLATION_CONTRACTION * previous:
+            factor = step.tangent(x)
+        previous = size
+        x = x - factor.solve(residual).reshape(x.shape)
+    raise StepFailed(
+        f"no static equilibrium at {pressures[0]:.0f} / {pressures[1]:.0f} Pa, residual {size:.3g} N: "
+        "the wall is too soft for this pressure, or the supports are too weak"
+    )
+
+
+FIRST_INCREMENT = 0.25
+"""First increment of the load, as a fraction of the whole."""
+
+SMALLEST_INCREMENT = FIRST_INCREMENT / 8
+UNLOADING_ITERATIONS = 20
+UNLOADING_CONTRACTION = 0.5
+"""Ratio of successive residuals above which the tangent is renewed."""
+
+UNLOADING_HALVINGS = 5
+UNLOADING_FORCE_TOLERANCE = 2e-3
+"""Residual force of the unloaded reference [N]."""
+
+
+def unload(mesh: VentricularMesh, tissue: Tissue, pressures: Floats) -> VentricularMesh:
+    """Stress-free mesh whose relaxed equilibrium under ``pressures`` (2,) [Pa] is ``mesh``.
+
+    Fibres are pulled back, so that the inflated fibres are those of ``mesh``. The load is applied in increments, which
+    are halved after a failure. Raises StepFailed if they fall below SMALLEST_INCREMENT.
+    """
+    search, share, increment = _ReferenceSearch(mesh, tissue), 0.0, FIRST_INCREMENT
+    while share < 1.0:
+        following = min(share + increment, 1.0)
+        try:
+            search.balance(following * pressures)
+        except StepFailed:
+            if increment <= SMALLEST_INCREMENT:
+                raise
+            increment *= 0.5
+        else:
+            share = following
+    return search.reference
+
+
+class _ReferenceSearch:
+    """Current reference, with the wall pressures of the mixed element."""
+
+    def __init__(self, loaded: VentricularMesh, tissue: Tissue) -> None:
+        self.loaded, self.reference, self.tissue = loaded, loaded, tissue
+        body = FiniteElementBody(loaded, tissue)
+        self._elimination = body.elimination
+        self._x = body.rest().x
+
+    def balance(self, pressures: Floats) -> None:
+        """Move the reference until it balances the cavity ``pressures`` (2,) [Pa]; on failure it stays unchanged."""
+        x, step, residual = self._x, *self._residual(self._x, pressures)
+        anderson, previous, factor = Anderson(step.weights(x).ravel()), np.inf, None
+        for _ in range(UNLOADING_ITERATIONS):
+            size = step.size(residual)
+            if size < UNLOADING_FORCE_TOLERANCE:
+                self._x, self.reference = x, step.body.reference
+                return
+            if factor is None or size > UNLOADING_CONTRACTION * previous:
+                factor = _tangent(step, x)
+                anderson.forget()
+            previous = size
+            change = anderson.mix(x.ravel(), -factor.solve(residual)).reshape(x.shape)
+            x, step, residual = self._move(x, change, pressures, size)
+        raise StepFailed(
+            f"{_failure_message(pressures)}, residual {size:.3g} N: the wall is too soft for this pressure"
+        )
+
+    def _move(self, x: Floats, change: Floats, pressures: Floats, size: float) -> tuple[Floats, Step, Floats]:
+        """Apply the change, halved until no element collapses and the residual less than doubles."""
+        for halving in range(UNLOADING_HALVINGS):
+            trial = x + 0.5**halving * change
+            try:
+                step, residual = self._residual(trial, pressures)
+            except StepFailed:
+                continue
+            if step.size(residual) < 2.0 * size:
+                return trial, step, residual
+        raise StepFailed(
+            f"{_failure_message(pressures)}: elements collapse, the wall is too soft for this pressure"
+        )
+
+    def _residual(self, x: Floats, pressures: Floats) -> tuple[Step, Floats]:
+        """Residual (N,) at the unknowns ``x``, whose displacements lead from the reference to the loaded mesh."""
+        reference = self.loaded.with_points(self.loaded.points - x[:, :3])
+        body = FiniteElementBody(_pull_back(reference, self.loaded), self.tissue, self._elimination)
+        step = body.static_step(body.rest())
+        return step, step.forces(x) - body.volume_gradients(x) @ pressures
+
+
+def _failure_message(pressures: Floats) -> str:
+    return f"no unloaded reference at {pressures[0]:.0f} / {pressures[1]:.0f} Pa"
+
+
+def _tangent(step: Step, x: Floats) -> GeneralFactor:
+    """Factorised derivative of the forces at fixed loaded positions; see the equation of the module."""
+    elements, nodes = step.stiffness(x)
+    body, (F, S) = step.body, step.deformation
+    slopes = body.gradients @ np.linalg.inv(F)
+    forces = body.element_volumes[:, None, None] * body.gradients @ S[:, VOIGT] @ F.transpose(0, 2, 1)
+    blocks = elements.reshape(len(F), 4, body.element.dofs, 4, body.element.dofs)
+    blocks[:, :, :3, :, :3] += np.einsum("ebi,eaj->eaibj", forces, slopes)
+    blocks[:, :, :3, :, :3] -= np.einsum("eai,ebj->eaibj", forces, slopes)
+    blocks[..., :3] = np.einsum("eaibk,ekj->eaibj", blocks[..., :3], F)
+    return GeneralFactor(body.tets, elements, nodes, body.elimination.permutation)
+
+
+def _pull_back(reference: VentricularMesh, loaded: VentricularMesh) -> VentricularMesh:
+    """Reference with the fibres of the loaded mesh, mapped back by its deformation gradient."""
+    gradients, _ = kinematics.shape_gradients(loaded.points, loaded.tets)
+    F = np.empty((len(loaded.tets), 3, 3))
+    kinematics.deformation_gradient(reference.points - loaded.points, loaded.tets, gradients, F)
+    fibres = np.einsum("eij,ej->ei", F, np.asarray(loaded.fibres))
+    fibres /= np.linalg.norm(fibres, axis=1, keepdims=True)
+    return replace(reference, fibres=fibres, orientation=kinematics.push_forward(mean_dyads(loaded), F))

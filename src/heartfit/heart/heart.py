@@ -1,0 +1,113 @@
+"""The composition root: a heart is its slots (tissue, circulation) plus any number of mechanisms."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from difflib import get_close_matches
+from functools import reduce
+from typing import Any
+
+from heartfit.core.parameter import parameter_values
+from heartfit.heart.circulation.network import Circulation
+from heartfit.heart.muscle.tissue import Tissue
+from heartfit.mechanisms.atrial_kick import AtrialKick
+from heartfit.roles import Mechanism, Sensor
+
+PAPER_PARAMETERS = (
+    "sigma_0", "k_RS", "k_ATP", "k_0", "alpha", "mu", "E_s", "K", "c_1", "c_2", "R_p", "tau", "Z_c", "L",
+)  # fmt: skip
+"""Names of the fourteen parameters of Marchesseau et al., MICCAI 2012."""
+
+
+@dataclass(frozen=True)
+class Heart:
+    """Slots (tissue, circulation), mechanisms and the period of the beat [s].
+
+    ``heart + mechanism`` is a new heart with that mechanism added; it replaces one of the same class.
+    """
+
+    tissue: Tissue = field(default_factory=Tissue)
+    circulation: Circulation = field(default_factory=Circulation)
+    mechanisms: tuple[Mechanism, ...] = (AtrialKick(),)
+    period: float = 0.829
+
+    def __add__(self, mechanism: Mechanism) -> "Heart":
+        kept = tuple(present for present in self.mechanisms if type(present) is not type(mechanism))
+        return replace(self, mechanisms=(*kept, mechanism))
+
+    @property
+    def trigger(self) -> float:
+        """Simulated time of the ECG trigger [s]."""
+        return self.tissue.control.onset + self.tissue.control.trigger_delay
+
+    @property
+    def muscle(self) -> Tissue:
+        """Tissue of the ventricles: the tissue slot as amended by the mechanisms."""
+        return self.tissue.with_mechanisms(self.mechanisms, self.period)
+
+    @property
+    def sensors(self) -> tuple[Sensor, ...]:
+        """Mechanisms that distort the measurements, in the order in which they act."""
+        return tuple(m for m in self.mechanisms if isinstance(m, Sensor))
+
+    def parameters(self) -> dict[str, float]:
+        """Values of all parameters by dotted path; :meth:`with_parameters` explains short names."""
+        return dict(_list_parameters(self))
+
+    def with_parameters(self, values: Mapping[str, float]) -> "Heart":
+        """Copy of the heart with the parameters ``values`` replaced.
+
+        A name is a dotted path ("circulation.pulmonary_tree.R_p") or its last part, provided that this is unique
+        or one of the paper's fourteen (R_p, tau, Z_c and L then mean the systemic circulation). Raises ``KeyError``
+        for an unknown or ambiguous name; the message lists the nearest names or the candidate paths.
+        """
+        known = self.parameters()
+        changes: dict[str, Any] = {}
+        for name, value in values.items():
+            *parts, last = _resolve_path(name, known).split(".")
+            reduce(lambda branch, part: branch.setdefault(part, {}), parts, changes)[last] = float(value)
+        return _with_changes(self, changes)
+
+    def parameter_path(self, name: str) -> str:
+        """Dotted path of the parameter ``name``; raises ``KeyError`` as :meth:`with_parameters` does."""
+        return _resolve_path(name, self.parameters())
+
+
+def _resolve_path(name: str, parameters: Mapping[str, float]) -> str:
+    if name in parameters:
+        return name
+    paths = [path for path in parameters if path.endswith(f".{name}")]
+    systemic = [path for path in paths if path.startswith("circulation.systemic.")]
+    if len(paths) > 1 and name in PAPER_PARAMETERS and systemic:
+        paths = systemic
+    if len(paths) == 1:
+        return paths[0]
+    near = get_close_matches(name, [path.rsplit(".", 1)[-1] for path in parameters] + list(parameters))
+    problem = f"is one of {paths}: give the path" if paths else f"is unknown, nearest are {near}"
+    raise KeyError(f"parameter {name!r} {problem}")
+
+
+def _list_parameters(part: Any, prefix: str = "") -> list[tuple[str, float]]:
+    parameters = [(f"{prefix}{name}", value) for name, value in parameter_values(part)]
+    for entry in fields(part):
+        value = getattr(part, entry.name)
+        if is_dataclass(value):
+            parameters += _list_parameters(value, f"{prefix}{entry.name}.")
+        elif isinstance(value, tuple):
+            for member in value:
+                parameters += _list_parameters(member, f"{prefix}{type(member).__name__}.")
+    return parameters
+
+
+def _with_changes(part: Any, changes: Mapping[str, Any]) -> Any:
+    """Copy of ``part`` with new values, or nested changes, by name; other names are classes of its mechanisms."""
+    own = {name: change for name, change in changes.items() if hasattr(part, name)}
+    new = {
+        name: _with_changes(getattr(part, name), change) if isinstance(change, dict) else change
+        for name, change in own.items()
+    }
+    if len(own) < len(changes):
+        kinds = {name: change for name, change in changes.items() if name not in own}
+        new["mechanisms"] = tuple(
+            _with_changes(mechanism, kinds.get(type(mechanism).__name__, {})) for mechanism in part.mechanisms
+        )
+    return replace(part, **new)

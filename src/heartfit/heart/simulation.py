@@ -1,0 +1,244 @@
+"""Simulation of beats until the limit cycle; a failed run is a result with a reason.
+
+The drift of a beat, from its start to its end, measures its distance from the limit cycle. The time constant tau of a
+Windkessel is longer than a beat, so plain repetition converges slowly: between beats its pressure is shifted to the
+value that the stroke volume of the next beats will hold, as predicted from the last one or two beats.
+"""
+
+import time as clock
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.heart.beat import COST, Beat, failed_beat
+from heartfit.heart.circulation.coupling import Body, Coupling, HeartState, Tolerances
+from heartfit.heart.circulation.elements import Windkessel, WindkesselState
+from heartfit.heart.circulation.network import NetworkStep
+from heartfit.heart.finite_elements.body import StepFailed
+from heartfit.heart.finite_elements.unloading import inflate
+from heartfit.heart.heart import Heart
+from heartfit.heart.time_step import TimeStep
+from heartfit.roles import COMPARTMENTS
+
+INITIAL_RESPONSES = 1.1, 1.0
+"""Fall of the pressure deficit of the aorta and of the pulmonary artery per rise of the pressure at the start of a beat
+[Pa/Pa], as a higher pressure also lowers the stroke volume. Initial guesses; after two beats it is measured."""
+
+CREDIBLE_RESPONSES = 0.7, 4.0
+"""Range of measured responses that are used; one outside it has another cause than the rise of the pressure."""
+
+SURPLUS_FRACTION = 0.3
+"""Excess of the stroke over later ones, as a fraction of the volume that the initially fuller ventricle lost."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recurrence:
+    """Cavity volumes (t, v) of a beat, and the states of the v Windkessels at its start and its end."""
+
+    volumes: Floats
+    first: Sequence[WindkesselState]
+    last: Sequence[WindkesselState]
+
+    def drift(self) -> float:
+        """Largest change over the beat: of volumes over stroke volume, and of Windkessel pressures over themselves."""
+        stroke = self.volumes.max(axis=0) - self.volumes.min(axis=0)
+        in_volume = np.abs(self.volumes[-1] - self.volumes[0]) / stroke
+        in_pressure = [abs(b.P_c / a.P_c - 1.0) for a, b in zip(self.first, self.last, strict=True)]
+        return float(max(*in_volume, *in_pressure))
+
+    def shifts(
+        self, trees: Sequence[Windkessel], period: float, before: "Recurrence | None" = None
+    ) -> list[float]:
+        """Rises [Pa] of the Windkessel pressures for the next beat; ``before`` is the beat that preceded this one."""
+        deficits = self._deficits(trees, period)
+        responses: Sequence[float] = INITIAL_RESPONSES
+        if before is not None:
+            earlier = before._deficits(trees, period)
+            rises = [new.P_c - old.P_c for new, old in zip(self.first, before.first, strict=True)]
+            responses = list(map(_measured_response, earlier, deficits, rises, INITIAL_RESPONSES))
+        states = zip(self.first, self.last, strict=True)
+        changes = [last.P_c - first.P_c for first, last in states]
+        return [
+            deficit / response - change
+            for deficit, response, change in zip(deficits, responses, changes, strict=False)
+        ]
+
+    def _deficits(self, trees: Sequence[Windkessel], period: float) -> list[float]:
+        surplus = SURPLUS_FRACTION * (self.volumes[0] - self.volumes[-1])
+        sides = zip(trees, self.first, self.last, surplus.tolist(), strict=True)
+        return [tree.pressure_deficit(first, last, period, volume) for tree, first, last, volume in sides]
+
+
+def _measured_response(earlier: float, deficit: float, rise: float, guess: float) -> float:
+    """Fall of the deficit per rise of the pressure, or ``guess`` where the measurement is not credible."""
+    low, high = CREDIBLE_RESPONSES
+    response = (earlier - deficit) / rise if rise else guess
+    return response if low < response < high else guess
+
+
+Progress = Callable[[float], None]
+Watch = Callable[[Sequence[HeartState]], None]
+
+
+@dataclass(frozen=True)
+class Numerics:
+    """Settings of the simulation: time step [s], scheme, largest number of beats and tolerances.
+
+    A beat is periodic if its drift, see :meth:`Recurrence.drift`, is below ``drift``. A step that fails is halved up
+    to ``cuts`` times.
+    """
+
+    time_step: float = 5e-3
+    second_order: bool = True
+    max_beats: int = 6
+    drift: float = 0.01
+    cuts: int = 5
+    keep_positions: bool = False
+    tolerances: Tolerances = field(default_factory=Tolerances)
+
+
+def simulate(
+    heart: Heart,
+    body: Body,
+    numerics: Numerics | None = None,
+    progress: Progress | None = None,
+    watch: Watch | None = None,
+) -> Beat:
+    """Beat of ``heart`` with the ventricles ``body`` on its limit cycle.
+
+    Between beats the pressures of the Windkessels are shifted towards their periodic values, see
+    :meth:`Recurrence.shifts`. The last beat is periodic if its own drift, which the diagnostics state, is below that of
+    ``numerics``. A run that fails returns a failed beat with the reason. ``progress`` is called after every time step
+    with the completed fraction of ``max_beats``, ``watch`` once with the states of the last beat, one per time.
+    Raises InputError unless the body is made of ``heart.muscle``.
+    """
+    _require_muscle(heart, body)
+    run = _Run(heart, body, numerics or Numerics(), progress, watch)
+    try:
+        return run.to_limit_cycle()
+    except StepFailed as failure:
+        return failed_beat(f"beat {run.beats + 1}: {failure}", heart.period, heart.trigger, run.diagnostics())
+
+
+def _require_muscle(heart: Heart, body: Body) -> None:
+    """Raise InputError if mechanisms of the heart act on the tissue and the body is not made of the result."""
+    if heart.muscle not in (heart.tissue, body.tissue):
+        raise InputError(
+            "simulate: the body lacks mechanisms of the heart in its tissue; make it of heart.muscle"
+        )
+
+
+def _ignore(_: object) -> None:
+    """No-op callback."""
+
+
+class _Run:
+    def __init__(
+        self, heart: Heart, body: Body, numerics: Numerics, progress: Progress | None, watch: Watch | None
+    ) -> None:
+        self.heart, self.body, self.numerics = heart, body, numerics
+        self.coupling = Coupling(body, heart.circulation, heart.mechanisms, numerics.tolerances)
+        self.steps = round(heart.period / numerics.time_step)
+        self.progress, self.watch = progress or _ignore, watch or _ignore
+        self.beats, self.cuts, self.drift = 0, 0, np.inf
+        self._started = clock.process_time()
+
+    def to_limit_cycle(self) -> Beat:
+        state = self._start()
+        before: Recurrence | None = None
+        while True:
+            history = [state]
+            for n in range(self.steps):
+                state = self._advance(state, self._step(n, state), self.numerics.cuts)
+                history.append(state)
+                self.progress((self.beats + (n + 1) / self.steps) / self.numerics.max_beats)
+            self.beats += 1
+            cycle = Recurrence(
+                np.array([state.volumes for state in history]), history[0].trees, history[-1].trees
+            )
+            self.drift = cycle.drift()
+            if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
+                self.watch(history)
+                return self._beat(history)
+            state = state.shift_pressures(
+                cycle.shifts(self.heart.circulation.trees(), self.heart.period, before)
+            )
+            before = cycle
+
+    @property
+    def dt(self) -> float:
+        return self.heart.period / self.steps
+
+    def _start(self) -> HeartState:
+        """State of relaxed ventricles, filled at the resting atrial pressures."""
+        trees = self.heart.circulation.start(self.heart.period)
+        atria = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
+        pressures = np.array([*atria, *(tree.P_c for tree in trees)])
+        filled = inflate(self.body, atria)
+        return HeartState(filled, pressures, self.body.volumes(filled.x), trees)
+
+    def _step(self, n: int, state: HeartState) -> TimeStep:
+        return TimeStep(n * self.dt, self.dt, self.heart.period, self.numerics.second_order, state.last)
+
+    def _advance(self, state: HeartState, step: TimeStep, cuts: int) -> HeartState:
+        try:
+            return self.coupling.advance(state, step)
+        except StepFailed as failure:
+            if cuts == 0:
+                raise StepFailed(f"at {step.start:.4f} s, step {step.length:.2g} s: {failure}") from failure
+        self.cuts += 1
+        half = self._advance(replace(state, trend=()), step.half(second=False), cuts - 1)
+        return self._advance(half, replace(step.half(second=True), last=half.last), cuts - 1)
+
+    def _beat(self, history: list[HeartState]) -> Beat:
+        time = np.linspace(0.0, self.heart.period, self.steps + 1)
+        volumes = np.array([state.volumes for state in history])
+        pressure, flow = self._signals(time, history)
+        return Beat(
+            time=time,
+            volume={"lv": volumes[:, 0], "rv": volumes[:, 1]},
+            pressure=pressure,
+            flow=flow,
+            period=self.heart.period,
+            trigger=self.heart.trigger,
+            diagnostics=self.diagnostics() | self._wall(history),
+            positions=self._positions(history),
+        )
+
+    def _signals(
+        self, time: Floats, history: list[HeartState]
+    ) -> tuple[dict[str, Floats], dict[str, Floats]]:
+        pressures, flows = [], []
+        for t, state in zip(time, history, strict=True):
+            network = NetworkStep(
+                self.heart.circulation, self.heart.mechanisms, t, self.dt, self.heart.period
+            )
+            pressures.append([*state.pressures, *network.atrial])
+            flows.append(network.flows(state.pressures))
+        pressure = dict(zip(COMPARTMENTS, np.array(pressures).T, strict=True))
+        return pressure, {name: np.array([row[name] for row in flows]) for name in flows[0]}
+
+    def _positions(self, history: list[HeartState]) -> Floats | None:
+        if not self.numerics.keep_positions:
+            return None
+        return np.array([self.body.positions(state.body.x) for state in history])  # type: ignore[attr-defined]
+
+    def _wall(self, history: list[HeartState]) -> dict[str, float]:
+        walls = np.array(
+            [self.body.wall_volume(state.body.x) for state in history[:: max(1, self.steps // 40)]]
+        )
+        return {"wall_volume_loss": float(1.0 - walls.min() / walls.max())}
+
+    def diagnostics(self) -> dict[str, float]:
+        """Number of beats, drift, halved steps, iterations, factorisations and CPU time [s] of the run."""
+        return {
+            "beats": float(self.beats),
+            "drift": float(self.drift),
+            "step_cuts": float(self.cuts),
+            "iterations": float(self.coupling.iterations),
+            "factorisations": float(self.coupling.factorisations),
+            COST: clock.process_time() - self._started,
+        }

@@ -1,0 +1,135 @@
+"""Heart of one or two spherical ventricles, as the arrays of its compiled beat."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from heartfit.core.arrays import Floats
+from heartfit.heart.circulation.enclosure import VENTRICLES, load_table
+from heartfit.heart.circulation.network import ARTERIES, Network, mechanism_pressures, net_outflow
+from heartfit.heart.finite_elements.kinematics import StepFailed
+from heartfit.heart.heart import Heart
+from heartfit.heart.sphere import rows
+from heartfit.heart.sphere.beat import SphereTissue, State, StepInputs
+from heartfit.heart.sphere.body import LARGEST_STRETCH, Sphere, fibre_activation
+from heartfit.heart.sphere.wall import cavity, passive_stress, tabulate
+
+SMALLEST_FILLING_STRETCH = 0.8
+"""Lower bound of the stretch of a filled sphere; no atrial pressure reaches it."""
+
+
+@dataclass(frozen=True)
+class Inertia:
+    """Inertia and arterial compliance that the standard heart neglects; zero by default.
+
+    ``density`` of the wall [kg/m^3], inertances ``valves`` of branches by name [Pa s^2/m^3], and compliance
+    ``arteries`` of every artery beside its Windkessel [m^3/Pa].
+    """
+
+    density: float = 0.0
+    valves: tuple[tuple[str, float], ...] = ()
+    arteries: float = 0.0
+
+
+class SphericalHeart:
+    """Left ventricle, or both, of ``heart`` as spheres, with the activation times (k,) [s] of the fibre classes."""
+
+    def __init__(
+        self,
+        heart: Heart,
+        spheres: Sequence[Sphere],
+        activation: Floats,
+        inertia: Inertia,
+        second_order: bool,
+    ) -> None:
+        self.heart, self.spheres, self.inertia, self._second_order = heart, spheres, inertia, second_order
+        self.trees = heart.circulation.trees()[: len(spheres)]
+        self.muscle = heart.muscle
+        self._activation, self._bridges = fibre_activation(self.muscle, activation, len(spheres))
+        passive, active = self.muscle.passive, self.muscle.active
+        self.tissue = SphereTissue(
+            tabulate(passive), active.constants(), active.starling.constants(), passive.eta, inertia.density
+        )
+        self._network = Network(heart.circulation, heart.mechanisms, len(spheres))
+        self.branches = self._network.names
+
+    def inputs(self, start: Floats, length: float) -> StepInputs:
+        """Inputs of steps of ``length`` [s] that begin at ``start`` (n,) [s]."""
+        heart, control, end = self.heart, self.muscle.control, start + length
+        rate, attach = control.mean(start[:, None], length, self._activation, heart.period)
+        atria = np.ascontiguousarray(self.atria(end).T)
+        waves = mechanism_pressures(ARTERIES[: len(self.spheres)], end, heart.period, heart.mechanisms)
+        waves = np.ascontiguousarray(waves.T)
+        loads = load_table(heart.mechanisms, VENTRICLES[: len(self.spheres)], end, heart.period)
+        laws = self._network.laws(end)
+        return StepInputs(
+            length, self._second_order, rate, attach, atria, waves, loads, laws, self._network.ends
+        )
+
+    def atria(self, time: Floats) -> Floats:
+        """Pressures (v, t) of the atria [Pa] at ``time`` (t,) [s]."""
+        heart = self.heart
+        return heart.circulation.atrial(time, heart.period, heart.mechanisms, len(self.spheres))
+
+    def flows(self, p: Floats, inert: Floats) -> Floats:
+        """Flows (k,) [m^3/s] as a beat starts at the pressures p (2 v,) [Pa]; ``inert`` in branches with inertance."""
+        inertances = dict(self.inertia.valves)
+        moving, work, zero = np.zeros((3, len(self.branches))), np.empty((len(p), len(p))), np.zeros(1)
+        laws, atria = self._network.laws(zero), np.ascontiguousarray(self.atria(zero).T)
+        net_outflow(self._network.ends, laws, moving, atria, 0, p, np.empty((1, len(p))), work)
+        massless = [inertances.get(name, 0.0) == 0.0 for name in self.branches]
+        return np.where(massless, moving[2], inert)
+
+    def start(self) -> State:
+        """State of relaxed ventricles, filled at the resting atrial pressures; raises StepFailed if there is none."""
+        pressures = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
+        sides = np.zeros((rows.SIDE_ROWS, len(self.spheres)))
+        windkessels = self.heart.circulation.start(self.heart.period)
+        for v, (sphere, tree) in enumerate(zip(self.spheres, self.trees, strict=True)):
+            sides[[rows.RADIUS, rows.RATIO, rows.WALL], v] = (
+                sphere.radius,
+                0.5 * sphere.thickness / sphere.radius,
+                sphere.wall,
+            )
+            sides[rows.R_P : rows.R_P + 5, v], sides[rows.OWN_COMPLIANCE, v] = (
+                tree.constants(),
+                self.inertia.arteries,
+            )
+            memory = np.zeros(rows.REMEMBERED)
+            memory[rows.STRETCH] = self._filling_stretch(sphere, pressures[v])
+            memory[[rows.ARTERY, rows.P_C]] = windkessels[v].P_c
+            for row in (rows.NOW, rows.BEFORE, rows.OLDER):
+                sides[row : row + rows.REMEMBERED, v] = memory
+        sides[rows.P] = pressures[: len(self.spheres)]
+        return State(
+            sides, self._relaxed_fibres(sides[rows.NOW + rows.STRETCH]), self._resting_branches(), np.zeros(2)
+        )
+
+    def _relaxed_fibres(self, stretch: Floats) -> Floats:
+        fibres, active = np.zeros((rows.FIBRE_ROWS, len(self._activation))), self.muscle.active
+        fibres[:4], fibres[rows.KEPT] = active.rest(len(self._activation)), self._bridges
+        strain = np.repeat(0.5 * (stretch**2 - 1.0), len(self._activation) // len(stretch))
+        fibres[rows.E_C] = active.unstressed(strain)
+        return fibres
+
+    def _resting_branches(self) -> Floats:
+        branches, inertances = np.zeros((rows.BRANCH_ROWS, len(self.branches))), dict(self.inertia.valves)
+        branches[rows.INERTANCE] = [inertances.get(name, 0.0) for name in self.branches]
+        return branches
+
+    def _filling_stretch(self, sphere: Sphere, pressure: float) -> float:
+        """Stretch at which the relaxed sphere holds the pressure [Pa]."""
+        table, ratio = self.tissue.passive, 0.5 * sphere.thickness / sphere.radius
+
+        def excess(stretch: float) -> float:
+            slope = cavity(sphere.radius, ratio, stretch)[1]
+            return float(sphere.wall * passive_stress(table, stretch)[0] - pressure * slope)
+
+        upper = next((s for s in np.arange(1.02, LARGEST_STRETCH, 0.02) if excess(s) > 0.0), None)
+        if upper is None:
+            raise StepFailed(
+                f"no static equilibrium at {pressure:.0f} Pa below a stretch of {LARGEST_STRETCH:g}"
+            )
+        return float(brentq(excess, SMALLEST_FILLING_STRETCH, upper, xtol=1e-14))

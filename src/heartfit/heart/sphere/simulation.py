@@ -1,0 +1,140 @@
+"""Beats of spherical ventricles until the limit cycle; see :func:`heartfit.heart.simulation.simulate` for meshes."""
+
+import time as clock
+from collections.abc import Sequence
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.heart.beat import COST, Beat, failed_beat
+from heartfit.heart.circulation.elements import WindkesselState
+from heartfit.heart.finite_elements.kinematics import StepFailed
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics, Recurrence
+from heartfit.heart.sphere import rows
+from heartfit.heart.sphere.beat import State, StepInputs, advance
+from heartfit.heart.sphere.body import HEALTHY_ACTIVATION, Sphere
+from heartfit.heart.sphere.heart import Inertia, SphericalHeart
+from heartfit.roles import COMPARTMENTS
+
+FAILURE_REASONS = (
+    "",
+    "the walls and the circuit find no balance",
+    "a sphere is stretched out of bounds",
+    "the stiffness of a wall is zero or not finite",
+    "the sarcomere equation of a fibre has no solution",
+)
+"""Reasons of failed steps, by outcome."""
+
+SHIFTED_ROWS = [time + row for time in (rows.NOW, rows.BEFORE, rows.OLDER) for row in (rows.ARTERY, rows.P_C)]
+"""Rows of the pressures that are shifted between beats, at all stored times."""
+
+
+def simulate_spheres(
+    heart: Heart,
+    spheres: Sequence[Sphere],
+    numerics: Numerics | None = None,
+    activation: Floats = HEALTHY_ACTIVATION,
+    inertia: Inertia | None = None,
+) -> Beat:
+    """Beat of ``heart`` on its limit cycle, with the left ventricle, or both, as ``spheres``.
+
+    The equations, the scheme and the approach to the limit cycle are those of a ``SphericalBody`` in ``simulate``,
+    compiled as a whole. A left ventricle alone keeps the branches among its own compartments. ``activation`` (k,) are
+    the activation times of the fibre classes of a sphere [s]. The tolerances of ``numerics`` are not used: a step is
+    solved to 1e-5 mL and 0.01 Pa.
+    """
+    numerics = numerics or Numerics()
+    run = _SphereRun(
+        SphericalHeart(heart, spheres, activation, inertia or Inertia(), numerics.second_order), numerics
+    )
+    try:
+        return run.to_limit_cycle()
+    except StepFailed as failure:
+        return failed_beat(f"beat {run.beats + 1}: {failure}", heart.period, heart.trigger, run.diagnostics())
+
+
+class _SphereRun:
+    def __init__(self, heart: SphericalHeart, numerics: Numerics) -> None:
+        self._started = clock.thread_time()
+        self.heart, self.numerics, self.period = heart, numerics, heart.heart.period
+        self.steps = round(self.period / numerics.time_step)
+        self.beats = self.cuts = self.iterations = self.outcome = 0
+        self.drift = np.inf
+
+    def to_limit_cycle(self) -> Beat:
+        state, length = self.heart.start(), self.period / self.steps
+        before: Recurrence | None = None
+        inputs = self.heart.inputs(length * np.arange(float(self.steps)), length)
+        curves = np.empty((self.steps + 1, 3 * len(self.heart.spheres) + len(self.heart.branches)))
+        while True:
+            first = _windkessels(state)
+            self._run_beat(inputs, state, curves)
+            self.beats += 1
+            cycle = Recurrence(curves[:, : len(self.heart.spheres)], first, _windkessels(state))
+            self.drift = cycle.drift()
+            if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
+                return self._beat(curves)
+            _shift_pressures(state, cycle.shifts(self.heart.trees, self.period, before))
+            before = cycle
+
+    def _run_beat(self, inputs: StepInputs, state: State, curves: Floats) -> None:
+        completed = self._steps(inputs, state, curves, 0)
+        while completed < self.steps:
+            self._take_in_halves(state, inputs.length * completed, inputs.length, self.numerics.cuts)
+            completed = self._steps(inputs, state, curves, completed + 1)
+
+    def _steps(self, inputs: StepInputs, state: State, curves: Floats, first: int) -> int:
+        completed, self.outcome, iterations = advance(self.heart.tissue, inputs, state, curves, first)
+        self.iterations += iterations
+        return int(completed)
+
+    def _take_in_halves(self, state: State, start: float, length: float, cuts: int) -> None:
+        """Repeat the failed step in two halves, which are halved again up to ``cuts`` times."""
+        if cuts == 0:
+            raise StepFailed(f"at {start:.4f} s, step {length:.2g} s: {FAILURE_REASONS[self.outcome]}")
+        self.cuts, half = self.cuts + 1, 0.5 * length
+        scratch = np.empty((2, 3 * len(self.heart.spheres) + len(self.heart.branches)))
+        state.last[1] = 0.0
+        for begin in (start, start + half):
+            if not self._steps(self.heart.inputs(np.array([begin]), half), state, scratch, 0):
+                self._take_in_halves(state, begin, half, cuts - 1)
+        state.last[1] = 0.0
+
+    def _beat(self, curves: Floats) -> Beat:
+        heart, v = self.heart.heart, len(self.heart.spheres)
+        time = np.linspace(0.0, self.period, self.steps + 1)
+        atria = self.heart.atria(time)
+        curves[0, 3 * v :] = self.heart.flows(curves[0, v : 3 * v], curves[0, 3 * v :])
+        signals = [*curves[:, v : 3 * v].T, *atria]
+        names = [name for side in range(3) for name in COMPARTMENTS[2 * side : 2 * side + v]]
+        return Beat(
+            time=time,
+            volume=dict(zip(COMPARTMENTS, curves[:, :v].T, strict=False)),
+            pressure=dict(zip(names, signals, strict=True)),
+            flow=dict(zip(self.heart.branches, curves[:, 3 * v :].T, strict=True)),
+            period=heart.period,
+            trigger=heart.trigger,
+            diagnostics=self.diagnostics() | {"wall_volume_loss": 0.0},
+        )
+
+    def diagnostics(self) -> dict[str, float]:
+        """Number of beats, drift, halved steps, iterations and CPU time [s] of the run."""
+        return {
+            "beats": float(self.beats),
+            "drift": float(self.drift),
+            "step_cuts": float(self.cuts),
+            "iterations": float(self.iterations),
+            COST: clock.thread_time() - self._started,
+        }
+
+
+def _windkessels(state: State) -> list[WindkesselState]:
+    return [
+        WindkesselState(*held) for held in state.sides[[rows.NOW + rows.P_C, rows.NOW + rows.Q_L]].T.tolist()
+    ]
+
+
+def _shift_pressures(state: State, shifts: Sequence[float]) -> None:
+    """Shift the pressures of the arteries and of their Windkessels (v,) [Pa], at all stored times."""
+    state.sides[SHIFTED_ROWS] += shifts

@@ -1,0 +1,104 @@
+"""Measured costs of jobs and the files that a study leaves, as tables."""
+
+import csv
+import io
+from collections.abc import Sequence
+from dataclasses import astuple, fields
+from pathlib import Path
+from typing import TypeVar
+
+from heartfit.core.errors import InputError
+from heartfit.io.files import write_text
+from heartfit.study.forecast import Footprint, footprints
+from heartfit.study.need import SHARED, Cost, Need, needs, virtual_cases
+
+COLUMNS = {"s", "max_rss", "cpu_time"}
+
+
+def read_benchmarks(folder: Path) -> list[Cost]:
+    """Read the costs of all jobs, named by the paths of their benchmark files; raises InputError if there are none."""
+    files = sorted(Path(folder).rglob("*.tsv"))
+    if not files:
+        raise InputError(f"{folder}: no benchmark of a job; expected those of a study: `snakemake --cores 2`")
+    return [_read(file, file.relative_to(folder).with_suffix("").as_posix()) for file in files]
+
+
+def _read(file: Path, job: str) -> Cost:
+    with file.open(newline="") as stream:
+        row = next(csv.DictReader(stream, delimiter="\t"), {})
+    if not set(row) >= COLUMNS:
+        raise InputError(
+            f"{file}: no benchmark; expected the columns {', '.join(sorted(COLUMNS))}; delete it"
+        )
+    return Cost(job, float(row["s"]), _sampled(row["cpu_time"]), _sampled(row["max_rss"]))
+
+
+def _sampled(text: str) -> float:
+    """Parse a sampled number; 0 for a job that ended before its first sample."""
+    return 0.0 if text in ("NA", "-") else float(text)
+
+
+Row = TypeVar("Row", Need, Footprint)
+NEEDS, FOOTPRINTS = "costs.tsv", "footprints.tsv"
+
+
+def write_costs(folder: Path, results: Sequence[Path]) -> None:
+    """Write the needs of jobs of several studies, and the footprint of the files of the first study."""
+    write_text(folder / NEEDS, as_table(Need, measured_needs(results)))
+    write_text(folder / FOOTPRINTS, as_table(Footprint, measured_footprints(results[0])))
+
+
+def measured_needs(results: Sequence[Path]) -> list[Need]:
+    """Costs by kind of job; of a kind that several studies ran, the first study counts."""
+    rows: list[Need] = []
+    for folder in results:
+        measured = {row.job for row in rows}
+        rows += [row for row in needs(read_benchmarks(folder / "benchmarks")) if row.job not in measured]
+    return sorted(rows, key=lambda row: (row.job, row.per, row.kind))
+
+
+def measured_footprints(results: Path) -> list[Footprint]:
+    """Number and size of the files of a study, by kind."""
+    costs = read_benchmarks(results / "benchmarks")
+    virtual = virtual_cases(costs)
+    cases = {cost.job.split("/")[0] for cost in costs if "/" in cost.job} - {*SHARED}
+    kinds = {case: "virtual" if case in virtual else "measured" for case in cases}
+    settings = {cost.job.split("/")[1] for cost in costs if _under_a_setting(cost, cases)}
+    sizes = [
+        (file.relative_to(results).as_posix(), file.stat().st_size)
+        for file in sorted(results.rglob("*"))
+        if file.is_file()
+    ]
+    return footprints(sizes, kinds, settings)
+
+
+def _under_a_setting(cost: Cost, cases: set[str]) -> bool:
+    return cost.job.count("/") == 2 and cost.job.split("/")[0] in cases
+
+
+def as_table(kind: type[Row], rows: Sequence[Row]) -> str:
+    """Render rows as tab-separated text, numbers to four digits."""
+    text = io.StringIO()
+    table = csv.writer(text, delimiter="\t", lineterminator="\n")
+    table.writerow([entry.name for entry in fields(kind)])
+    for row in rows:
+        table.writerow([f"{value:.4g}" if isinstance(value, float) else value for value in astuple(row)])
+    return text.getvalue()
+
+
+def read_table(kind: type[Row], path: Path) -> list[Row]:
+    """Read a table that `as_table` rendered; raises InputError for a missing file or other columns."""
+    if not path.is_file():
+        raise InputError(f"{path}: no such file; expected measured costs: `heartfit costs` writes them")
+    with path.open(newline="", encoding="utf-8") as stream:
+        lines = list(csv.DictReader(stream, delimiter="\t"))
+    columns = [(entry.name, entry.type) for entry in fields(kind)]
+    try:
+        return [
+            kind(**{name: parse(line[name]) for name, parse in columns if callable(parse)}) for line in lines
+        ]
+    except (KeyError, TypeError, ValueError):
+        expected = ", ".join(name for name, _ in columns)
+        raise InputError(
+            f"{path}: not the costs that were measured; expected the columns {expected}: write it anew"
+        ) from None

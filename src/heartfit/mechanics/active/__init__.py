@@ -1,1 +1,0 @@
-"""Active laws, one per file: fibre tension driven by the electrical control."""

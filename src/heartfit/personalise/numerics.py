@@ -1,0 +1,102 @@
+"""Numerical settings: meshes, time steps, filling pressures, observation and transform."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Self
+
+from pydantic import Field, PositiveFloat, model_validator
+
+from heartfit.calibration.unscented import Scaling
+from heartfit.core.validation import Strict
+from heartfit.heart.simulation import Numerics
+from heartfit.observation.curve import Curve
+from heartfit.observation.operator import CurveFeatures, PressureFeatures, VolumeFeatures, operators
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """Numerics of the beat; pressures (lv, rv) at end diastole, Pa."""
+
+    numerics: Numerics
+    end_diastolic_pressure: tuple[float, float]
+
+
+class MeshSize(Strict):
+    """Wished edge length and how far the boundary may leave the measured surface."""
+
+    edge_length: float = Field(gt=1e-3, lt=0.05, description="m")
+    tolerance: float = Field(gt=1e-5, lt=5e-3, description="m")
+
+
+class TimeScheme(Strict):
+    """Step of the beat and when the beats count as periodic."""
+
+    time_step: float = Field(gt=1e-5, le=0.02, description="s")
+    second_order: bool = Field(True, description="BDF2 and midpoints of the fibres, or backward Euler")
+    max_beats: int = Field(ge=1, le=1000)
+    drift: float = Field(gt=0, lt=1, description="largest relative change from beat to beat")
+
+    def numerics(self) -> Numerics:
+        """As the simulation takes it."""
+        return Numerics(**self.model_dump())
+
+
+class Pressures(Strict):
+    """Pressures of the ventricles at end diastole, under which the measured mesh stands."""
+
+    lv: float = Field(ge=0, lt=5e3, description="Pa")
+    rv: float = Field(ge=0, lt=5e3, description="Pa")
+
+
+class Generator(Strict):
+    """Mesh and time scheme of such hearts."""
+
+    mesh: MeshSize
+    numerics: TimeScheme
+
+    def protocol(self, pressures: Pressures) -> Protocol:
+        """As the cohort takes it."""
+        return Protocol(self.numerics.numerics(), (pressures.lv, pressures.rv))
+
+
+class Operator(Strict):
+    """Observation of volume curves; see heartfit.observation.operator."""
+
+    frames: int = Field(ge=8, le=1000)
+    window: int = Field(ge=3, description="frames of the smoothing filter, odd")
+    order: int = Field(ge=1)
+    period_uncertainty: float = Field(ge=0, lt=0.5, description="relative standard deviation")
+
+    @model_validator(mode="after")
+    def _can_be_applied(self) -> Self:
+        self.trial_features(self.frames)
+        return self
+
+    def features(self, measured: Mapping[str, Curve]) -> dict[str, CurveFeatures]:
+        """The operator of each curve that is observed: the LV's volume, and its pressure where measured."""
+        return operators(measured, self.frames, self.window, self.order)
+
+    def trial_features(self, frames: int) -> dict[str, CurveFeatures]:
+        """The operators of a trial of the measurement, whose images have this number of frames."""
+        return {
+            "lv_volume": VolumeFeatures(frames, self.window, self.order),
+            "lv_pressure": PressureFeatures(),
+        }
+
+
+class Transform(Strict):
+    """The numbers of the unscented transform, and whether bias and noise of the observations are used (R > 0)."""
+
+    a: PositiveFloat = 1.0
+    b: float = 2.0
+    kappa: float = 0.0
+    noise: bool = False
+    fixed_sd: Annotated[float, Field(ge=0, lt=1, description="relative, of what is not estimated")] = 0.1
+
+    def with_noise(self) -> "Transform":
+        """The same with the noise of the observations, whatever this one says."""
+        return self.model_copy(update={"noise": True})
+
+    def scaling(self) -> Scaling:
+        """As the calibration takes it."""
+        return Scaling(self.a, self.b, self.kappa)

@@ -1,0 +1,176 @@
+"""Settings: which model, which parameters are estimated, and from which prior."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from functools import cache
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, PositiveFloat, model_validator
+
+from heartfit.calibration.gaussian import Gaussian
+from heartfit.core.pages import render_page, table_row
+from heartfit.core.parameter import Parameter, parameters_of
+from heartfit.core.validation import Strict
+from heartfit.heart.finite_elements.body import Tissue
+from heartfit.heart.heart import PAPER_PARAMETERS, Heart
+from heartfit.roles import Mechanism, Sensor, registered
+
+
+def declaration(name: str) -> Parameter:
+    """The declaration of a parameter by a name as Heart.with_parameters takes; raises KeyError as it does."""
+    return _declared(name, tuple(registered().values()))
+
+
+@cache
+def _declared(name: str, known: tuple[type[Mechanism], ...]) -> Parameter:
+    """Kept for a state of the registry: the jobs of a study ask for the same few names over and over."""
+    heart = compose_heart(kind.__name__ for kind in known)
+    *parts, last = heart.parameter_path(name).split(".")
+    part: Any = heart
+    for step in parts:
+        part = getattr(part, step, None) or _mechanism(heart, step)
+    return next(entry for entry in parameters_of(part) if entry.name == last)
+
+
+def _mechanism(heart: Heart, name: str) -> Any:
+    return next(mechanism for mechanism in heart.mechanisms if type(mechanism).__name__ == name)
+
+
+def compose_heart(mechanisms: Iterable[str], heart: Heart | None = None) -> Heart:
+    """A heart (the standard one) plus mechanisms by name; raises KeyError naming the nearest known one."""
+    known, result = registered(), heart or Heart()
+    for name in mechanisms:
+        if name not in known:
+            near = get_close_matches(name, known, n=1, cutoff=0.0)[0]
+            raise KeyError(
+                f"mechanism {name!r} is unknown; did you mean {near}? Known are {', '.join(known)}"
+            )
+        result = result + known[name]()
+    return result
+
+
+def parameter_page() -> str:
+    """The reference page of all parameters, in Markdown."""
+    table = "".join(_row(path, entry) for path, entry in _all_parameters())
+    return render_page("parameters", table=table)
+
+
+def _all_parameters() -> Iterator[tuple[str, Parameter]]:
+    yield from ((path, declaration(path)) for path in compose_heart(registered()).parameters())
+
+
+def _row(path: str, entry: Parameter) -> str:
+    of_the_paper = entry.name in PAPER_PARAMETERS and "pulmonary_tree" not in path
+    return table_row(
+        f"{entry.name}{' *' if of_the_paper else ''}",
+        f"${entry.symbol}$",
+        f"{entry.value:g}",
+        entry.unit,
+        "" if entry.sd is None else f"{100 * entry.sd:g} %",
+        "" if entry.off is None else f"{entry.off:g}",
+        "" if entry.scale is None else f"{'' if entry.one_sided else '±'}{entry.scale:g}",
+        entry.meaning,
+        f"`{path}`",
+    )
+
+
+Element = Literal["mixed", "p1", "sphere"]
+
+
+class Prior(Strict):
+    """Median and relative standard deviation of a parameter; where nothing is said, the declared ones."""
+
+    mean: PositiveFloat | None = None
+    sd: Annotated[float | None, Field(gt=0, lt=1)] = None
+
+    def over(self, other: "Prior | Parameter") -> "Prior":
+        """Fields of this prior, completed by those of `other`."""
+        base = Prior(mean=other.value, sd=other.sd) if isinstance(other, Parameter) else other
+        return Prior(mean=self.mean or base.mean, sd=self.sd or base.sd)
+
+
+class Setting(Strict):
+    """A model and what is estimated of it."""
+
+    element: Element
+    reference: Literal["unloaded", "end_diastolic"] = Field("unloaded", description="the stress-free state")
+    mechanisms: tuple[str, ...] = Field((), description="added to the heart, by name")
+    estimate: tuple[str, ...] = Field(min_length=1)
+    with_pressure: tuple[str, ...] = Field((), description="estimated too where the LV pressure is measured")
+    heart: dict[str, float] = Field({}, description="parameters that differ from their declared value")
+    prior: dict[str, Prior] = Field({}, description="what differs from the study's prior")
+
+    @model_validator(mode="after")
+    def _names_are_sound(self) -> Self:
+        try:
+            heart = compose_heart(self.mechanisms)
+            for name in (*self.estimate, *self.with_pressure, *self.heart, *self.prior):
+                heart.parameter_path(name)
+            heart.with_parameters(self.heart)
+        except KeyError as unknown:
+            raise ValueError(str(unknown.args[0])) from None
+        if len(set(self.mechanisms)) < len(self.mechanisms):
+            raise ValueError(f"{', '.join(self.mechanisms)}: a mechanism is added twice; name each once")
+        estimated = (*self.estimate, *self.with_pressure)
+        both = sorted(set(estimated) & set(self.heart))
+        if both:
+            raise ValueError(f"{both[0]} is estimated and fixed at once; give its mean under prior instead")
+        if len(set(estimated)) < len(estimated):
+            raise ValueError(f"{', '.join(estimated)}: a parameter is estimated twice; name each once")
+        return self
+
+    def with_lv_pressure(self) -> "Setting":
+        """The setting of a case whose LV pressure is measured."""
+        return self.model_copy(
+            update={"estimate": (*self.estimate, *self.with_pressure), "with_pressure": ()}
+        )
+
+    def with_estimated(self, names: Sequence[str]) -> "Setting":
+        """The setting with these parameters estimated instead; one that was fixed is the mean of its prior."""
+        freed = {name: Prior(mean=value) for name, value in self.heart.items() if name in names}
+        prior = self.prior | {name: mean.over(self.prior.get(name, Prior())) for name, mean in freed.items()}
+        fixed = {name: value for name, value in self.heart.items() if name not in names}
+        changes = {"estimate": tuple(names), "with_pressure": (), "heart": fixed, "prior": prior}
+        return self.model_copy(update=changes)
+
+    def with_prior(self, table: Mapping[str, Prior]) -> "Setting":
+        """The setting with the prior complete: its own, over the study's, over the declared one."""
+        signed = [name for name in self.estimate if declaration(name).low < 0.0]
+        if signed:
+            raise ValueError(
+                f"{signed[0]} is estimated and may be negative, but priors are log-normal; fix it under heart"
+            )
+        merged = {
+            name: self.prior.get(name, Prior()).over(table.get(name, Prior())).over(declaration(name))
+            for name in self.estimate
+        }
+        vague = [name for name, prior in merged.items() if prior.sd is None]
+        if vague:
+            raise ValueError(f"{vague[0]} is estimated and has no prior; give its sd under prior")
+        return self.model_copy(update={"prior": merged})
+
+    def gaussian(self) -> Gaussian:
+        """The complete prior."""
+        means = {name: self.prior[name].mean or 0.0 for name in self.estimate}
+        return Gaussian.from_relative(means, {name: self.prior[name].sd or 0.0 for name in self.estimate})
+
+    def base_heart(self, period: float) -> Heart:
+        """The heart at the mean of the prior."""
+        heart = compose_heart(self.mechanisms, Heart(tissue=Tissue(element=self.element), period=period))
+        return heart.with_parameters({**self.heart, **self.gaussian().physical()})
+
+    def sensors(self, parameters: Mapping[str, float]) -> tuple[Sensor, ...]:
+        """The sensors through which a beat with these parameters is observed; `parameters` by name, SI."""
+        return compose_heart(self.mechanisms).with_parameters({**self.heart, **parameters}).sensors
+
+    def units(self) -> dict[str, str]:
+        """SI unit of each estimated parameter."""
+        return {name: declaration(name).unit for name in self.estimate}
+
+
+def require_known(name: str) -> None:
+    """Raise ValueError, as validation wants it, when no parameter has this name."""
+    try:
+        declaration(name)
+    except KeyError as unknown:
+        raise ValueError(str(unknown.args[0])) from None

@@ -1,0 +1,119 @@
+"""Card of a case as a figure: prior, posteriors and truth of each parameter, and the informed directions."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from heartfit.calibration.gaussian import INFORMED_SHARE, Gaussian
+from heartfit.results.card import INTERVAL_REACH, Card
+from heartfit.results.figures import ARTERY, CALIBRATED, MEASURED, REFERENCE, clean
+from heartfit.results.text import symbol
+
+AXIS_LIMIT = 4.0
+"""Prior standard deviations; marks beyond are arrows at the edge."""
+
+NOISE_FREE_COLOUR, NOISE_AWARE_COLOUR = CALIBRATED, ARTERY
+
+
+def plot_cards(cards: Iterable[Card]) -> dict[str, Figure]:
+    """Return the cards by file name."""
+    return {f"{card.case}_{card.setting}_card": plot_card(card) for card in cards}
+
+
+def plot_card(card: Card) -> Figure:
+    """Plot the parameters in prior standard deviations, and the share of the prior variance that the data remove.
+
+    Left: 95 % of the prior in grey, 95 % of the posterior in colour, and the truth. Right: one bar per direction, from
+    the best informed to the least informed.
+    """
+    count = len(card.prior.names)
+    figure = Figure(figsize=(8.0, 1.75 + 0.42 * count), layout="constrained")
+    left, right = figure.subplots(1, 2, width_ratios=(3.4, 1))
+    draw_parameters(left, card)
+    _directions(right, card)
+    figure.suptitle(
+        f"{card.case}, {card.setting}: {card.seen.rank} of {count} directions informed by the data",
+        fontsize=11,
+    )
+    values = ", ".join(f"{value:.2f}" for value in card.met.singular_values)
+    least = f"least informed ({100 * card.seen.reduction[-1]:.0f} %): {_weakest_direction(card)}"
+    figure.supxlabel(f"{least}; singular values of Cov(X, Z): {values}", fontsize=8)
+    return figure
+
+
+def draw_parameters(axes: Axes, card: Card) -> None:
+    """Draw one row per parameter in prior standard deviations: prior, posterior, estimate, truth."""
+    rows = np.arange(len(card.prior.names))
+    covered = card.covered(card.weighed.estimate)
+    axes.barh(
+        rows, 2 * INTERVAL_REACH, left=-INTERVAL_REACH, height=0.62, color="#e6e6e6", label="prior, 95 %"
+    )
+    _intervals(axes, card, card.weighed.estimate, NOISE_AWARE_COLOUR, "noise-aware posterior, 95 %")
+    _marks(axes, card.place(card.met.estimate), "|", NOISE_FREE_COLOUR, "noise-free estimate")
+    _marks(axes, card.true_place(), "D", MEASURED, "truth")
+    for row, name in enumerate(card.prior.names):
+        verdict = (", covered" if covered[name] else ", missed") if name in covered else ""
+        text = f"sd {card.seen.sd_ratio[row]:.2f}{verdict}"
+        axes.text(
+            AXIS_LIMIT + 0.15,
+            row,
+            text,
+            va="center",
+            fontsize=8,
+            color=CALIBRATED if "missed" in verdict else "black",
+        )
+    axes.set_yticks(rows, [symbol(name) for name in card.prior.names])
+    axes.set_ylim(len(rows) - 0.5, -0.5)
+    axes.set_xlim(-AXIS_LIMIT - 0.1, AXIS_LIMIT + 0.1)
+    axes.set_xlabel("ln parameter − prior mean (prior sd)", fontsize=9)
+    axes.legend(
+        loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, frameon=False, fontsize=8, columnspacing=1.0
+    )
+    clean(axes)
+
+
+def _intervals(axes: Axes, card: Card, estimate: Gaussian, colour: str, label: str) -> None:
+    reach = INTERVAL_REACH * estimate.sd / card.prior.sd
+    ends = np.clip([card.place(estimate) - reach, card.place(estimate) + reach], -AXIS_LIMIT, AXIS_LIMIT)
+    rows = np.arange(len(reach))
+    axes.barh(rows, ends[1] - ends[0], left=ends[0], height=0.3, color=colour, alpha=0.75, label=label)
+
+
+def _marks(axes: Axes, places: np.ndarray, marker: str, colour: str, label: str) -> None:
+    """Draw marks, as arrows at the edge for places beyond it."""
+    rows, finite = np.arange(len(places)), np.isfinite(places)
+    within = finite & (np.abs(places) <= AXIS_LIMIT)
+    size = 14 if marker == "|" else 5
+    if finite.any():
+        axes.plot(
+            places[within],
+            rows[within],
+            marker,
+            color=colour,
+            markersize=size,
+            markeredgewidth=2,
+            label=label,
+        )
+    for place, row in zip(places[finite & ~within], rows[finite & ~within], strict=True):
+        axes.plot(np.sign(place) * AXIS_LIMIT, row, ">" if place > 0 else "<", color=colour, markersize=7)
+
+
+def _directions(axes: Axes, card: Card) -> None:
+    reduction = card.seen.reduction
+    colours = [NOISE_AWARE_COLOUR if share > INFORMED_SHARE else REFERENCE for share in reduction]
+    axes.barh(np.arange(len(reduction)), reduction, height=0.62, color=colours)
+    axes.axvline(INFORMED_SHARE, color="black", linewidth=0.8, linestyle=":")
+    axes.set_yticks(np.arange(len(reduction)), [str(place) for place in range(1, len(reduction) + 1)])
+    axes.set_ylim(len(reduction) - 0.5, -0.5)
+    axes.set_xlim(0, 1)
+    axes.set_xlabel("prior variance removed", fontsize=9)
+    axes.set_ylabel("direction", fontsize=9)
+    axes.set_title(f"{card.seen.degrees:.1f} effective parameters", fontsize=8)
+    clean(axes)
+
+
+def _weakest_direction(card: Card) -> str:
+    """Return the least informed direction with symbols for names."""
+    return " ".join(symbol(word) if word in card.prior.names else word for word in card.weakest().split())

@@ -1,0 +1,172 @@
+"""Cause card: the sentences in which a diagnosis is read."""
+
+import re
+from collections.abc import Iterable
+
+from heartfit.discovery.sphere_model.cause import Cause, Departure, Diagnosis, Gain, Refitted, departures
+from heartfit.results.text import printed_curve_unit
+
+CURVES = {
+    "lv_volume": "left ventricular volume",
+    "lv_pressure": "left ventricular pressure",
+    "aorta_pressure": "aortic pressure",
+    "rv_volume": "right ventricular volume",
+}
+UNITS = {"m^2": ("cm²", 1e4), "m^3": ("mL", 1e6), "Pa": ("kPa", 1e-3), "s": ("ms", 1e3), "1": ("", 1.0)}
+"""Printed unit of an amplitude and the factor from SI, by SI unit."""
+
+
+def verdict_sentence(diagnosis: Diagnosis) -> str:
+    """Return the verdict as one sentence: "Missing mechanism: mitral regurgitation, 0.31 cm² (95 % CI ...)."."""
+    named = "; ".join(mechanism_with_size(cause) for cause in diagnosis.mechanisms)
+    return {
+        "none": f"No missing mechanism detected: the simulation explains {_explained_recording(diagnosis)}.",
+        "named": f"Missing mechanism: {named}.",
+        "two": f"Missing mechanisms: {named}.",
+        "group": f"Missing mechanism: one of {_mechanism_names(diagnosis)}; these data do not distinguish them.",
+        "unknown": "Unknown missing mechanism: no mechanism of the library explains the misfit.",
+        "insufficient": "Insufficient data: no conclusion about a missing mechanism.",
+    }[diagnosis.verdict]
+
+
+def _explained_recording(diagnosis: Diagnosis) -> str:
+    """Return "the recording", less the curves that depart and were not searched."""
+    departing = {departure.curve for departure in departures(diagnosis) if departure.clear}
+    excepted = " and ".join(CURVES[name] for name in sorted(departing & set(diagnosis.unsearched)))
+    return f"the recording except the {excepted}, which was not searched" if excepted else "the recording"
+
+
+def mechanism_with_size(cause: Cause) -> str:
+    """Return a mechanism with its size, such as "mitral regurgitation, 0.31 cm² (95 % CI 0.24 to 0.39)"."""
+    unit, factor = UNITS.get(cause.unit, (cause.unit, 1.0))
+    value, low, high = (f"{factor * amplitude:.3g}" for amplitude in (cause.amplitude, *cause.interval))
+    return f"{spaced_name(cause.name)}, {f'{value} {unit}'.strip()} (95 % CI {low} to {high})"
+
+
+def spaced_name(name: str) -> str:
+    """Return the name of a class as words: "mitral regurgitation" for MitralRegurgitation."""
+    return re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower()
+
+
+def _mechanism_names(diagnosis: Diagnosis) -> str:
+    return ", ".join(spaced_name(cause.name) for cause in diagnosis.mechanisms)
+
+
+def markdown_card(diagnosis: Diagnosis, title: str) -> str:
+    """Return the card in Markdown: verdict, misfit, evidence, alternatives, next measurement and held-out error."""
+    misfits = [f"- {line}" for line in departure_sentences(diagnosis)]
+    misfits += [f"- {line}" for line in unsearched_sentences(diagnosis)]
+    parts = [
+        f"# {title}\n\n**{verdict_sentence(diagnosis)}**",
+        "## Misfit of the simulation\n\n" + "\n".join(misfits),
+        "## Evidence for each mechanism\n\n" + _ranking_table(diagnosis),
+        "## Alternative explanations\n\n" + alternatives_text(diagnosis),
+        "## Next measurement\n\n" + next_measurement_text(diagnosis),
+        f"## Held-out error with {gain_subject(diagnosis)}\n\n" + gains_text(diagnosis.gain),
+        *([f"## Refit in three dimensions\n\n{refit_section(diagnosis.refitted)}"] if diagnosis.refitted else []),
+        *([self_test_sentence(diagnosis)] if diagnosis.self_test is not None else []),
+        f"Simulated beats: {diagnosis.simulations}.",
+    ]  # fmt: skip
+    return "\n\n".join(parts) + "\n"
+
+
+def self_test_sentence(diagnosis: Diagnosis) -> str:
+    """Return the largest ln Bayes factor in beats without a hidden effect, and the detection threshold."""
+    return (
+        "The largest ln Bayes factor in beats of the model without a hidden effect is "
+        f"{diagnosis.self_test:.1f} (median); the detection threshold is {diagnosis.threshold:g}."
+    )
+
+
+def departure_sentences(diagnosis: Diagnosis) -> tuple[str, ...]:
+    """Return one sentence per curve about its greatest departure."""
+    return tuple(map(departure_sentence, departures(diagnosis)))
+
+
+def departure_sentence(departure: Departure) -> str:
+    """Return "aortic pressure: simulation 0.8 ± 0.2 kPa too low in ejection (4.0 standard deviations, 120 ms ...)."."""
+    curve, (unit, size_of_unit) = (
+        CURVES.get(departure.curve, departure.curve),
+        printed_curve_unit(departure.curve),
+    )
+    if not departure.clear:
+        return f"{curve}: no misfit beyond the noise."
+    factor = 1.0 / size_of_unit
+    size, sd = factor * abs(departure.size), factor * departure.sd
+    return (
+        f"{curve}: simulation {size:.2g} ± {sd:.1g} {unit} {direction_and_phase(departure)} "
+        f"({abs(departure.deviations):.1f} standard deviations, {1e3 * departure.time:.0f} ms after the trigger)."
+    )
+
+
+def direction_and_phase(departure: Departure) -> str:
+    """Return "too low in ejection", or "too low" where the beat has no phases."""
+    direction = "too high" if departure.size > 0.0 else "too low"
+    return f"{direction} in {departure.phase}" if departure.phase else direction
+
+
+def unsearched_sentences(diagnosis: Diagnosis) -> list[str]:
+    """Return one sentence per recorded curve that the search left out, with the reason."""
+    return [
+        f"{CURVES[name]}: not searched, because {reason}." for name, reason in diagnosis.unsearched.items()
+    ]
+
+
+def next_measurement_text(diagnosis: Diagnosis) -> str:
+    """Return the measurement that would decide between the alternatives, if one is needed."""
+    return diagnosis.next_measurement or "None: the data decide."
+
+
+def _ranking_table(diagnosis: Diagnosis) -> str:
+    lines = [f"| {spaced_name(name)} | {value:.1f} |" for name, value in list(diagnosis.ranking.items())[:6]]
+    return "| mechanism | ln Bayes factor over baseline |\n|---|---|\n" + "\n".join(lines)
+
+
+def alternatives_text(diagnosis: Diagnosis) -> str:
+    """Return the alternatives as a list, or one sentence that says why there is none."""
+    if diagnosis.withdrawn:
+        names = ", ".join(map(spaced_name, diagnosis.withdrawn))
+        return f"Withdrawn: {names}. The fit to the searched data improves, the held-out error does not."
+    if diagnosis.verdict == "unknown":
+        best = next(name for name in diagnosis.ranking if name != "unknown")
+        return (
+            f"None in the library: the best candidate, {spaced_name(best)}, leaves a misfit beyond the noise."
+        )
+    if not diagnosis.alternatives:
+        return "None in the library within a ln Bayes factor of 3."
+    return "\n".join(f"- {' and '.join(map(spaced_name, effects))}" for effects in diagnosis.alternatives)
+
+
+def refit_section(refitted: Refitted) -> str:
+    """Return the evidence of the refit in three dimensions and a table of the parameters without and with it."""
+    added = "; ".join(mechanism_with_size(cause) for cause in refitted.extension)
+    convergence = (
+        "Both refits converged" if refitted.converged else "A refit had not converged at its last step"
+    )
+    changes = [
+        f"| {name} | {refitted.none[name]:.3g} | {value:.3g} | {100.0 * (value / refitted.none[name] - 1.0):+.0f} |"
+        for name, value in refitted.extended.items()
+    ]
+    return (
+        f"Extension of the model: {added}. Its ln Bayes factor is {refitted.ln_bayes_factor:.1f} over the model "
+        f"without it; both were fitted to half of the samples in {refitted.simulations} beats. {convergence}.\n\n"
+        "| parameter (SI) | without | with | change (%) |\n|---|---|---|---|\n" + "\n".join(changes)
+    )
+
+
+def gain_subject(diagnosis: Diagnosis) -> str:
+    """Return "the named mechanism", or the extension that was refitted although none is named."""
+    if diagnosis.mechanisms or not diagnosis.refitted:
+        return "the named mechanism"
+    refitted = " and ".join(spaced_name(cause.name) for cause in diagnosis.refitted.extension)
+    return f"{refitted} (refitted, not named)"
+
+
+def gains_text(gains: Iterable[Gain]) -> str:
+    """Return the ratios of the held-out errors with and without the mechanism as a list."""
+    lines = [
+        f"- {CURVES.get(gain.curve, gain.curve)} ({gain.on}): error ratio {gain.ratio:.2f} "
+        f"(95 % CI {gain.interval[0]:.2f} to {gain.interval[1]:.2f})"
+        for gain in gains
+    ]
+    return "\n".join(lines) or "No mechanism is named."

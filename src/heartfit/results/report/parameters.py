@@ -1,0 +1,103 @@
+"""Parameters of all cases: prior, posterior, noise-free estimate and truth."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from heartfit.calibration.gaussian import Gaussian
+from heartfit.core.units import printed_unit, to_printed_unit
+from heartfit.results.card import INTERVAL_REACH
+from heartfit.results.card_figure import AXIS_LIMIT, draw_parameters
+from heartfit.results.figures import ARTERY, CALIBRATED, MEASURED, clean
+from heartfit.results.report.picture import TEXT, WIDTH, Picture, as_picture, grid, legend
+from heartfit.results.report.record import CaseRecord, FittedCase
+from heartfit.results.text import symbol
+
+COLUMNS, PANEL_HEIGHT, ROW_HEIGHT, LEGEND = 4, 0.9, 0.24, 26
+"""Panels per row; height of a panel without cases and of each case [inch]; height of a line of legend [points]."""
+PRIOR = "#dddddd"
+
+
+def plot_parameters(cases: Sequence[CaseRecord], setting: str) -> Picture:
+    """Plot one panel per parameter with one row per case."""
+    fits = {case.name: case.fits[setting] for case in cases}
+    names = list(dict.fromkeys(name for fit in fits.values() for name in fit.result.estimate))
+    with rc_context(TEXT):
+        figure, panels = grid(len(names), COLUMNS, PANEL_HEIGHT + ROW_HEIGHT * len(fits))
+        for axes, name in zip(panels, names, strict=True):
+            _panel(axes, fits, name)
+        legend(figure, panels)
+        return as_picture(figure, f"{', '.join(names)} of each case, setting {setting}, beside the prior")
+
+
+def plot_estimates(case: CaseRecord, cases: Sequence[CaseRecord]) -> Picture:
+    """Plot all parameters of a case in prior standard deviations with the cohort as dots, one panel per setting."""
+    rows = max(len(fit.card.prior.names) for fit in case.fits.values())
+    with rc_context(TEXT):
+        figure = Figure(figsize=(WIDTH, PANEL_HEIGHT + 2 * ROW_HEIGHT * (1 + rows)), layout="constrained")
+        for axes, (setting, fit) in zip(
+            figure.subplots(1, len(case.fits), squeeze=False)[0], case.fits.items(), strict=True
+        ):
+            draw_parameters(axes, fit.card)
+            _others(axes, fit, [other.fits[setting] for other in cases if other is not case])
+            axes.set_title(setting, pad=LEGEND)
+        return as_picture(figure, f"Parameters of {case.name} beside the prior and the cohort")
+
+
+def _others(axes: Axes, fit: FittedCase, others: Sequence[FittedCase]) -> None:
+    """Plot the estimates of other cases, in the prior of this case."""
+    prior = fit.card.prior
+    for row, name in enumerate(prior.names):
+        logs = [np.log(other.result.estimate[name]) for other in others if name in other.result.estimate]
+        places = (np.array(logs) - prior.mean[row]) / prior.sd[row]
+        within = places[np.abs(places) <= AXIS_LIMIT]
+        axes.plot(within, np.full(len(within), row + 0.39), ".", color="#666666", markersize=4)
+
+
+def _panel(axes: Axes, fits: Mapping[str, FittedCase], name: str) -> None:
+    unit = next(fit.result.units[name] for fit in fits.values() if name in fit.result.units)
+    for row, fit in enumerate(fits.values()):
+        if name in fit.result.estimate:
+            _intervals(axes, row, fit, name)
+        else:
+            across = axes.get_yaxis_transform()
+            axes.text(
+                0.03, row, "not estimated", transform=across, va="center", fontsize=7.5, color="#555555"
+            )
+    axes.set_yticks(range(len(fits)), list(fits))
+    axes.set_ylim(len(fits) - 0.4, -0.6)
+    axes.set_xlabel(f"{symbol(name)} ({_superscript(printed_unit(unit))})")
+    clean(axes)
+
+
+def _intervals(axes: Axes, row: int, fit: FittedCase, name: str) -> None:
+    unit = fit.result.units[name]
+    gaussians = {
+        "prior, 95 %": (fit.posterior.prior, 0.8, PRIOR),
+        "noise-aware posterior, 95 %": (fit.card.weighed.estimate, 0.42, ARTERY),
+    }
+    for label, (gaussian, height, shade) in gaussians.items():
+        low, high = (to_printed_unit(end, unit) for end in _interval(gaussian, name))
+        axes.barh(row, high - low, height, left=low, color=shade, label=label, linewidth=0)
+    met = to_printed_unit(fit.result.estimate[name], unit)
+    stroke: Any = {"markersize": 11, "markeredgewidth": 2.2}
+    axes.plot(met, row, "|", color=CALIBRATED, label="noise-free estimate", **stroke)
+    if name in fit.card.truth:
+        axes.plot(
+            to_printed_unit(fit.card.truth[name], unit), row, "D", color=MEASURED, markersize=4, label="truth"
+        )
+
+
+def _interval(gaussian: Gaussian, name: str) -> tuple[float, float]:
+    """Return the 95 % interval of a parameter, SI."""
+    place = gaussian.names.index(name)
+    mean, reach = gaussian.mean[place], INTERVAL_REACH * gaussian.sd[place]
+    return float(np.exp(mean - reach)), float(np.exp(mean + reach))
+
+
+def _superscript(unit: str) -> str:
+    return unit.replace("^3", "³")

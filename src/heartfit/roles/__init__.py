@@ -1,0 +1,40 @@
+"""Roles of mechanisms, the physical effects that are added to a heart.
+
+A mechanism is one frozen dataclass in one file of ``heartfit/mechanisms``; it declares its parameters
+(:mod:`heartfit.core.parameter`), exactly one of which has an ``off`` value at which the effect vanishes. The folder
+is the registry: a file dropped there is a candidate everywhere.
+"""
+
+from heartfit.roles.interfaces import (
+    COMPARTMENTS,
+    Amendment,
+    Availability,
+    Delay,
+    External,
+    Flow,
+    Mechanism,
+    Narrowing,
+    Pressure,
+    Relaxation,
+    Sensor,
+    Stress,
+)
+from heartfit.roles.registry import ROLES, mechanism, registered
+
+__all__ = [
+    "COMPARTMENTS",
+    "ROLES",
+    "Amendment",
+    "Availability",
+    "Delay",
+    "External",
+    "Flow",
+    "Mechanism",
+    "Narrowing",
+    "Pressure",
+    "Relaxation",
+    "Sensor",
+    "Stress",
+    "mechanism",
+    "registered",
+]

@@ -1,0 +1,136 @@
+r"""Laws of circuit branches and of outside loads, as coefficients that Python and compiled beats share.
+
+A branch of the circuit has the flow
+
+.. math:: q(\Delta p) = K \Delta p + A \sqrt{2/\rho}\, \Delta p\, (\Delta p^2 + \epsilon^2)^{-1/4},
+
+a conductance K beside an orifice of area A, each with one value for forward (:math:`\Delta p > 0`) and one for
+backward flow. The orifice is Bernoulli's, its root smoothed over :math:`\epsilon` = 20 Pa. A narrowing in series takes
+:math:`b q^2` of the forward drop, which leaves a conductance
+
+.. math:: q = \frac{2 K \Delta p}{1 + \sqrt{1 + 4 b K^2 \Delta p}}
+
+and a smaller orifice. Valves and leaks are such branches.
+
+A load is a pressure on the outside of a ventricle,
+
+.. math:: p(\bar V) = p_0 + a\, e^{(\bar V - V_0) / v}
+
+with :math:`\bar V` the mean volume of the ventricles that beat side by side; a single ventricle takes its own. A wall
+that keeps its volume transmits the outside pressure to its cavity unchanged.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+
+BLOOD_DENSITY = 1060.0
+"""Density of blood [kg/m^3]."""
+
+SMOOTHING = 20.0
+"""Pressure drop [Pa] below which the orifice law is linear: the slope of the square root is infinite at zero."""
+
+
+class Branch(NamedTuple):
+    """Coefficients of a branch: conductances [m^3/(s Pa)] and orifice areas [m^2], forward and backward.
+
+    ``loss`` [Pa s^2/m^6] is the b of a narrowing in series with the forward conductance. Each is a number, or an array
+    over times.
+    """
+
+    conductance: float | Floats = 0.0
+    area: float | Floats = 0.0
+    back_conductance: float | Floats = 0.0
+    back_area: float | Floats = 0.0
+    loss: float | Floats = 0.0
+
+    def flow(self, drop: float) -> tuple[float, float]:
+        """Flow [m^3/s] at the pressure drop [Pa], and its derivative by the drop."""
+        flow, slope = branch_flow(np.array([[self]]), 0, 0, drop)
+        return float(flow), float(slope)
+
+    def with_narrowing(self, inverse_square: float) -> "Branch":
+        r"""Return the branch in series with a narrowing of area B, :math:`a = 1/B^2` [1/m^4].
+
+        Bernoulli's losses add: :math:`b = \rho a / 2`, and :math:`1/A'^2 = 1/A^2 + a` of an orifice. Raises InputError
+        for a conductance beside an orifice: the two in series with a narrowing have no closed form.
+        """
+        if np.any(self.conductance) and np.any(self.area):
+            raise InputError(
+                "branch: a conductance beside an orifice cannot be narrowed; expected one of them"
+            )
+        area = self.area / np.sqrt(1.0 + inverse_square * np.square(self.area))
+        return self._replace(area=area, loss=self.loss + 0.5 * BLOOD_DENSITY * inverse_square)
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def branch_flow(laws, t, k, drop):  # type: ignore[no-untyped-def]
+    """Flow and slope of branch k at time t of the ``laws`` (.., .., 5); increases with the drop."""
+    way = 0 if drop > 0.0 else 2
+    conductance, area = laws[t, k, way], laws[t, k, way + 1]
+    flow, slope = conductance * drop, conductance
+    if drop > 0.0 and laws[t, k, 4] != 0.0:
+        root = np.sqrt(1.0 + 4.0 * laws[t, k, 4] * conductance * flow)
+        flow, slope = 2.0 * flow / (1.0 + root), slope / root
+    if area != 0.0:
+        factor = area * np.sqrt(2.0 / BLOOD_DENSITY)
+        smooth = drop * drop + SMOOTHING * SMOOTHING
+        root = factor / np.sqrt(np.sqrt(smooth))
+        flow += root * drop
+        slope += root * (0.5 * drop * drop + SMOOTHING * SMOOTHING) / smooth
+    return flow, slope
+
+
+FLOW_TOLERANCE, MAX_ITERATIONS = 1e-14, 60
+"""Relative change of an inertial flow at which its equation is solved, and largest number of iterations."""
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def inertial_flow(laws, t, k, drop, inertance, before):  # type: ignore[no-untyped-def]
+    r"""Flow and slope of a branch with inertance at the end of a step of length w: :math:`q = f(\Delta p - L \dot q)`.
+
+    ``inertance`` is L/w [Pa s/m^3], ``before`` the flow :math:`q^*` with :math:`\dot q = (q - q^*)/w`.
+    """
+    if inertance == 0.0:
+        return branch_flow(laws, t, k, drop)
+    driving, slope = drop + inertance * before, 0.0
+    q, low, high = 0.0, min(0.0, driving / inertance), max(0.0, driving / inertance)
+    for _ in range(MAX_ITERATIONS):
+        flow, slope = branch_flow(laws, t, k, driving - inertance * q)
+        if flow > q:
+            low = q
+        else:
+            high = q
+        following = q + (flow - q) / (1.0 + inertance * slope)
+        if not low <= following <= high:
+            following = 0.5 * (low + high)
+        change, q = following - q, following
+        if abs(change) <= FLOW_TOLERANCE * abs(q):
+            break
+    return q, slope / (1.0 + inertance * slope)
+
+
+class Load(NamedTuple):
+    """Coefficients ``pulse`` p_0, ``rise`` a [Pa], ``volume`` V_0, ``scale`` v [m^3]: numbers, or arrays over times."""
+
+    pulse: float | Floats = 0.0
+    rise: float | Floats = 0.0
+    volume: float | Floats = 0.0
+    scale: float | Floats = 1.0
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def outside_pressure(loads, t, v, mean):  # type: ignore[no-untyped-def]
+    """Sum of the ``loads`` (.., k, v, 4) on ventricle v at time t [Pa], and its derivative by the mean volume [m^3]."""
+    pressure, slope = 0.0, 0.0
+    for k in range(loads.shape[1]):
+        rise, scale = loads[t, k, v, 1], loads[t, k, v, 3]
+        if rise != 0.0:
+            rise *= np.exp((mean - loads[t, k, v, 2]) / scale)
+        pressure += loads[t, k, v, 0] + rise
+        slope += rise / scale
+    return pressure, slope

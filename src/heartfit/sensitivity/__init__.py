@@ -1,1 +1,0 @@
-"""Which parameters the observations see; knows vectors and Gaussians, never a heart."""

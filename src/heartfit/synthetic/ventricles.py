@@ -1,0 +1,162 @@
+r"""Effects hidden in three dimensions: ventricles with mesh, time step, valves and parameters of their own.
+
+The hidden beat is that of the virtual cohort, and its parameters scatter as those of the hidden spheres; size and rate
+follow from the anatomy, which is drawn too. The volume is that of a mesh registered through the frames of a scanner;
+the pressure has the errors of the hidden spheres. Sensors of the heart distort the node paths before imaging:
+
+.. math:: x'_n(t) = (S x_n)(t), \qquad V_i = V(\text{registered mesh of the images of } x'(t_i))
+
+with S the composition of all sensors that act on a volume: late frame labels, a wrong rate, or smearing.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.heart.finite_elements.body import StepFailed
+from heartfit.heart.heart import Heart
+from heartfit.imaging.registration.track import FreeForm, track
+from heartfit.observation.beat import beat_curves
+from heartfit.observation.curve import Curve
+from heartfit.observation.shape import cavity_volumes
+from heartfit.personalise.numerics import Protocol
+from heartfit.roles import Sensor
+from heartfit.synthetic.campaign import Inadmissible, PlantedPlan, effects_of
+from heartfit.synthetic.case import (
+    REST,
+    Answer,
+    PlantedCase,
+    draw_admissible,
+    draw_effects,
+    require_plausible,
+    require_recordable,
+)
+from heartfit.synthetic.cine import image_beat
+from heartfit.synthetic.hidden import (
+    RELATIVE,
+    TIMES,
+    Normal,
+    RecordingProtocol,
+    record_pressure,
+    scatter_parameters,
+)
+from heartfit.synthetic.out_of_library import add_effect
+from heartfit.synthetic.scanner import Scanner
+from heartfit.synthetic.volunteer import (
+    OTHER_MODEL,
+    VALVES,
+    Template,
+    Volunteer,
+    VolunteerError,
+    draw_anatomy,
+    generate,
+)
+
+VOLUME = "lv_volume"
+
+
+@dataclass(frozen=True, eq=False)
+class ImagedBeat:
+    """Imaged beat: the diagnoser's mesh in the first frame, and the left volume [m^3] of the registered mesh.
+
+    error: root mean square error of the volume over the largest volume.
+    """
+
+    mesh: VentricularMesh
+    volume: Curve
+    error: float
+
+
+@dataclass(frozen=True, eq=False)
+class Imaging:
+    """Scanner, registration, and template of the registered mesh; hidden: template of the imaged mesh."""
+
+    scanner: Scanner
+    registration: FreeForm
+    template: Template
+    hidden: VentricularMesh
+
+    def image(self, volunteer: Volunteer, sensors: Sequence[Sensor], frames: int, seed: int) -> ImagedBeat:
+        """Image ``frames`` frames of a beat and register them; raise InputError if registration folds the wall."""
+        motion = distort_motion(volunteer.motion, sensors)
+        outline = volunteer.mesh.with_points(motion.at(0.0))
+        images = image_beat(outline, motion, replace(self.scanner, frames=frames), seed)
+        mesh = self.template.fill_wall_of(outline, self.hidden)
+        volume = cavity_volumes(mesh, track(images, mesh, self.registration).motion)[VOLUME]
+        true = cavity_volumes(outline, motion.resample(images.times))[VOLUME]
+        error = np.sqrt(np.mean((volume.values - true.values) ** 2)) / true.values.max()
+        return ImagedBeat(mesh, volume, float(error))
+
+
+def distort_motion(motion: Motion, sensors: Sequence[Sensor]) -> Motion:
+    """Apply the sensors of the volume to every node path; return the motion that the images show."""
+    acting = [sensor for sensor in sensors if VOLUME in sensor.measures]
+
+    def distort(path: Floats) -> Floats:
+        return reduce(
+            lambda values, sensor: sensor.distort(motion.times, values, motion.period), acting, path
+        )
+
+    return replace(motion, positions=np.apply_along_axis(distort, 0, motion.positions)) if acting else motion
+
+
+DEVIATES = (*RELATIVE, *TIMES, "mitral resistance")
+
+
+@dataclass(frozen=True, eq=False)
+class Ventricles:
+    """Planter of cases in 3-D: template of the hidden meshes, nominal parameters, numerical protocol and imaging."""
+
+    template: Template
+    standard: Mapping[str, float]
+    protocol: Protocol
+    imaging: Imaging
+
+    def plant(self, plan: PlantedPlan) -> tuple[VentricularMesh, PlantedCase]:
+        """Return the diagnoser's mesh of the first frame, and the case; implausible draws are repeated."""
+        return draw_admissible(plan.seed, lambda rng, rejected: self._draw_case(plan, rng, rejected))
+
+    def _draw_case(
+        self, plan: PlantedPlan, rng: np.random.Generator, rejected: Mapping[str, int]
+    ) -> tuple[VentricularMesh, PlantedCase]:
+        anatomy, normal, protocol = (
+            draw_anatomy(int(rng.integers(2**31))),
+            Normal(rng),
+            RecordingProtocol.draw(rng),
+        )
+        deviates = {name: normal() for name in DEVIATES}
+        heart = scatter_parameters(self._average_heart(anatomy.period), deviates, normal)
+        effects = draw_effects(plan, rng)
+        for effect in effects:
+            heart = add_effect(heart, effect)
+        volunteer = self._simulate(self.template.deformed_to(anatomy.shape), heart)
+        imaged = self._image(volunteer, heart, protocol.frames, int(rng.integers(2**31)))
+        pressure = record_pressure(beat_curves(volunteer.beat, heart.sensors)["lv_pressure"], rng)
+        curves = {REST: {"lv_volume": imaged.volume, "lv_pressure": pressure}}
+        require_recordable(curves)
+        planted = effects_of(effects, plan.scales)
+        answer = Answer(plan.seed, plan.kind, planted, dict(rejected), deviates, imaged.error)
+        return imaged.mesh, PlantedCase(curves, answer)
+
+    def _average_heart(self, period: float) -> Heart:
+        """Return the nominal heart of this period [s]."""
+        return Heart(circulation=VALVES, period=period).with_parameters({**self.standard, **OTHER_MODEL})
+
+    def _simulate(self, wall: VentricularMesh, heart: Heart) -> Volunteer:
+        try:
+            volunteer = generate(wall, (heart, {}), self.protocol)
+        except (VolunteerError, StepFailed):
+            raise Inadmissible("no beat") from None
+        require_plausible(volunteer.beat, self.protocol.numerics.drift)
+        return volunteer
+
+    def _image(self, volunteer: Volunteer, heart: Heart, frames: int, seed: int) -> ImagedBeat:
+        try:
+            return self.imaging.image(volunteer, heart.sensors, frames, seed)
+        except InputError:
+            raise Inadmissible("not followed by registration") from None

@@ -1,1 +1,0 @@
-"""The study's tables and figures, from results to what is printed."""

@@ -1,1 +1,0 @@
-"""Spherical hearts of known truth, on which methods of calibration are compared and intervals are counted."""

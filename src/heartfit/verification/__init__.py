@@ -1,1 +1,0 @@
-"""Answers of the physics beside answers that nobody here produced."""

@@ -1,0 +1,72 @@
+"""The sphere of the search: its centre, its size, and beats that an instrument does not cost."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
+from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.mechanisms.catheter_offset import CatheterOffset
+from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+
+TIMES = {"lv_volume": np.arange(26) / 30, "lv_pressure": np.arange(86) / 100}
+CENTRE = np.zeros(len(FREE_PARAMETERS))
+
+
+def test_the_centre_is_a_human_heart():
+    volume, pressure = np.split(SphereForwardModel(ADULT, TIMES).predict(CENTRE, ()), [26])
+    assert volume.max() == pytest.approx(ADULT.filled, rel=0.02)
+    assert 40e-6 < volume.min() < 60e-6
+    assert 14e3 < pressure.max() < 18e3
+
+
+def test_size_changes_volumes_and_no_pressure():
+    frames = np.arange(26) / 30
+    large = Recording(
+        ADULT.heart.period, {"lv_volume": Samples(frames, 2.0 * ADULT.filled * np.repeat([0.4, 1.0], 13))}
+    )
+    small, twice = (SphereForwardModel(each, TIMES) for each in (ADULT, ADULT.scaled_to(large)))
+    ratio = twice.predict(CENTRE, ()) / small.predict(CENTRE, ())
+    assert ratio[:26] == pytest.approx(2.0, rel=1e-3)  # the mass of the wall alone breaks the similarity
+    assert ratio[26:] == pytest.approx(1.0, rel=0.1)
+
+
+def test_an_instrument_costs_no_simulation_and_a_mechanism_does():
+    model = SphereForwardModel(ADULT, TIMES)
+    true = model.predict(CENTRE, ())
+    offset = model.predict(CENTRE, (CatheterOffset(500.0),))
+    assert model.simulations == 1
+    assert offset[26:] - true[26:] == pytest.approx(500.0)
+    assert np.array_equal(model.predict(CENTRE, (MitralRegurgitation(0.0),)), true)
+    leaking = model.predict(CENTRE, (MitralRegurgitation(3e-5),))
+    assert model.simulations == 3
+    assert leaking[26:].max() < true[26:].max()
+
+
+def test_the_trigger_moves_the_recording_and_not_the_heart():
+    model, late = SphereForwardModel(ADULT, TIMES), CENTRE.copy()
+    late[-1] = 1.0
+    model.predict(CENTRE, ())
+    shifted = SphereForwardModel(ADULT, {name: at + 0.008 for name, at in TIMES.items()}).predict(CENTRE, ())
+    assert model.predict(late, ()) == pytest.approx(shifted, rel=1e-9)
+    assert model.simulations == 1
+
+
+def test_nothing_that_is_free_is_held_by_a_centre_without_length_dependence():
+    centre = replace(ADULT, heart=ADULT.heart.with_parameters({"slope": 0.0}))
+    model = SphereForwardModel(centre, TIMES)
+    beat = model.predict(CENTRE, ())
+    for index, each in enumerate(FREE_PARAMETERS):
+        moved = model.predict(np.where(np.arange(len(FREE_PARAMETERS)) == index, 1.0, 0.0), ())
+        assert np.abs(moved / beat - 1.0).max() > 1e-3, each.name
+
+
+def test_coordinates_beyond_what_a_heart_can_be_predict_nothing():
+    assert (
+        SphereForwardModel(ADULT, TIMES).predict(
+            np.where(np.arange(len(FREE_PARAMETERS)) == len(FREE_PARAMETERS) - 3, 60.0, 0.0), ()
+        )
+        is None
+    )

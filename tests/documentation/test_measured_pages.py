@@ -1,0 +1,97 @@
+"""Pages print the stored results, the stored results are those that the study is held to, and each is printed."""
+
+import importlib.util
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def pages():
+    spec = importlib.util.spec_from_file_location("measured_pages", ROOT / "docs" / "measured_pages.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_pages_print_the_stored_results(pages):
+    assert not pages.differences(), "python3 study.py numbers"
+
+
+def test_stored_numbers_of_the_study_are_those_it_is_held_to(pages):
+    """config/tolerances.tsv is what `check_numbers` compares with the study."""
+    _, *tolerances = pages.read_rows(ROOT / "config" / "tolerances.tsv")
+    expected = {"/".join(row[:4]): float(row[4]) for row in tolerances}
+    _, *rows = pages.read_rows(pages.STUDY)
+    stored = {row[3]: float(row[1]) for row in rows if row[3]}
+    held = stored.keys() & expected.keys()
+    assert len(held) >= 20
+    assert {number: stored[number] for number in held} == {number: expected[number] for number in held}
+
+
+def test_every_stored_result_is_printed(pages):
+    text = "".join((ROOT / "docs" / "templates" / f"{name}.md.j2").read_text() for name in pages.PAGES)
+    for file in pages.RESULTS.glob("*.tsv"):
+        head, *rows = pages.read_rows(file)
+        calls = (
+            [f"{file.stem}('{row[0]}'" for row in rows]
+            if head == pages.COLUMNS
+            else [f"table('{file.stem}')"]
+        )
+        assert not [call for call in calls if call not in text], file.name
+        assert file.read_text().startswith("# made by: "), file.name
+
+
+def test_a_number_changed_by_hand_is_found(pages, tmp_path, monkeypatch):
+    page = tmp_path / "study.md"
+    page.write_text(re.sub(r"\| 1\.7 \| 1\.8 \|", "| 1.6 | 1.8 |", pages.PAGES["study"].read_text()))
+    monkeypatch.setitem(pages.PAGES, "study", page)
+    assert [line[:30] for line in pages.differences(["study"])][-2:] == [
+        "-| ours, `paper` | 1.6 | 1.8 |",
+        "+| ours, `paper` | 1.7 | 1.8 |",
+    ]
+
+
+def test_numbers_of_a_study_are_taken(pages, tmp_path):
+    numbers = tmp_path / "numbers.csv"
+    numbers.write_text(
+        "# made by heartfit\ntable,setting,case,quantity,value\ntable1,paper,mean of 7,V_min,1.23456\n"
+    )
+    rows = [
+        ["V_min", "9", "%", "table1/paper/mean of 7/V_min", "old"],
+        ["q_max", "8", "%", "table1/paper/mean of 7/q_max", "old"],
+        ["duration", "29", "min", "", "old"],
+    ]
+    assert pages.renewed(rows, numbers, "new") == [
+        ["V_min", "1.235", "%", "table1/paper/mean of 7/V_min", "new"],
+        *rows[1:],
+    ]
+
+
+def test_a_quantity_that_is_not_stored_is_named(pages):
+    values = pages.Values(Path("study.tsv"), {"V_min": "1.25"})
+    assert (values("V_min", 1), values("V_min", 2, plus=True), values("V_min")) == ("1.2", "+1.25", "1.25")
+    with pytest.raises(KeyError, match=r"study\.tsv has no 'q_max'"):
+        values("q_max")
+
+
+def test_the_page_of_the_search_counts_the_effects_of_the_detection_limits():
+    rows = re.findall(
+        r"^\| (\w+) ?[+-]? \| (not seen|[^|]+) \| > 4 \||^\| (\w+) ?[+-]? \| [^|]+ \| ([\d.]+) \|",
+        (ROOT / "docs" / "detection_limits.md").read_text(),
+        re.MULTILINE,
+    )
+    least: dict[str, float] = {}
+    for hidden, _, seen, scales in rows:
+        name = hidden or seen
+        least[name] = min(least.get(name, float("inf")), float(scales or "inf"))
+    never = sum(scales == float("inf") for scales in least.values())
+    late = sum(2.0 < scales <= 4.0 for scales in least.values())
+    text = " ".join((ROOT / "docs" / "discovery.md").read_text().split())
+    assert (
+        f"of the {len(least)} effects of the library {never} are not expected to show even at 4 scales, {late} more"
+        in text
+    )

@@ -1,0 +1,21 @@
+"""Numbers and cells of texts that people read, so that a test holds their facts and leaves the wording free."""
+
+import re
+
+NUMBER = re.compile(r"(?<![\w.])[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def numbers_in(text: str) -> list[float]:
+    """Numbers of a text in their order; a digit inside a word or after a dot is none."""
+    return [float(number.replace("−", "-")) for number in NUMBER.findall(text)]
+
+
+def rows_of(page: str) -> dict[str, list[str]]:
+    """Cells of each row of the Markdown tables of a page by its first cell, headings included."""
+    rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| ")]
+    return {first: [cell.strip() for cell in cells] for first, *cells in rows}
+
+
+def outside_tables(page: str) -> str:
+    """Lines of a Markdown page that are no row of a table."""
+    return "\n".join(line for line in page.splitlines() if not line.startswith("|"))

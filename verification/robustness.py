@@ -1,0 +1,193 @@
+r"""Beats of hearts drawn at random from the prior of the paper's fourteen parameters.
+
+Each parameter is log-normal about its declared value, :math:`\theta = \theta_0 e^{s z}` with its declared
+deviation s and :math:`|z| \le 3`: a normal variable cut there, or, to try the corners that a normal one hardly
+ever sees in fourteen dimensions, a uniform one.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.core.pages import render_page, table_row
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart.beat import Beat
+from heartfit.heart.finite_elements.body import StepFailed, Tissue
+from heartfit.heart.heart import PAPER_PARAMETERS, Heart
+from heartfit.heart.simulation import Numerics, simulate
+from heartfit.personalise.run import ventricles
+from heartfit.personalise.setting import declaration
+from verification.specimen import END_DIASTOLIC_PRESSURE, specimen
+
+CUT = 3.0
+"""Largest |z|."""
+
+PAPER_SCALE = MappingProxyType({"sigma_0": 5.8e6, "mu": 0.3e6, "K": 12.9e6, "R_p": 1.137e8})
+"""Means of the paper's Table 2, SI."""
+
+Law = Callable[[np.random.Generator, tuple[int, int]], Floats]
+
+
+def normal(rng: np.random.Generator, shape: tuple[int, int]) -> Floats:
+    """Standard normal numbers, drawn again while beyond the cut."""
+    z = rng.standard_normal(shape)
+    while (far := np.abs(z) > CUT).any():
+        z[far] = rng.standard_normal(int(far.sum()))
+    return z
+
+
+def uniform(rng: np.random.Generator, shape: tuple[int, int]) -> Floats:
+    """Uniform numbers up to the cut."""
+    return rng.uniform(-CUT, CUT, shape)
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """``count`` hearts of an element, about the declared values or those of ``centre``, from one seed."""
+
+    name: str
+    element: str
+    law: Law
+    count: int
+    seed: int
+    centre: Mapping[str, float] = field(default_factory=dict)
+
+    def draws(self) -> Floats:
+        """z (count, 14)."""
+        return self.law(np.random.default_rng(self.seed), (self.count, len(PAPER_PARAMETERS)))
+
+    def hearts(self) -> Iterator[Heart]:
+        """The hearts in the order of the draws."""
+        known = [declaration(name) for name in PAPER_PARAMETERS]
+        centre = np.array([self.centre.get(entry.name, entry.value) for entry in known])
+        deviation = np.array([entry.sd for entry in known], dtype=float)
+        for z in self.draws():
+            values = dict(zip(PAPER_PARAMETERS, centre * np.exp(deviation * z), strict=True))
+            yield Heart(tissue=Tissue(element=self.element)).with_parameters(values)
+
+
+CAMPAIGNS = (
+    Campaign("the prior", "mixed", normal, 300, 1),
+    Campaign("its corners", "mixed", uniform, 100, 2),
+    Campaign("the paper's scale", "p1", normal, 50, 3, PAPER_SCALE),
+)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Outcome of one heart: its unloading, its first beat, or the reason of the failure."""
+
+    unloaded: bool
+    beat: Beat | None
+    reason: str
+
+    @property
+    def completed(self) -> bool:
+        """Return True if there is a beat to observe."""
+        return self.beat is not None and self.beat.completed
+
+
+def attempt(heart: Heart, mesh: VentricularMesh, numerics: Numerics | None = None) -> Trial:
+    """Unload the ventricles and run their first beat."""
+    try:
+        body = ventricles(mesh, heart.muscle, END_DIASTOLIC_PRESSURE)
+    except StepFailed as failure:
+        return Trial(False, None, str(failure))
+    beat = simulate(heart, body, numerics or Numerics(max_beats=1))
+    return Trial(True, beat, beat.reason)
+
+
+Say = Callable[[str], None]
+
+
+def robustness_page(campaigns: Sequence[Campaign] = CAMPAIGNS, say: Say = lambda _: None) -> str:
+    """The page; a quarter of an hour. ``say`` is told how far it is."""
+    mesh = specimen()
+    outcomes = [(campaign, _run(campaign, mesh, say)) for campaign in campaigns]
+    return render_page(
+        "robustness",
+        tets=len(mesh.tets),
+        table="".join(_row(campaign, trials) for campaign, trials in outcomes),
+        failures=_failures(outcomes),
+        collapsed=_collapsed(outcomes),
+        centre=_summary(_centre(mesh)),
+    )
+
+
+def _run(campaign: Campaign, mesh: VentricularMesh, say: Say) -> list[Trial]:
+    trials = []
+    for number, heart in enumerate(campaign.hearts(), start=1):
+        trials.append(attempt(heart, mesh))
+        say(
+            f"{campaign.name}: {number} of {campaign.count}, {sum(trial.completed for trial in trials)} completed"
+        )
+    return trials
+
+
+def _row(campaign: Campaign, trials: Sequence[Trial]) -> str:
+    beats = [trial.beat for trial in trials if trial.beat is not None]
+    cuts = [beat.diagnostics["step_cuts"] for beat in beats]
+    completed = sum(trial.completed for trial in trials)
+    return table_row(
+        campaign.name,
+        f"`{campaign.element}`",
+        campaign.seed,
+        campaign.count,
+        sum(trial.unloaded for trial in trials),
+        f"{completed} ({100 * completed / campaign.count:.1f} %)",
+        sum(cut > 0 for cut in cuts),
+        f"{max(cuts, default=0):.0f}",
+        " to ".join(f"{100 * ejected:.0f} %" for ejected in _range(trials)),
+    )
+
+
+def _range(trials: Sequence[Trial]) -> list[float]:
+    outcomes = [_ejection_fraction(trial) for trial in trials if trial.completed]
+    return [min(outcomes), max(outcomes)] if outcomes else []
+
+
+def _ejection_fraction(trial: Trial) -> float:
+    assert trial.beat is not None
+    volume = trial.beat.volume["lv"]
+    return float(1.0 - volume.min() / volume.max())
+
+
+def _failures(outcomes: Sequence[tuple[Campaign, Sequence[Trial]]]) -> list[tuple[str, int, str, str]]:
+    """Campaign, number of the draw, reason and farthest parameters of each heart without a complete beat."""
+    return [
+        (campaign.name, number, trial.reason, _far(z))
+        for campaign, trials in outcomes
+        for number, (trial, z) in enumerate(zip(trials, campaign.draws(), strict=True), start=1)
+        if not trial.completed
+    ]
+
+
+def _far(z: np.ndarray) -> str:
+    """The three parameters farthest from the centre."""
+    farthest = np.argsort(-np.abs(z))[:3]
+    return ", ".join(f"{PAPER_PARAMETERS[i]} {z[i]:+.1f} sd" for i in farthest)
+
+
+def _collapsed(outcomes: Sequence[tuple[Campaign, Sequence[Trial]]]) -> dict[str, int]:
+    """Number of completed beats with a negative volume, by campaign; none where there is none."""
+    counts = {campaign.name: sum(map(_inverted, trials)) for campaign, trials in outcomes}
+    return {name: count for name, count in counts.items() if count}
+
+
+def _inverted(trial: Trial) -> bool:
+    return trial.completed and min(v.min() for v in trial.beat.volume.values()) < 0.0  # type: ignore[union-attr]
+
+
+def _centre(mesh: VentricularMesh) -> Trial:
+    campaign = replace(CAMPAIGNS[-1], count=1, law=lambda _, shape: np.zeros(shape))
+    return attempt(next(campaign.hearts()), mesh)
+
+
+def _summary(trial: Trial) -> dict[str, object]:
+    if trial.beat is None or not trial.completed:
+        return {"completed": False, "reason": trial.reason}
+    ranges = {name: f"{1e6 * v.max():.0f} to {1e6 * v.min():.0f} mL" for name, v in trial.beat.volume.items()}
+    return {"completed": True, "cuts": trial.beat.diagnostics["step_cuts"], **ranges}

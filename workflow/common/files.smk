@@ -1,0 +1,203 @@
+"""The files that rules read and write, and the results that make up the study."""
+
+from heartfit.io.fingerprint import PACKAGE
+from heartfit.io.sources import source_files
+
+TABLE_SUFFIXES = ("csv", "md", "tex")
+NOISE_MODEL = "<results>/registration_error/noise_model.json"
+POSTERIORS = {
+    "met": [f"<results>/{case}/{setting}/calibration/posterior.json" for case, setting in CALIBRATIONS],
+    "weighed": [
+        f"<results>/{case}/{setting}/calibration/posterior_noise.json" for case, setting in CALIBRATIONS
+    ],
+}
+TRUTHS = expand("<results>/{case}/cohort/truth.json", case=GROUPS.virtual)
+POSTERIORS_AND_TRUTHS = POSTERIORS | {"truths": TRUTHS}
+
+
+def table_files(*names):
+    return expand("<results>/tables/{name}.{suffix}", name=names, suffix=TABLE_SUFFIXES)
+
+
+def reported_tables(*names):
+    """Files of tables, of which Snakemake's report shows the CSV."""
+    shown, *others = (expand(f"<results>/tables/{{name}}.{suffix}", name=names) for suffix in TABLE_SUFFIXES)
+    return [*report(shown, caption="../report/table.rst", category="Tables"), *others[0], *others[1]]
+
+
+def figure_files(name, caption, category="{case}"):
+    """Files of a figure, which Snakemake's report shows with a caption of workflow/report."""
+    shown = report(f"<results>/figures/{name}.png", caption=f"../report/{caption}.rst", category=category)
+    return [shown, f"<results>/figures/{name}.pdf"]
+
+
+def cause_card(folder):
+    """Files of a cause card, of which Snakemake's report shows the figure."""
+    shown = report(f"{folder}/cause.png", caption="../report/cause.rst", category="{case}")
+    return [f"{folder}/cause.json", f"{folder}/cause.md", shown, f"{folder}/traces.json"]
+
+
+def verification_files(*names):
+    return [f"<results>/{{case}}/{{setting}}/verification/{name}" for name in names]
+
+
+def sigma_point_beats(wildcards):
+    """Beats of all sigma points of a case; their number follows from the setting."""
+    return list_sigma_point_beats(wildcards.case, wildcards.setting)
+
+
+def list_sigma_point_beats(case, setting):
+    return expand(
+        "<results>/{case}/{setting}/calibration/beats/{point}.json",
+        case=case,
+        setting=setting,
+        point=STUDY.sigma_points(setting, CASES[case]),
+    )
+
+
+def perturbation_beats(wildcards):
+    """Beats at one-at-a-time perturbations about the prior's mean, which the sensitivities rest on."""
+    return list_perturbation_beats(wildcards.setting)
+
+
+def list_perturbation_beats(setting):
+    points = range(2 * len(STUDY.sensitivity.parameters) + 1)
+    return expand("<results>/sensitivity/{setting}/beats/{point}.json", setting=setting, point=points)
+
+
+def calibrated_shapes(cases):
+    """Calibrated motions of the septum of some cases in all settings."""
+    return expand("<results>/{case}/{setting}/verification/shape.csv", case=cases, setting=SETTINGS)
+
+
+def wall_files(wildcards):
+    """Files that hold the wall of a measured case."""
+    return source_files(source_of(wildcards))
+
+
+def source_images(wildcards):
+    """Images of a measured case, in the folder where the user keeps them."""
+    return source_of(wildcards).images
+
+
+def pressure_recording(wildcards):
+    """Recording of a measured case's pressure, several beats long."""
+    return source_of(wildcards).pressure.file
+
+
+def pressure_curve(wildcards):
+    """Pressure of one beat of a case; empty where none was recorded."""
+    folder = "curves" if wildcards.case in RECORDED else "cohort"
+    return [f"<results>/{{case}}/{folder}/pressure.csv"] if case_of(wildcards).catheter else []
+
+
+def noise_model(wildcards):
+    """Noise model of the virtual images; empty for a measured heart, whose images it does not describe."""
+    return [NOISE_MODEL] if wildcards.case in VIRTUAL else []
+
+
+def registered_sequences(acquisition, numbers):
+    """Comparisons of registered with true motion, of numbered sequences of an acquisition."""
+    return expand(f"<results>/registration_error/{acquisition}/{{number}}.json", number=numbers)
+
+
+def noise_training_sequences(wildcards):
+    """Sequences that the noise model of a virtual case was learnt from; empty for a measured heart."""
+    return registered_sequences("baseline", SEQUENCES["baseline"] if wildcards.case in VIRTUAL else ())
+
+
+def calibrated_beats(kind):
+    """Input function: a file of a case's calibrated beat, followed by that of the refitted beat where there is one."""
+    calibrated, refitted = {
+        "beat": ("verification/beat.json", "beat.json"),
+        "motion": ("verification/motion.npz", "motion.npz"),
+        "fitted": ("calibration/posterior.json", "refit.json"),
+    }[kind]
+
+    def list_files(wildcards):
+        case, setting = wildcards.case, wildcards.setting
+        files = [f"<results>/{case}/{setting}/{calibrated}"]
+        if (case, setting) in REFITTED:
+            files.append(f"<results>/{case}/discovery/{setting}/none/{refitted}")
+        return files
+
+    return list_files
+
+
+def page_template(name):
+    """Template of a generated page: an edit of its sentences writes the page anew."""
+    return str(Path(workflow.basedir, "docs", "templates", f"{name}.md.j2"))
+
+
+def report_templates(_):
+    """Templates of the report, which are no modules, so that its code fingerprint does not cover them."""
+    return sorted(map(str, PACKAGE.glob("results/report/*/*.*")))
+
+
+# figures about methods need hearts of known truth: a study of measured hearts alone has none
+METHOD_FIGURES = (
+    ["alternatives", "coverage_sphere", "registration", "noise_model", "sobol"] if VIRTUAL else []
+)
+CASE_FIGURES = [
+    f"{case}_{setting}{topic}.{suffix}"
+    for case, setting in CALIBRATIONS
+    for topic in ("", "_sensitivity", "_shape", "_card")
+    for suffix in ("png", "pdf")
+]
+STUDY_FIGURES = [
+    *METHOD_FIGURES,
+    *(["septal_flash"] if GROUPS.patients else []),
+    *(f"{case}_activation" for case in CASES),
+    *(f"sensitivity{topic}_{setting}" for topic in ("", "_curves") for setting in SETTINGS),
+    *(f"{case}_contours" for case in VIRTUAL + IMAGED),
+    *(f"{case}_{SETTINGS[-1]}_overlay" for case in SEPTAL_FLASH_CASES),
+    *(f"{case}_cine_{topic}" for case in FITTED_WITH_IMAGES for topic in ("outlines", "volume")),
+    *(f"residual_{case}_{setting}" for case, setting in CALIBRATIONS),
+]
+STUDY_TABLES = [
+    "table1",
+    "cards",
+    *(["specificity", "selection"] if VIRTUAL else []),
+    *(f"sensitivity_{setting}" for setting in SETTINGS),
+]
+
+
+def study_tables():
+    return [
+        *expand("<results>/tables/{name}.md", name=STUDY_TABLES),
+        *expand("<results>/tables/{name}.csv", name=("posteriors", "curves")),
+    ]
+
+
+def inference_data():
+    return expand("<results>/{case}/{setting}/inference.nc", case=CASES, setting=SETTINGS)
+
+
+def study_figures():
+    return [
+        *expand("<results>/figures/{file}", file=CASE_FIGURES),
+        *expand("<results>/figures/{name}.png", name=STUDY_FIGURES),
+    ]
+
+
+def study_beats():
+    """Beats of all sigma points and perturbations: Snakemake misses a deleted beat only if it is a target."""
+    calibrations = [beat for pair in CALIBRATIONS for beat in list_sigma_point_beats(*pair)]
+    return [*calibrations, *list_perturbation_beats(SETTINGS)]
+
+
+def study_causes():
+    """Cause cards of the search, and where configured of the 3-D proof, with its score and its trials."""
+    return [
+        *expand(
+            "<results>/{case}/discovery/{setting}/search/cause.json", case=CASES, setting=DISCOVERY.settings
+        ),
+        *(f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in REFITTED),
+        *(["<results>/tables/discovery.md"] if REFITTED_VIRTUAL else []),
+        *(f"<results>/figures/trials_{case}_{setting}.png" for case, setting in REFITTED if DISCOVERY.trials),
+    ]
+
+
+def study_results():
+    """All results of the study but its costs and its report, which read them."""
+    return [*study_tables(), *inference_data(), *study_figures(), *study_beats(), *study_causes()]

@@ -1,0 +1,93 @@
+rule plot_activation:
+    input:
+        "<results>/{case}/geometry/mesh.vtu",
+    output:
+        figure_files("{case}_activation", "activation"),
+    params:
+        case=case_of,
+        stated=configuration_text(case_of),
+    script:
+        "../scripts/plot_activation.py"
+
+
+rule plot_contours:
+    input:
+        mesh="<results>/{case}/geometry/mesh.vtu",
+        motion="<results>/{case}/registration/motion.npz",
+        images="<results>/{case}/images/cine.nrrd",
+    output:
+        figure=figure_files("{case}_contours", "contours"),
+        animation="<results>/figures/{case}_beat.gif",
+    wildcard_constraints:
+        case=match_any(VIRTUAL + IMAGED),
+    script:
+        "../scripts/plot_contours.py"
+
+
+rule plot_overlay:
+    input:
+        mesh="<results>/{case}/geometry/mesh.vtu",
+        registered="<results>/{case}/registration/motion.npz",
+        calibrated="<results>/{case}/{setting}/verification/motion.npz",
+        images="<results>/{case}/images/cine.nrrd",
+    output:
+        figure_files("{case}_{setting}_overlay", "overlay"),
+    wildcard_constraints:
+        case=match_any(VIRTUAL + IMAGED),
+    script:
+        "../scripts/plot_overlay.py"
+
+
+rule plot_case:
+    input:
+        measured="<results>/{case}/curves/measured.csv",
+        reference="<results>/{case}/{setting}/calibration/beats/0.json",
+        calibrated="<results>/{case}/{setting}/verification/beat.json",
+        errors="<results>/{case}/{setting}/verification/errors.json",
+    output:
+        figure_files("{case}_{setting}", "curves"),
+    params:
+        setting=setting_of,
+        mechanisms=setting_mechanisms,
+        operator=STUDY.observation,
+        stated=configuration_text(setting_of, STUDY.observation),
+    script:
+        "../scripts/plot_case.py"
+
+
+rule plot_sensitivity:
+    input:
+        "<results>/{case}/{setting}/calibration/posterior.json",
+    output:
+        figure_files("{case}_{setting}_sensitivity", "sensitivity"),
+    script:
+        "../scripts/plot_sensitivity.py"
+
+
+rule compare_shape:
+    input:
+        mesh="<results>/{case}/geometry/mesh.vtu",
+        motion="<results>/{case}/registration/motion.npz",
+        calibrated="<results>/{case}/{setting}/verification/shape.csv",
+    output:
+        table=table_files("{case}_{setting}_shape"),
+        figure=figure_files("{case}_{setting}_shape", "shape"),
+    script:
+        "../scripts/compare_shape.py"
+
+
+rule plot_septal_flash:
+    input:
+        hearts=expand("<results>/{case}/cohort/heart.vtu", case=SEPTAL_FLASH_CASES),
+        true=expand("<results>/{case}/cohort/motion.npz", case=SEPTAL_FLASH_CASES),
+        meshes=expand("<results>/{case}/geometry/mesh.vtu", case=SEPTAL_FLASH_CASES),
+        registered=expand("<results>/{case}/registration/motion.npz", case=SEPTAL_FLASH_CASES),
+        calibrated=calibrated_shapes(SEPTAL_FLASH_CASES),
+    output:
+        table=table_files("septal_flash"),
+        figure=figure_files("septal_flash", "septal_flash", "Cohort"),
+    params:
+        cases=SEPTAL_FLASH_CASES,
+        settings=SETTINGS,
+    script:
+        "../scripts/plot_septal_flash.py"
