@@ -36,8 +36,14 @@ STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources
 SETTINGS = list(STUDY.settings)
 CALIBRATIONS = [(case, setting) for case in CASES for setting in SETTINGS]
 
+
+def cases_of_kind(kind):
+    return [name for name, case in CASES.items() if case.kind == kind]
+
+
 # names of cases, by what their data allow
-VIRTUAL = [name for name, case in CASES.items() if case.kind == "virtual"]
+VIRTUAL = cases_of_kind("virtual")
+WITHOUT_TRUTH = [name for name in CASES if name not in VIRTUAL]
 CATHETERISED = [name for name in VIRTUAL if CASES[name].catheter]
 SEGMENTED = [name for name, source in SOURCES.items() if source.segmented]
 FITTED = [name for name, source in SOURCES.items() if not source.segmented]
@@ -46,9 +52,9 @@ FITTED_WITH_IMAGES = [name for name in FITTED if name in IMAGED]
 RECORDED = [name for name, source in SOURCES.items() if source.pressure]
 GROUPS = Groups(
     volunteers=tuple(name for name in VIRTUAL if CASES[name].healthy),
-    measured=tuple(name for name in SOURCES if CASES[name].healthy),
+    measured=tuple(name for name in WITHOUT_TRUTH if CASES[name].healthy),
     patients=tuple(name for name in VIRTUAL if not CASES[name].healthy),
-    measured_patients=tuple(name for name in SOURCES if not CASES[name].healthy),
+    measured_patients=tuple(name for name in WITHOUT_TRUTH if not CASES[name].healthy),
 )
 SEPTAL_FLASH_CASES = [*GROUPS.volunteers[:1], *GROUPS.patients]
 

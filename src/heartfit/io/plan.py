@@ -54,7 +54,7 @@ def outline(content: Mapping[str, Any], where: str = "configuration") -> Plan:
     cases = {
         name: _as_recorded(case, sources.get(name))
         for name, case in listed.items()
-        if case.kind == "virtual" or name in sources
+        if case.kind != "measured" or name in sources
     }
     _require_reference(study, cases)
     return Plan(study, cases, sources, _left_out(study, [*listed], sources, cases))

@@ -12,6 +12,7 @@ from heartfit.results.figures import MEASURED, clean
 from heartfit.results.report.curves import samples, simulated
 from heartfit.results.report.picture import TEXT, Picture, as_picture, grid, legend
 from heartfit.results.report.record import CaseRecord, FittedCase
+from heartfit.study.case import CASE_KINDS
 
 ML = 1e-6
 UNITS = {
@@ -59,12 +60,11 @@ def observations(fit: FittedCase) -> list[Observed]:
 
 def facts(case: CaseRecord) -> list[str]:
     """Return kind, conduction, beat, volume, pressure and mesh of a case."""
-    kind = {"measured": "measured heart", "virtual": "virtual heart, truth known"}[case.kind]
     conduction = {"healthy": "healthy conduction", "lbbb": "left bundle branch block"}[case.conduction]
     volume = case.measured["lv_volume"].values
     largest, least = float(volume.max()) / ML, float(volume.min()) / ML
     return [
-        kind,
+        CASE_KINDS[case.kind],
         conduction,
         f"beat of {1e3 * case.registered.period:.0f} ms in {len(case.registered.times)} phases",
         f"left ventricle {largest:.0f} to {least:.0f} mL, ejection fraction {100 * (1 - least / largest):.0f} %",
