@@ -27,7 +27,7 @@ def calibrated() -> Calibrated:
     """Seen without bias at 1.2 and 0.8 of the prior's parameters."""
     true = observed_at(PRIOR.mean + np.log([1.2, 0.8]))
     outcomes = [observed_at(point.z) for point in sigma_points(PRIOR)]
-    met, weighed = (calibrate(PRIOR, outcomes, true, noise) for noise in (None, NOISE))
+    noise_free, noise_aware = (calibrate(PRIOR, outcomes, true, noise) for noise in (None, NOISE))
     units = {"V_min": "m^3", "q_max": "m^3/s"}
     deviations = dict(zip(units, np.sqrt(np.diag(NOISE)).tolist(), strict=True))
     observations = [Observation(name, true[name], units[name], deviations[name], 0.0) for name in units]
@@ -36,5 +36,5 @@ def calibrated() -> Calibrated:
     curve = Curve.of_volume(times, 1e-4 + 4e-5 * np.cos(2.0 * np.pi * times / 0.8), 0.8)
     curves = {"measured": {"lv_volume": curve}, "reference": {}, "calibrated": {"lv_volume": curve}}
     identity = {"case": "heart1", "setting": "physical", "fingerprint": "0123"}
-    case = summarise(identity, met, measurement, curves, {}, {"sigma_0": "Pa", "mu": "Pa.s"})
-    return Calibrated(case, met, weighed, measurement, curves["measured"], curves["calibrated"])
+    case = summarise(identity, noise_free, measurement, curves, {}, {"sigma_0": "Pa", "mu": "Pa.s"})
+    return Calibrated(case, noise_free, noise_aware, measurement, curves["measured"], curves["calibrated"])

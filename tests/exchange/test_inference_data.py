@@ -34,9 +34,9 @@ def test_draws_have_the_mean_and_covariance_that_stand_beside_them(found, about)
 
 
 def test_predictive_draws_follow_by_the_linear_map_with_the_noise(found, calibrated):
-    belief = calibrated.weighed.estimate
+    belief = calibrated.noise_aware.estimate
     slopes = np.array([[-10e-6, 40e-6], [2e-6, -30e-6]])
-    exact = np.array([60e-6, 400e-6]) + (belief.mean - calibrated.weighed.prior.mean) @ slopes
+    exact = np.array([60e-6, 400e-6]) + (belief.mean - calibrated.noise_aware.prior.mean) @ slopes
     spread = slopes.T @ belief.covariance @ slopes + calibrated.measurement.covariance
     seen = drawn(found["posterior_predictive"], ("V_min", "q_max")) - exact
     sd = np.sqrt(np.diag(spread))
@@ -45,7 +45,7 @@ def test_predictive_draws_follow_by_the_linear_map_with_the_noise(found, calibra
 
 
 def test_the_density_is_that_of_each_draw(found, calibrated):
-    belief = calibrated.weighed.estimate
+    belief = calibrated.noise_aware.estimate
     logarithms = np.log(drawn(found["posterior"], belief.names))
     expected = multivariate_normal(belief.mean, belief.covariance).logpdf(logarithms)
     assert found["sample_stats"]["lp"].values.ravel() == pytest.approx(expected)

@@ -57,8 +57,8 @@ def card(case: str, setting: str = "physical") -> Card:
     ratios = dict(zip(SLOPES, (*TRUTHS.get(case, (1.0,) * 4), 1.0, 1.0, 1.0), strict=True))
     truth = {name: 0.9 * MEANS[name] * ratio for name, ratio in ratios.items()}
     noise = np.diag(np.square(NOISE[: len(seen)]))
-    met, weighed = _posterior(prior, truth, seen, None), _posterior(prior, truth, seen, noise)
-    return Card(case, setting, met, weighed, truth if case in TRUTHS else {})
+    noise_free, noise_aware = _posterior(prior, truth, seen, None), _posterior(prior, truth, seen, noise)
+    return Card(case, setting, noise_free, noise_aware, truth if case in TRUTHS else {})
 
 
 @pytest.fixture(scope="session")

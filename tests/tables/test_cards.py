@@ -12,16 +12,16 @@ from heartfit.results.card_figure import plot_card, plot_cards
 def test_a_card_knows_places_and_cover_in_prior_deviations(cohort):
     volunteer = cohort[0]
     assert volunteer.true_place()[3] == pytest.approx(np.log(0.9 * 0.8) / 0.25)
-    assert set(volunteer.covered(volunteer.weighed.estimate)) == {"sigma_0", "mu", "c_1", "R_p"}
+    assert set(volunteer.covered(volunteer.noise_aware.estimate)) == {"sigma_0", "mu", "c_1", "R_p"}
     far = replace(volunteer, truth={"sigma_0": 1e9})
-    assert far.covered(far.weighed.estimate) == {"sigma_0": False}
-    assert volunteer.seen.rank == 3
+    assert far.covered(far.noise_aware.estimate) == {"sigma_0": False}
+    assert volunteer.information.rank == 3
     assert volunteer.weakest() == "R_p up with sigma_0 up"
 
 
 @pytest.mark.parametrize(("reach", "held"), [(1.95, True), (1.97, False)])
 def test_an_interval_reaches_as_far_as_95_percent_of_its_own_posterior(cohort, reach, held):
-    estimate = cohort[0].weighed.estimate
+    estimate = cohort[0].noise_aware.estimate
     edge = {
         name: np.exp(m + reach * sd)
         for name, m, sd in zip(estimate.names, estimate.mean, estimate.sd, strict=True)
@@ -61,7 +61,7 @@ def test_the_figure_shows_each_parameter_and_direction(cohort):
     figure = plot_card(cohort[0])
     left, right = figure.axes
     assert len(right.patches) == 4
-    assert [bar.get_width() for bar in right.patches] == pytest.approx(cohort[0].seen.reduction)
+    assert [bar.get_width() for bar in right.patches] == pytest.approx(cohort[0].information.reduction)
     prior = left.patches[:4]
     assert [bar.get_width() for bar in prior] == pytest.approx([3.92] * 4)
     truths = {name: 1e3 * value for name, value in cohort[0].truth.items()}

@@ -51,8 +51,8 @@ def test_p_cannot_be_below_that_of_one_labeling(compared):
 
 def unseen(card: Card) -> Card:
     """The same estimate with the prior's uncertainty."""
-    estimate = replace(card.weighed.estimate, covariance=card.prior.covariance)
-    return replace(card, weighed=replace(card.weighed, estimate=estimate))
+    estimate = replace(card.noise_aware.estimate, covariance=card.prior.covariance)
+    return replace(card, noise_aware=replace(card.noise_aware, estimate=estimate))
 
 
 def test_a_difference_that_the_data_do_not_see_is_warned_of(cohort, groups):
@@ -78,11 +78,11 @@ def test_both_claims_hold_in_truth_and_one_does_not_where_the_prior_pulls(compar
 def test_K_is_held_against_the_true_stiffness(cohort, groups):
     def renamed(card: Card) -> Card:
         names = tuple("K" if name == "c_1" else name for name in card.prior.names)
-        met, weighed = (
+        noise_free, noise_aware = (
             replace(one, prior=replace(one.prior, names=names), estimate=replace(one.estimate, names=names))
-            for one in (card.met, card.weighed)
+            for one in (card.noise_free, card.noise_aware)
         )
-        return replace(card, met=met, weighed=weighed)
+        return replace(card, noise_free=noise_free, noise_aware=noise_aware)
 
     found = compare_groups([renamed(card) for card in cohort], groups)[0]
     assert found.ratios("truth", "K") == pytest.approx(

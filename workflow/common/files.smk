@@ -6,8 +6,10 @@ from heartfit.io.sources import source_files
 TABLE_SUFFIXES = ("csv", "md", "tex")
 NOISE_MODEL = "<results>/registration_error/noise_model.json"
 POSTERIORS = {
-    "met": [f"<results>/{case}/{setting}/calibration/posterior.json" for case, setting in CALIBRATIONS],
-    "weighed": [
+    "noise_free": [
+        f"<results>/{case}/{setting}/calibration/posterior.json" for case, setting in CALIBRATIONS
+    ],
+    "noise_aware": [
         f"<results>/{case}/{setting}/calibration/posterior_noise.json" for case, setting in CALIBRATIONS
     ],
 }

@@ -44,7 +44,9 @@ rule update_parameters:
         beats=sigma_point_beats,
         sensitivity="<results>/sensitivity/{setting}/sensitivity.json",
     output:
-        multiext("<results>/{case}/{setting}/calibration/posterior", met=".json", weighed="_noise.json"),
+        multiext(
+            "<results>/{case}/{setting}/calibration/posterior", noise_free=".json", noise_aware="_noise.json"
+        ),
     params:
         setting=setting_of,
         mechanisms=setting_mechanisms,

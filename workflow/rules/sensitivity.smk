@@ -83,7 +83,7 @@ rule plot_surroundings:
 
 rule tabulate_selection:
     input:
-        found=expand("<results>/sensitivity/{setting}/sensitivity.json", setting=SETTINGS),
+        sensitivities=expand("<results>/sensitivity/{setting}/sensitivity.json", setting=SETTINGS),
         ranges=expand("<results>/sensitivity/{setting}/ranges.json", setting=SETTINGS),
         sobol="<results>/sensitivity/sobol.json",
     output:

@@ -13,8 +13,9 @@ from heartfit.results.text import render_tables
 record(snakemake.log[0])
 files, params = snakemake.input, snakemake.params
 truths = dict(zip(params.groups.virtual, map(read_truth, map(Path, files.truths)), strict=True))
-met, weighed = map(read_posterior, map(Path, files.met)), map(read_posterior, map(Path, files.weighed))
-compared = compare_groups(cards(params.calibrated, met, weighed, truths), params.groups)
+noise_free = map(read_posterior, map(Path, files.noise_free))
+noise_aware = map(read_posterior, map(Path, files.noise_aware))
+compared = compare_groups(cards(params.calibrated, noise_free, noise_aware, truths), params.groups)
 folder = Path(params.results)
 tables = {"specificity": specificity_table(compared), "claims": claims_table(compared)}
 write_tables(folder / "tables", render_tables(tables))

@@ -14,8 +14,9 @@ from heartfit.results.text import render_tables
 record(snakemake.log[0])
 files, params = snakemake.input, snakemake.params
 truths = dict(zip(params.groups.virtual, map(read_truth, map(Path, files.truths)), strict=True))
-met, weighed = map(read_posterior, map(Path, files.met)), map(read_posterior, map(Path, files.weighed))
-case_cards = cards(params.calibrated, met, weighed, truths)
+noise_free = map(read_posterior, map(Path, files.noise_free))
+noise_aware = map(read_posterior, map(Path, files.noise_aware))
+case_cards = cards(params.calibrated, noise_free, noise_aware, truths)
 folder = Path(params.results)
 tables = {"cards": cards_table(case_cards), "coverage_cohort": coverage_table(case_cards)}
 write_tables(folder / "tables", render_tables(tables))

@@ -14,7 +14,7 @@ from heartfit.results.text import render_table
 
 record(snakemake.log[0])
 files, out, params = snakemake.input, snakemake.output, snakemake.params
-outcome = dict(zip(params.settings, map(read_sensitivity, map(Path, files.found)), strict=True))
+outcome = dict(zip(params.settings, map(read_sensitivity, map(Path, files.sensitivities)), strict=True))
 ranges = dict(zip(params.settings, map(read_ranges, map(Path, files.ranges)), strict=True))
 sobol = read_sobol(Path(files.sobol))
 selection = selection_table(outcome, ranges, params.estimated)

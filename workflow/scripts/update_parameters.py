@@ -1,4 +1,4 @@
-"""Update the prior by what the sigma points' beats and the measurement show, as the paper and knowing the noise."""
+"""Update the prior with the beats of the sigma points: noise-free as in the paper, and noise-aware."""
 
 from pathlib import Path
 
@@ -18,9 +18,9 @@ measured = read_curves(Path(files.measured))
 arguments = (params.setting, prior, points, beats, measured, measurement, params.operator)
 observed = read_sensitivity(Path(files.sensitivity))
 slopes = Slopes(observed.parameters, observed.observations, observed.slopes)
-met, weighed = (
+noise_free, noise_aware = (
     estimate(*arguments, params.transform),
     estimate(*arguments, params.transform.with_noise(), slopes),
 )
-write_posterior(Path(snakemake.output.met), met, params.code)
-write_posterior(Path(snakemake.output.weighed), weighed, params.code)
+write_posterior(Path(snakemake.output.noise_free), noise_free, params.code)
+write_posterior(Path(snakemake.output.noise_aware), noise_aware, params.code)

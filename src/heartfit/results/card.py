@@ -40,25 +40,25 @@ NAMED_SHARE, MOST_NAMED = 0.35, 3
 class Card:
     """Noise-free and noise-aware posterior of the same beats.
 
-    met: noise-free, as in the paper (R = 0 unless the study sets another); weighed: noise-aware, with the noise of the
-    observations and the uncertainty of fixed parameters. truth: SI by name, empty for a measured heart.
+    noise_free: as in the paper (R = 0 unless the study sets another); noise_aware: R is the noise of the observations
+    plus the uncertainty of fixed parameters. truth: SI by name, empty for a measured heart.
     """
 
     case: str
     setting: str
-    met: Posterior
-    weighed: Posterior
+    noise_free: Posterior
+    noise_aware: Posterior
     truth: Mapping[str, float]
 
     @property
     def prior(self) -> Gaussian:
         """Return the prior of both posteriors."""
-        return self.met.prior
+        return self.noise_free.prior
 
     @cached_property
-    def seen(self) -> Information:
+    def information(self) -> Information:
         """Return the information of the data, with noise and fixed parameters."""
-        return information(self.prior, self.weighed.estimate)
+        return information(self.prior, self.noise_aware.estimate)
 
     def place(self, estimate: Gaussian) -> np.ndarray:
         """Return the mean (n,) of an estimate in prior standard deviations from the prior mean."""
@@ -80,7 +80,7 @@ class Card:
 
     def weakest(self) -> str:
         """Return the least informed direction, such as "sigma_0 up with R_p up"."""
-        direction = self.seen.weakest
+        direction = self.information.weakest
         large = np.flatnonzero(np.abs(direction) >= NAMED_SHARE * np.abs(direction).max())
         named = sorted(large, key=lambda place: -abs(direction[place]))[:MOST_NAMED]
         return " with ".join(f"{self.prior.names[i]} {'up' if direction[i] > 0 else 'down'}" for i in named)
@@ -88,20 +88,20 @@ class Card:
 
 def cards(
     keys: Iterable[tuple[str, str]],
-    met: Iterable[Posterior],
-    weighed: Iterable[Posterior],
+    noise_free: Iterable[Posterior],
+    noise_aware: Iterable[Posterior],
     truths: Mapping[str, Mapping[str, float]],
 ) -> Sequence[Card]:
     """Return one card per case and setting in the order of the keys (case, setting)."""
     return [
-        Card(case, setting, noise_free, noise_aware, comparable_truth(truths.get(case, {})))
-        for (case, setting), noise_free, noise_aware in zip(keys, met, weighed, strict=True)
+        Card(case, setting, free, aware, comparable_truth(truths.get(case, {})))
+        for (case, setting), free, aware in zip(keys, noise_free, noise_aware, strict=True)
     ]
 
 
 POSTERIORS: dict[str, Callable[[Card], Gaussian]] = {
-    "observations met": lambda card: card.met.estimate,
-    "noise and fixed": lambda card: card.weighed.estimate,
+    "observations met": lambda card: card.noise_free.estimate,
+    "noise and fixed": lambda card: card.noise_aware.estimate,
 }
 """Posteriors by their names in the tables."""
 
@@ -133,7 +133,8 @@ def coverage_table(cards: Sequence[Card]) -> pd.DataFrame:
 
 
 def _card_rows(card: Card) -> list[dict[str, object]]:
-    information, met, weighed = card.seen, card.met.estimate, card.weighed.estimate
+    information = card.information
+    noise_free, noise_aware = card.noise_free.estimate, card.noise_aware.estimate
     covered = {name: card.covered(estimate(card)) for name, estimate in POSTERIORS.items()}
     common = {
         "rank": f"{information.rank} of {len(information.names)}",
@@ -146,9 +147,9 @@ def _card_rows(card: Card) -> list[dict[str, object]]:
             "case": card.case,
             "parameter": name,
             "prior sd (%)": 100 * card.prior.sd[i],
-            "met": card.place(met)[i],
-            "met sd over prior": met.sd[i] / card.prior.sd[i],
-            "weighed": card.place(weighed)[i],
+            "met": card.place(noise_free)[i],
+            "met sd over prior": noise_free.sd[i] / card.prior.sd[i],
+            "weighed": card.place(noise_aware)[i],
             "weighed sd over prior": information.sd_ratio[i],
             "seen": 1.0 - information.sd_ratio[i] ** 2,
             "truth": card.true_place()[i],

@@ -34,11 +34,11 @@ def plot_card(card: Card) -> Figure:
     draw_parameters(left, card)
     _directions(right, card)
     figure.suptitle(
-        f"{card.case}, {card.setting}: {card.seen.rank} of {count} directions informed by the data",
+        f"{card.case}, {card.setting}: {card.information.rank} of {count} directions informed by the data",
         fontsize=11,
     )
-    values = ", ".join(f"{value:.2f}" for value in card.met.singular_values)
-    least = f"least informed ({100 * card.seen.reduction[-1]:.0f} %): {_weakest_direction(card)}"
+    values = ", ".join(f"{value:.2f}" for value in card.noise_free.singular_values)
+    least = f"least informed ({100 * card.information.reduction[-1]:.0f} %): {_weakest_direction(card)}"
     figure.supxlabel(f"{least}; singular values of Cov(X, Z): {values}", fontsize=8)
     return figure
 
@@ -46,16 +46,16 @@ def plot_card(card: Card) -> Figure:
 def draw_parameters(axes: Axes, card: Card) -> None:
     """Draw one row per parameter in prior standard deviations: prior, posterior, estimate, truth."""
     rows = np.arange(len(card.prior.names))
-    covered = card.covered(card.weighed.estimate)
+    covered = card.covered(card.noise_aware.estimate)
     axes.barh(
         rows, 2 * INTERVAL_REACH, left=-INTERVAL_REACH, height=0.62, color="#e6e6e6", label="prior, 95 %"
     )
-    _intervals(axes, card, card.weighed.estimate, NOISE_AWARE_COLOUR, "noise-aware posterior, 95 %")
-    _marks(axes, card.place(card.met.estimate), "|", NOISE_FREE_COLOUR, "noise-free estimate")
+    _intervals(axes, card, card.noise_aware.estimate, NOISE_AWARE_COLOUR, "noise-aware posterior, 95 %")
+    _marks(axes, card.place(card.noise_free.estimate), "|", NOISE_FREE_COLOUR, "noise-free estimate")
     _marks(axes, card.true_place(), "D", MEASURED, "truth")
     for row, name in enumerate(card.prior.names):
         verdict = (", covered" if covered[name] else ", missed") if name in covered else ""
-        text = f"sd {card.seen.sd_ratio[row]:.2f}{verdict}"
+        text = f"sd {card.information.sd_ratio[row]:.2f}{verdict}"
         axes.text(
             AXIS_LIMIT + 0.15,
             row,
@@ -101,7 +101,7 @@ def _marks(axes: Axes, places: np.ndarray, marker: str, colour: str, label: str)
 
 
 def _directions(axes: Axes, card: Card) -> None:
-    reduction = card.seen.reduction
+    reduction = card.information.reduction
     colours = [NOISE_AWARE_COLOUR if share > INFORMED_SHARE else REFERENCE for share in reduction]
     axes.barh(np.arange(len(reduction)), reduction, height=0.62, color=colours)
     axes.axvline(INFORMED_SHARE, color="black", linewidth=0.8, linestyle=":")
@@ -110,7 +110,7 @@ def _directions(axes: Axes, card: Card) -> None:
     axes.set_xlim(0, 1)
     axes.set_xlabel("prior variance removed", fontsize=9)
     axes.set_ylabel("direction", fontsize=9)
-    axes.set_title(f"{card.seen.degrees:.1f} effective parameters", fontsize=8)
+    axes.set_title(f"{card.information.degrees:.1f} effective parameters", fontsize=8)
     clean(axes)
 
 

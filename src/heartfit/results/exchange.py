@@ -26,13 +26,13 @@ from heartfit.results.text import curve_unit
 class Calibrated:
     """A case with its noise-free and its noise-aware update.
 
-    met: noise-free, as in the paper; weighed: noise-aware; measured, simulated: curves by name (SI), simulated at the
-    noise-free estimate, empty for a failed beat.
+    noise_free: as in the paper; noise_aware: with the noise of the observations; measured, simulated: curves by name
+    (SI), simulated at the noise-free estimate, empty for a failed beat.
     """
 
     case: CaseResult
-    met: Posterior
-    weighed: Posterior
+    noise_free: Posterior
+    noise_aware: Posterior
     measurement: Measurement
     measured: Mapping[str, Curve]
     simulated: Mapping[str, Curve]
@@ -40,16 +40,20 @@ class Calibrated:
     @property
     def beliefs(self) -> dict[str, Gaussian]:
         """Return the Gaussians of the ln parameters: prior, noise-free step of the paper, noise-aware posterior."""
-        return {"prior": self.met.prior, "paper": self.met.estimate, "posterior": self.weighed.estimate}
+        return {
+            "prior": self.noise_free.prior,
+            "paper": self.noise_free.estimate,
+            "posterior": self.noise_aware.estimate,
+        }
 
     def predicted(self, z: Floats) -> Floats:
         r"""Return observations (.., m) at ln parameters z (.., n) by the linear map of the transform.
 
         .. math:: \bar Z + \mathrm{Cov}(Z, X)\, C^{-1} (z - z_0)
         """
-        prior = self.weighed.prior
-        slopes = np.linalg.solve(prior.covariance, self.weighed.cov_xz)
-        return self.weighed.predicted + (z - prior.mean) @ slopes
+        prior = self.noise_aware.prior
+        slopes = np.linalg.solve(prior.covariance, self.noise_aware.cov_xz)
+        return self.noise_aware.predicted + (z - prior.mean) @ slopes
 
 
 CHAINS, DRAWS, SEED = 4, 250, 20120101
@@ -166,7 +170,7 @@ def _gaussians(calibrated: Calibrated) -> xr.Dataset:
     variables["observation_bias"] = ("observation", bias, {"units": "SI"})
     square = ("observation", "observation_bis")
     variables["observation_covariance"] = (square, calibrated.measurement.covariance, {"units": "SI"})
-    parameters = list(calibrated.met.prior.names)
+    parameters = list(calibrated.noise_free.prior.names)
     axes = {
         "parameter": parameters,
         "parameter_bis": parameters,

@@ -60,18 +60,18 @@ STANDS_FOR = {"K": "c_1"}
 
 
 def _noise_free(card: Card) -> dict[str, float]:
-    return card.met.estimate.physical()
+    return card.noise_free.estimate.physical()
 
 
 def _noise_aware(card: Card) -> dict[str, float]:
-    return card.weighed.estimate.physical()
+    return card.noise_aware.estimate.physical()
 
 
 def _unshrunk(card: Card) -> dict[str, float]:
     """Return X0 + A^+ (X_new - X0) in the informed directions: the estimate without the pull of the prior."""
     factor = np.linalg.cholesky(card.prior.covariance)
-    change = np.linalg.solve(factor, card.weighed.estimate.mean - card.prior.mean)
-    return card.prior.physical(card.prior.mean + factor @ card.seen.unshrunk(change))
+    change = np.linalg.solve(factor, card.noise_aware.estimate.mean - card.prior.mean)
+    return card.prior.physical(card.prior.mean + factor @ card.information.unshrunk(change))
 
 
 def _truth(card: Card) -> dict[str, float]:
@@ -120,7 +120,7 @@ class PatientComparison:
         )
 
     @cached_property
-    def seen(self) -> Information:
+    def information(self) -> Information:
         """Return the information of the data on the difference of the two means.
 
         The covariance of the difference is sum C_i / k^2 over the k patients plus that over the volunteers, with
@@ -130,7 +130,7 @@ class PatientComparison:
         groups = (self.patients, self.volunteers)
         before = sum(1.0 / len(group) for group in groups)
         after = sum(
-            card.weighed.estimate.marginal(self.names).covariance / len(group) ** 2
+            card.noise_aware.estimate.marginal(self.names).covariance / len(group) ** 2
             for group in groups
             for card in group
         )

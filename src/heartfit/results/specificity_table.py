@@ -42,7 +42,7 @@ def claims_table(comparisons: Sequence[PatientComparison]) -> pd.DataFrame:
 
 def _parameter_rows(comparison: PatientComparison) -> Iterable[Row]:
     for place, name in enumerate(comparison.names):
-        informed = 1.0 - float(comparison.seen.sd_ratio[place]) ** 2
+        informed = 1.0 - float(comparison.information.sd_ratio[place]) ** 2
         for reading in READINGS:
             ratios = comparison.ratios(reading, name)
             if ratios:
@@ -65,7 +65,7 @@ def _joint_rows(comparison: PatientComparison) -> Iterable[Row]:
     for reading in READINGS:
         if all(comparison.ratios(reading, name) for name in comparison.names):
             difference = comparison.difference(reading)
-            informed = comparison.seen.share(difference)
+            informed = comparison.information.share(difference)
             yield {
                 "setting": comparison.setting,
                 "parameter": "all",
@@ -175,7 +175,7 @@ def _draw_panel(axes: Axes, comparison: PatientComparison, name: str) -> None:
                 place, 1.01, f"p {comparison.test(reading, name).p:.2f}", transform=axes.get_xaxis_transform(),
                 ha="center", va="bottom", fontsize=7,
             )  # fmt: skip
-    informed = 1.0 - float(comparison.seen.sd_ratio[comparison.names.index(name)]) ** 2
+    informed = 1.0 - float(comparison.information.sd_ratio[comparison.names.index(name)]) ** 2
     if informed < INFORMED_SHARE:
         axes.set_facecolor("#e9e9e9")
     stands = f" (truth: {symbol(STANDS_FOR[name])})" if name in STANDS_FOR else ""

@@ -78,14 +78,14 @@ def _intervals(axes: Axes, row: int, fit: FittedCase, name: str) -> None:
     unit = fit.result.units[name]
     gaussians = {
         "prior, 95 %": (fit.posterior.prior, 0.8, PRIOR),
-        "noise-aware posterior, 95 %": (fit.card.weighed.estimate, 0.42, ARTERY),
+        "noise-aware posterior, 95 %": (fit.card.noise_aware.estimate, 0.42, ARTERY),
     }
     for label, (gaussian, height, shade) in gaussians.items():
         low, high = (to_printed_unit(end, unit) for end in _interval(gaussian, name))
         axes.barh(row, high - low, height, left=low, color=shade, label=label, linewidth=0)
-    met = to_printed_unit(fit.result.estimate[name], unit)
+    estimate = to_printed_unit(fit.result.estimate[name], unit)
     stroke: Any = {"markersize": 11, "markeredgewidth": 2.2}
-    axes.plot(met, row, "|", color=CALIBRATED, label="noise-free estimate", **stroke)
+    axes.plot(estimate, row, "|", color=CALIBRATED, label="noise-free estimate", **stroke)
     if name in fit.card.truth:
         axes.plot(
             to_printed_unit(fit.card.truth[name], unit), row, "D", color=MEASURED, markersize=4, label="truth"

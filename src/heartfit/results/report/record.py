@@ -111,7 +111,7 @@ class FittedCase:
     @property
     def posterior(self) -> Posterior:
         """Return the noise-free posterior."""
-        return self.card.met
+        return self.card.noise_free
 
     @property
     def completed(self) -> bool:
