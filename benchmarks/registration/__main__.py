@@ -27,7 +27,7 @@ def main(arguments: list[str]) -> None:
         }
         for family, named in METHODS.items()
     }
-    ours = METHODS["ours"][OURS]
+    ours = METHODS["heartfit"][OURS]
     contrasts = {
         contrast: [
             kept.row(f"heart {heart}, {contrast}", lambda c=contrast, h=heart: row(ours, h, c))

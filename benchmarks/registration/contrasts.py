@@ -12,8 +12,8 @@ CONTRASTS = {
     USUAL: Contrast(),
     "texture 0.1, leaflets and fat": Contrast(muscle_texture=0.1),
     "no texture, leaflets and fat": Contrast(muscle_texture=0.0),
-    "texture 0.2, neither": Contrast(**BARE),
-    "no texture, neither": Contrast(muscle_texture=0.0, **BARE),
+    "texture 0.2, no valve features": Contrast(**BARE),
+    "no texture, no valve features": Contrast(muscle_texture=0.0, **BARE),
 }
 
 

@@ -16,7 +16,7 @@ HALF, TWO, FULL = ((2, 40),), ((4, 40), (2, 40)), ((2, 40), (1, 30))
 EVERYWHERE = 0.03
 """A reach, m, that holds the whole image."""
 
-OURS = "as it is"
+OURS = "default settings"
 
 
 def ours(**settings: Any) -> Method:
@@ -40,37 +40,37 @@ def _diffeomorphic(smoothing: float, levels: tuple[tuple[int, int], ...] = TWO) 
 
 
 METHODS: dict[str, dict[str, Method]] = {
-    "none": {"the mesh stays where it is": theirs(nothing)},
+    "no registration": {"mesh of end diastole": theirs(nothing)},
     "SimpleITK demons, diffeomorphic": {
         "smoothing 1, half resolution": theirs(_diffeomorphic(1.0, HALF)),
         "smoothing 1.5, quarter and half": theirs(_diffeomorphic(1.5)),
-        "smoothing 1.5, quarter and half, blank": theirs(_diffeomorphic(1.5), blank=True),
+        "smoothing 1.5, quarter and half, uniform background": theirs(_diffeomorphic(1.5), blank=True),
         "smoothing 3, quarter and half": theirs(_diffeomorphic(3.0)),
     },
     "SimpleITK demons, fast symmetric": {
         "smoothing 1, half resolution": theirs(_fast()),
-        "smoothing 1, half resolution, blank": theirs(_fast(), blank=True),
+        "smoothing 1, half resolution, uniform background": theirs(_fast(), blank=True),
         "smoothing 1, half and full": theirs(_fast(levels=FULL)),
         "smoothing 2, half resolution": theirs(_fast(2.0)),
-        "smoothing 0.5, of the update 1, half resolution": theirs(_fast(0.5, update=1.0)),
+        "smoothing 0.5, update smoothing 1, half resolution": theirs(_fast(0.5, update=1.0)),
     },
     "SimpleITK affine": {
-        "near the wall, nothing after it": theirs(affine_first(nothing)),
-        "then fast symmetric, smoothing 1": theirs(affine_first(_fast())),
-        "then diffeomorphic, smoothing 1": theirs(affine_first(_diffeomorphic(1.0, HALF))),
+        "near the wall, affine map only": theirs(affine_first(nothing)),
+        "followed by fast symmetric demons, smoothing 1": theirs(affine_first(_fast())),
+        "followed by diffeomorphic demons, smoothing 1": theirs(affine_first(_diffeomorphic(1.0, HALF))),
     },
     "SimpleITK B-splines, half resolution": {
         "15 mm, near the wall, 20 steps": theirs(splines(7.5, 20, 0.2)),
         "15 mm, near the wall, 60 steps": theirs(splines(7.5, 60, 0.2)),
         "10 mm, near the wall, 20 steps": theirs(splines(5.0, 20, 0.2)),
-        "15 mm, everywhere, 20 steps": theirs(splines(7.5, 20, 0.05, near=False)),
+        "15 mm, whole image, 20 steps": theirs(splines(7.5, 20, 0.05, near=False)),
     },
-    "ours": {
+    "heartfit": {
         OURS: ours(),
-        "without the wall's volume": ours(incompressibility=0.0),
-        "compared everywhere": ours(reach=EVERYWHERE),
-        "both": ours(incompressibility=0.0, reach=EVERYWHERE),
-        "half resolution alone": ours(levels=((2, 13),)),
+        "without the wall volume term": ours(incompressibility=0.0),
+        "whole image compared": ours(reach=EVERYWHERE),
+        "without the wall volume term, whole image compared": ours(incompressibility=0.0, reach=EVERYWHERE),
+        "half resolution only": ours(levels=((2, 13),)),
         "control points 8 mm apart": ours(knots=8e-3),
         "control points 15 mm apart": ours(knots=15e-3),
     },

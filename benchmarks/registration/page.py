@@ -17,7 +17,7 @@ FRAMES, LIMIT = 25, 60.0
 
 def page(methods: Mapping[str, Mapping[str, Row]], contrasts: Mapping[str, Sequence[Row]], same: bool) -> str:
     """The page; rows by family and name, and by contrast one for each heart; whether the bytes of a motion agree."""
-    truth = methods["ours"][OURS].errors
+    truth = methods["heartfit"][OURS].errors
     hearts = len(next(iter(contrasts.values())))
     costs = [(FRAMES - 1) * row.cpu for rows in contrasts.values() for row in rows]
     return render_page(
