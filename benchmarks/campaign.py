@@ -17,8 +17,8 @@ import yaml
 from benchmarks.campaign_page import Ran, campaign_page
 from benchmarks.ventricles import ROOT
 from heartfit.cli.main import main as heartfit
+from heartfit.io.campaign import FOOTPRINTS, NEEDS, read_benchmarks, read_table
 from heartfit.io.configuration import read_cases, read_study, read_yaml
-from heartfit.io.costs import FOOTPRINTS, NEEDS, read_benchmarks, read_table
 from heartfit.io.files import write_text
 from heartfit.io.tables import read_numbers
 from heartfit.results.provenance import calibrated_cases

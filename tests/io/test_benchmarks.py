@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from heartfit.core.errors import InputError
-from heartfit.io.costs import read_benchmarks
+from heartfit.io.campaign import read_benchmarks
 from heartfit.study.need import Cost
 
 HEADER = "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from heartfit.core.errors import InputError
-from heartfit.io.costs import as_table, measured_footprints, measured_needs, read_table
+from heartfit.io.campaign import as_table, measured_footprints, measured_needs, read_table
 from heartfit.study.forecast import Footprint
 from heartfit.study.need import Need
 

@@ -6,7 +6,8 @@ import yaml
 
 from heartfit.cli.main import main
 from heartfit.core.errors import InputError
-from heartfit.io.shards import read_shards, write_shards
+from heartfit.io.campaign import write_shards
+from heartfit.io.tables import read_shards
 from heartfit.results.provenance import merge_shards, summarise_cohort
 from tests.printed import numbers_in
 

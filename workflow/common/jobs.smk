@@ -8,7 +8,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.resources import Resources
 
 from heartfit.io.fingerprint import fingerprint
-from heartfit.io.costs import NEEDS, read_table
+from heartfit.io.campaign import NEEDS, read_table
 from heartfit.roles import registered
 from heartfit.study.need import SHARED, Need, largest
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from heartfit.io.costs import read_benchmarks
+from heartfit.io.campaign import read_benchmarks
 from heartfit.io.run import record
 from heartfit.io.tables import write_figures, write_tables
 from heartfit.results.costs import cost_table, plot_costs

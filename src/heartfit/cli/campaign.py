@@ -5,8 +5,8 @@ from pathlib import Path
 
 from heartfit.cli.console import Command, add_configuration
 from heartfit.core.errors import InputError
+from heartfit.io.campaign import FOOTPRINTS, NEEDS, read_table, write_costs
 from heartfit.io.configuration import read_cases, read_configuration, read_study
-from heartfit.io.costs import FOOTPRINTS, NEEDS, read_table, write_costs
 from heartfit.study.forecast import Footprint, Subjects, forecast, forecast_page
 from heartfit.study.need import Need
 from heartfit.study.study import Study
@@ -77,7 +77,7 @@ def shards_arguments(command: argparse.ArgumentParser) -> None:
 
 def shards(arguments: argparse.Namespace) -> int:
     """Split the cases of a study into tables and configurations of independent studies."""
-    from heartfit.io.shards import write_shards  # imported here: needs pandas
+    from heartfit.io.campaign import write_shards  # imported here: needs pandas
 
     study = read_study(arguments.config)
     read_cases(Path(study.cases))
@@ -105,8 +105,7 @@ def join_arguments(command: argparse.ArgumentParser) -> None:
 
 def join(arguments: argparse.Namespace) -> int:
     """Write the numbers of all shards as those of one study, and their means; fails if shards disagree."""
-    from heartfit.io.shards import read_shards
-    from heartfit.io.tables import write_tables
+    from heartfit.io.tables import read_shards, write_tables
     from heartfit.results.provenance import calibrated_cases, merge_shards, summarise_cohort
     from heartfit.results.text import render_tables
 

@@ -1,8 +1,8 @@
-"""Declarations of physical parameters, as fields of the part they belong to.
+"""Declarations of physical parameters, and the units in which tables and figures print them.
 
 A part is a frozen dataclass; each of its parameters is declared with value, unit, symbol, meaning and, if
 it may be calibrated, the relative standard deviation of its prior. Tables, schema and documentation are read
-from these declarations.
+from these declarations. All computation is in SI.
 """
 
 from collections.abc import Iterator
@@ -103,3 +103,31 @@ def require_admissible(part: Any) -> None:
                 f"{type(part).__name__}.{declared.name} = {value:g} {declared.unit}: expected a finite "
                 f"value of at least {declared.low:g} ({declared.meaning})"
             )
+
+
+DISPLAY = {  # SI unit: printed unit, SI value of one printed unit
+    "Pa": ("kPa", 1e3),
+    "Pa.s": ("kPa.s", 1e3),
+    "Pa.s/m^3": ("MPa.s/m^3", 1e6),
+    "MPa.s/m^3": ("MPa.s/m^3", 1.0),
+    "MPa": ("kPa", 1e-3),
+    "MPa.s": ("kPa.s", 1e-3),  # as the paper gives them
+    "m^3": ("mL", 1e-6),
+    "m^3/s": ("mL/s", 1e-6),
+    "Pa/s": ("kPa/s", 1e3),
+}
+
+
+def to_printed_unit(value: float, unit: str) -> float:
+    """Convert a value from `unit` to its printed unit."""
+    return value / DISPLAY.get(unit, (unit, 1.0))[1]
+
+
+def printed_unit(unit: str) -> str:
+    """Return the unit in which a quantity given in `unit` is printed."""
+    return DISPLAY.get(unit, (unit, 1.0))[0]
+
+
+def column_heading(name: str, unit: str) -> str:
+    """Return the column heading of a quantity given in `unit`, such as "sigma_0 (kPa)"."""
+    return f"{name} ({printed_unit(unit)})"

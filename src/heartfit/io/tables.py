@@ -1,6 +1,6 @@
 """Tables, figures and animations written; tables of a study and published tables read."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -61,6 +61,11 @@ def read_numbers(path: Path) -> pd.DataFrame:
     if not Path(path).is_file():
         raise InputError(f"{path}: no such file; expected the numbers of a study: run `snakemake --cores 2`")
     return pd.read_csv(path, dtype=str, keep_default_na=False, comment="#")
+
+
+def read_shards(results: Sequence[Path]) -> dict[str, pd.DataFrame]:
+    """Read the numbers of each shard by its folder; raises InputError for a folder without numbers."""
+    return {str(folder): read_numbers(folder / "tables" / "numbers.csv") for folder in results}
 
 
 def read_tolerances(path: Path) -> pd.DataFrame:

@@ -8,7 +8,7 @@ import pandas as pd
 
 from heartfit.calibration.plausible import Plausible, PlausibleRange
 from heartfit.calibration.sensitivity import Sensitivity
-from heartfit.core.units import column_heading, printed_unit, to_printed_unit
+from heartfit.core.parameter import column_heading, printed_unit, to_printed_unit
 from heartfit.results.card import truth_errors
 from heartfit.results.case import CaseResult, Groups, require_one_fingerprint
 from heartfit.results.errors import PAPER

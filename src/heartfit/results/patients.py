@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from heartfit.core.units import DISPLAY
+from heartfit.core.parameter import DISPLAY
 from heartfit.results.card import comparable_truth
 from heartfit.results.case import CaseResult, Groups, require_one_fingerprint
 from heartfit.results.errors import PAPER, mean_error

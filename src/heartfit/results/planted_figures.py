@@ -10,8 +10,7 @@ from matplotlib.lines import Line2D
 from heartfit.discovery.inference.decide import CENTRED_RULES, DEFAULT_RULES
 from heartfit.results.figures import ARTERY, ATRIUM, CALIBRATED, REFERENCE, clean
 from heartfit.results.planted_table import printed_size
-from heartfit.synthetic.rates import RATES, Rate
-from heartfit.synthetic.scoring import Scored
+from heartfit.synthetic.scoring import RATES, Rate, Scored
 
 CONFUSION_KINDS = ("none", "single", "outside")
 KIND_MARKS = ("", "", " *")

@@ -8,8 +8,7 @@ import pandas as pd
 
 from heartfit.core.errors import InputError
 from heartfit.synthetic.campaign import Effect
-from heartfit.synthetic.rates import RATES, Rate, binomial_p_value
-from heartfit.synthetic.scoring import Scored
+from heartfit.synthetic.scoring import RATES, Rate, Scored, binomial_p_value
 
 UNITS = {"m^2": ("cm^2", 1e-4), "s": ("ms", 1e-3), "Pa": ("kPa", 1e3), "1": ("", 1.0), "Pa.s": ("kPa.s", 1e3)}
 """Printed unit of an amplitude and its SI value, by SI unit."""

@@ -19,7 +19,7 @@ from heartfit.calibration.selection import (
     volume_share,
 )
 from heartfit.calibration.sensitivity import Sensitivity
-from heartfit.core.units import printed_unit, to_printed_unit
+from heartfit.core.parameter import printed_unit, to_printed_unit
 from heartfit.results.errors import PAPER
 from heartfit.results.text import symbol
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from heartfit.core.units import DISPLAY
+from heartfit.core.parameter import DISPLAY
 
 GREEK = ("alpha", "sigma", "mu", "tau", "eta")
 RATES = {"dPdt_max": r"$dP/dt_{\max}$", "dPdt_min": r"$dP/dt_{\min}$"}

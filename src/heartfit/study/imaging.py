@@ -6,7 +6,7 @@ from typing import Any, Self
 from pydantic import Field, model_validator
 
 from heartfit.core.validation import LARGEST_COUNT, Count, Seed, Strict
-from heartfit.imaging.registration.settings import FreeForm
+from heartfit.imaging.registration import FreeForm
 from heartfit.observation.noise_model import MIN_SEQUENCES
 from heartfit.personalise.numerics import Generator
 from heartfit.synthetic.scanner import Catheter, Contrast, Scanner
@@ -84,7 +84,7 @@ class PressureLine(Strict):
 
 
 class Registration(Strict):
-    """Settings of the registration of frames to end diastole; see heartfit.imaging.registration.settings."""
+    """Settings of the registration of frames to end diastole; see heartfit.imaging.registration."""
 
     knots: float = Field(default=FreeForm.knots, gt=1e-3, lt=0.1, description="m, distance of control points")
     stiffness: float = Field(default=FreeForm.stiffness, gt=0, description="m^2")

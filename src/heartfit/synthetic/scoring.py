@@ -1,8 +1,14 @@
-"""Comparison of the diagnosis of a planted case with its answer."""
+"""Diagnoses of synthetic cases compared with their answers, and the rates counted over many cases."""
 
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
+import numpy as np
+from scipy.stats import binomtest
+
 from heartfit.discovery.sphere_model.cause import Cause
+from heartfit.discovery.sphere_model.limits import detection_limits
+from heartfit.observation.noise_model import Share
 from heartfit.synthetic.campaign import Effect
 from heartfit.synthetic.case import Answer
 from heartfit.synthetic.trial import REFUSED, ScoredDiagnosis
@@ -73,3 +79,126 @@ class Scored:
 
     def _cause_of(self, effect: Effect) -> Cause:
         return next(cause for cause in self.finding.mechanisms if cause.name == effect.name)
+
+
+Holds = Callable[[Scored], bool]
+"""Property of a scored case."""
+
+
+@dataclass(frozen=True)
+class Rate:
+    """Share of the cases ``among`` for which ``holds`` is true, with an optional target (lower or upper bound)."""
+
+    name: str
+    among: Holds
+    holds: Holds
+    target: float | None = None
+    at_most: bool = False
+
+    def share_of(self, scored: Iterable[Scored]) -> Share | None:
+        """Return the share with its exact 95 % interval, None if there is no such case."""
+        outcomes = [self.holds(case) for case in scored if self.among(case)]
+        return Share.from_count(float(sum(outcomes)), len(outcomes)) if outcomes else None
+
+    def meets_target(self, share: Share) -> bool | None:
+        """Return whether the share itself meets the target, None without a target."""
+        if self.target is None:
+            return None
+        return share.covered <= self.target if self.at_most else share.covered >= self.target
+
+
+def _null(case: Scored) -> bool:
+    return case.answer.kind == "none"
+
+
+def _single(case: Scored) -> bool:
+    return case.answer.kind == "single"
+
+
+def _out_of_library(case: Scored) -> bool:
+    return case.answer.kind == "outside"
+
+
+def _pair(case: Scored) -> bool:
+    return case.answer.kind == "two"
+
+
+RATES = (
+    Rate("false alarms of nulls", _null, lambda case: case.detected, 0.04, at_most=True),
+    Rate("nulls that were given a name", _null, lambda case: case.named),
+    Rate(
+        "singles detected at 2 scales", lambda case: _single(case) and case.scales == 2.0,
+        lambda case: case.detected, 0.75,
+    ),
+    Rate("singles detected at more", lambda case: _single(case) and case.scales > 2.0, lambda case: case.detected),
+    Rate("singles named right, of the named", lambda case: _single(case) and case.named, lambda case: case.right, 0.95),
+    Rate("named right, of all that were named", lambda case: case.named, lambda case: case.right),
+    Rate(
+        "singles in their group, of the groups", lambda case: _single(case) and case.finding.verdict == "group",
+        lambda case: case.in_group,
+    ),
+    Rate("outsiders detected", _out_of_library, lambda case: case.detected),
+    Rate(
+        "outsiders called unknown, of the detected", lambda case: _out_of_library(case) and case.detected,
+        lambda case: case.finding.verdict == "unknown", 0.85,
+    ),
+    Rate("pairs with both right", _pair, lambda case: case.right),
+    Rate(
+        "pairs with a wrong pair", _pair, lambda case: case.finding.verdict == "two" and not case.right, 0.02,
+        at_most=True,
+    ),
+    Rate("pairs with one name, and right", _pair, lambda case: case.named and case.finding.names < case.truth),
+)  # fmt: skip
+
+
+def binomial_p_value(share: Share, claim: float, at_most: bool) -> float:
+    r"""One-sided binomial p value: probability of a count at least as bad as the observed one at the rate ``claim``.
+
+    .. math:: P(X \ge k) \text{ for a rate of at most } p, \qquad P(X \le k) \text{ for one of at least } p, \qquad
+              X \sim \mathrm{Bin}(n, p)
+    """
+    count = round(share.covered * share.sequences)
+    worse = "greater" if at_most else "less"
+    return float(binomtest(count, share.sequences, claim, worse).pvalue)
+
+
+@dataclass(frozen=True)
+class DetectableSizes:
+    """Smallest detectable sizes [scales] by name and sign; infinite if no size tried is detected."""
+
+    scales: Mapping[tuple[str, float], float]
+
+    @classmethod
+    def of(cls, scored: Iterable[Scored], threshold: float) -> "DetectableSizes":
+        """Compute the sizes for all planted single effects, on the sphere of an average adult."""
+        names = {case.answer.effects[0].name for case in scored if case.answer.kind == "single"}
+        computed = detection_limits(1, names=sorted(names), threshold=threshold) if names else ()
+        return cls(
+            {(limit.name, limit.sign): np.inf if limit.least is None else limit.least for limit in computed}
+        )
+
+    def describe(self, name: str) -> str:
+        """Return the detectable sizes of an effect as text, one per sign; empty for an effect outside the library."""
+        sizes = [size for (effect, _), size in self.scales.items() if effect == name]
+        return " or ".join(f"{size:.1f}" if np.isfinite(size) else "not to 4" for size in sizes)
+
+    def of_effect(self, effect: Effect) -> float:
+        """Return the detectable size of an effect, of its sign [scales]."""
+        return self.scales[effect.name, float(np.sign(effect.amplitude - effect.off))]
+
+    def is_detectable(self, case: Scored) -> bool:
+        """Return whether a case hides a single effect of the library of at least the detectable size."""
+        if case.answer.kind != "single":
+            return False
+        (effect,) = case.answer.effects
+        return effect.scales >= self.of_effect(effect)
+
+    def rates(self, target: float | None = None) -> tuple[Rate, ...]:
+        """Return all rates and those of the detectable effects; target: share of these that is named right."""
+        return (
+            *RATES,
+            Rate("singles above their limit, detected", self.is_detectable, lambda case: case.detected),
+            Rate(
+                "singles above their limit, named right", self.is_detectable, lambda case: case.right, target
+            ),
+        )

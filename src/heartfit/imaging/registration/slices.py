@@ -17,7 +17,7 @@ from scipy.ndimage import map_coordinates
 
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
-from heartfit.imaging.registration.settings import registration_order
+from heartfit.imaging.registration import registration_order
 from heartfit.imaging.sequence import Grid, ImageSequence
 
 REGION_MARGIN = 0.02

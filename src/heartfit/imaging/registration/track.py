@@ -25,9 +25,9 @@ from heartfit.core.arrays import Floats, Integers
 from heartfit.core.errors import InputError
 from heartfit.geometry.mesh import Motion, VentricularMesh, element_volumes
 from heartfit.imaging.raster import wall_voxels
+from heartfit.imaging.registration import FreeForm as FreeForm
+from heartfit.imaging.registration import registration_order
 from heartfit.imaging.registration.lattice import Lattice
-from heartfit.imaging.registration.settings import FreeForm as FreeForm
-from heartfit.imaging.registration.settings import registration_order
 from heartfit.imaging.registration.terms import (
     Bending,
     Brightness,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 
-from heartfit.core.units import printed_unit, to_printed_unit
+from heartfit.core.parameter import printed_unit, to_printed_unit
 from heartfit.results.figures import MEASURED, clean
 from heartfit.results.report.curves import samples, simulated
 from heartfit.results.report.picture import TEXT, Picture, as_picture, grid, legend

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.core.units import printed_unit, to_printed_unit
+from heartfit.core.parameter import printed_unit, to_printed_unit
 from heartfit.results.card import INTERVAL_REACH
 from heartfit.results.card_figure import AXIS_LIMIT, draw_parameters
 from heartfit.results.figures import ARTERY, CALIBRATED, MEASURED, clean

@@ -1,15 +1,17 @@
-"""Measured costs of jobs and the files that a study leaves, as tables."""
+"""Measured costs of jobs and files, and the shards of a large study."""
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, fields
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
+
+import yaml
 
 from heartfit.core.errors import InputError
 from heartfit.io.files import write_text
-from heartfit.study.forecast import Footprint, footprints
+from heartfit.study.forecast import Footprint, footprints, split_cases
 from heartfit.study.need import SHARED, Cost, Need, needs, virtual_cases
 
 COLUMNS = {"s", "max_rss", "cpu_time"}
@@ -102,3 +104,29 @@ def read_table(kind: type[Row], path: Path) -> list[Row]:
         raise InputError(
             f"{path}: not the costs that were measured; expected the columns {expected}: write it anew"
         ) from None
+
+
+def write_shards(
+    folder: Path, table: Path, reference: str, size: int, results: str, over: Mapping[str, Any]
+) -> list[Path]:
+    """Write a table of cases and a configuration for each shard; returns the configurations.
+
+    table: all cases; reference: the case that belongs to every shard; results: folder of the whole study; over: keys
+    over the study's configuration, of whose sources each shard keeps those of its cases.
+    """
+    header, *rows = [line for line in table.read_text(encoding="utf-8-sig").splitlines() if line.strip()]
+    place = header.split("\t").index("case")
+    by_name = {row.split("\t")[place]: row for row in rows}
+    if reference not in by_name or len(by_name) < 2:
+        raise InputError(
+            f"{table}: expected {reference} for every shard, and others: correct sensitivity.case"
+        )
+    written = []
+    for number, names in enumerate(split_cases([*by_name], reference, size)):
+        cases, configuration = folder / f"{number:03d}.tsv", folder / f"{number:03d}.yaml"
+        write_text(cases, "\n".join([header, *(by_name[name] for name in names)]) + "\n")
+        sources = {name: source for name, source in over.get("sources", {}).items() if name in names}
+        own = {"cases": cases.as_posix(), "results": f"{results}/shards/{number:03d}", "sources": sources}
+        write_text(configuration, yaml.safe_dump({**over, **own}, sort_keys=False))
+        written.append(configuration)
+    return written
