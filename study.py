@@ -1,22 +1,24 @@
 #!/usr/bin/env python3
-"""Set everything up and do the work, with nothing but Python >= 3.11.
+"""Set up the environment and run the study, its tests or its benchmarks, with only Python >= 3.11.
 
-python3 study.py              set up, then run the whole study on two cores
-python3 study.py run ARGS     the same with further arguments of Snakemake, as --configfile config/smoke.yaml
-python3 study.py test ARGS    set up, then pass the tests; ARGS go to pytest
-python3 study.py lint         set up, then style, types and the workflow's own lint
-python3 study.py benchmark    set up, then measure what a beat costs and write docs/performance.md; half an hour
-python3 study.py verification set up, then compare the simulator with answers from elsewhere; a minute or two
-python3 study.py convergence  set up, then see what mesh and time step change and write docs/convergence.md; as long
-python3 study.py mutations    set up, then spoil kernels one by one and write which test noticed into docs/mutations.md
-python3 study.py browser      set up, then open the report in a headless browser: no error, no network, it beats
-python3 study.py docs         set up, then make the site of docs/ and of the library in site/; any warning fails
-python3 study.py numbers      set up, then write the pages whose numbers are in docs/measured, of a NUMBERS.csv first
-python3 study.py malformed    set up, then see every malformed input refused in one line; under a minute
-python3 study.py tutorial     set up, then run every command of docs/own_heart.md, the study coarsely; some minutes
-python3 study.py slurm        set up, then lead a small study through a SLURM losing a job and its node; as root
-python3 study.py faults       set up, then kill and damage the smallest study, mend it and write docs/faults.md; 22 min
-python3 study.py lock         write requirements.lock and that of profiles/slurm anew from pyproject.toml
+Each command first installs the locked packages into .venv, if necessary.
+
+python3 study.py              run the whole study on two cores
+python3 study.py run ARGS     run it with further arguments for Snakemake, such as --configfile config/smoke.yaml
+python3 study.py test ARGS    run the tests; ARGS go to pytest
+python3 study.py lint         check style and types, and lint the workflow
+python3 study.py benchmark    measure the cost of a beat and write docs/performance.md; half an hour
+python3 study.py verification compare the simulator with closed forms and published results; one or two minutes
+python3 study.py convergence  measure the effect of mesh and time step, write docs/convergence.md; half an hour
+python3 study.py mutations    mutate kernels one by one and write the tests that fail into docs/mutations.md
+python3 study.py browser      test the report in a headless browser: no error, no network access, hearts that beat
+python3 study.py docs         build the site of docs/ and of the library in site/; any warning fails
+python3 study.py numbers      write the pages with numbers of docs/measured, or first store a NUMBERS.csv there
+python3 study.py malformed    check that every malformed input is rejected in one line; under a minute
+python3 study.py tutorial     run every command of docs/own_heart.md with the coarse study; some minutes
+python3 study.py slurm        run a small study on a local SLURM that loses a job and its node; as root
+python3 study.py faults       kill and damage the smallest study, repair it and write docs/faults.md; 22 min
+python3 study.py lock         update requirements.lock and that of profiles/slurm from pyproject.toml
 """
 
 import hashlib
@@ -43,9 +45,9 @@ LINTS = (
     ("mypy",),
     ("snakefmt", "--check", "Snakefile", "workflow"),
 )
-# at every choice, each second, Snakemake looks up the sizes of all inputs of as many jobs as are ready
+# Snakemake selects jobs once a second and looks up the sizes of all inputs of all ready jobs: limit their number
 BRISK = ("--scheduler", "greedy", "--scheduler-subsample", "50")
-CONDA = "Specify a conda environment or container for each rule."  # the lock file is what fixes the software
+CONDA = "Specify a conda environment or container for each rule."  # the lock file fixes the software
 HASHED = (
     *("--universal", "--python-version", "3.11", "--generate-hashes", "--upgrade", "--quiet"),
     *("--no-annotate", "--no-emit-index-url", "--no-emit-find-links"),
@@ -63,7 +65,7 @@ COMPILE_SLURM_LOCK = (
 
 
 def main(arguments: list[str]) -> int:
-    """Carry out the command that the module's docstring lists."""
+    """Run a command of the list in the module's docstring."""
     command, rest = (arguments[0], arguments[1:]) if arguments else ("run", [])
     if command not in COMMANDS:
         sys.stderr.write(f"study.py: no command {command!r}; known are {', '.join(COMMANDS)}.\n{__doc__}")
@@ -81,7 +83,7 @@ def main(arguments: list[str]) -> int:
 
 
 def set_up() -> None:
-    """Install the locked packages and the project into .venv, unless both are as they were then."""
+    """Install the locked packages and the project into .venv, unless neither has changed since the last time."""
     wanted = hashlib.sha256(LOCK.read_bytes() + (ROOT / "pyproject.toml").read_bytes()).hexdigest()
     if STAMP.exists() and STAMP.read_text() == wanted:
         return
@@ -93,7 +95,7 @@ def set_up() -> None:
 
 
 def create_environment() -> list[str]:
-    """Create .venv if need be and return the command that installs into it."""
+    """Create .venv if it is missing and return the command that installs into it."""
     python = BIN / "python"
     own_pip = importlib.util.find_spec("ensurepip") is not None
     if not own_pip and importlib.util.find_spec("pip") is None:
@@ -109,14 +111,14 @@ def create_environment() -> list[str]:
 
 
 def tool(name: str, *arguments: str) -> list[str]:
-    """The command line of a tool of the environment."""
+    """Return the command line of a tool of the environment."""
     return [shutil.which(name, path=str(BIN)) or str(BIN / name), *arguments]
 
 
 def run(arguments: list[str]) -> int:
-    """Run the workflow, adding the time that remains to Snakemake's count of steps."""
+    """Run the workflow and append the remaining time to Snakemake's count of steps."""
     print(
-        f"The study takes about {duration()} minutes on two cores; what is up to date is left alone.",
+        f"The study takes about {duration()} minutes on two cores; results that are up to date are kept.",
         flush=True,
     )
     command = tool("snakemake", "--cores", "2", *BRISK, *arguments)
@@ -128,7 +130,7 @@ def run(arguments: list[str]) -> int:
 
 
 def duration() -> str:
-    """Minutes that a study from a fresh clone took, as the README and docs/study.md print them."""
+    """Return the duration of a study from a fresh clone [min], as the README and docs/study.md print it."""
     rows = (line.split("\t") for line in MEASURED.read_text(encoding="utf-8").splitlines())
     return next(row[1] for row in rows if row[0] == "duration")
 
@@ -143,14 +145,14 @@ def remaining(line: str, elapsed: float) -> str:
 
 
 def test(arguments: list[str]) -> int:
-    """Pass the tests."""
-    # half of the tests for each process, in their order: neighbours share what they prepare, a fifth less to do
+    """Run the tests."""
+    # contiguous halves for two processes: neighbouring tests share fixtures, which saves a fifth of the time
     halves = ("--numprocesses", "2", "--dist", "worksteal")
     return subprocess.run(tool("pytest", *halves, *arguments), check=False).returncode
 
 
 def lint(_: list[str]) -> int:
-    """Say of each check what was run; fail if one of them does."""
+    """Run all checks and print their commands; fail if one of them fails."""
     failed = 0
     for check in LINTS:
         print("lint:", *check, flush=True)
@@ -160,7 +162,7 @@ def lint(_: list[str]) -> int:
 
 
 def workflow_advice() -> list[str]:
-    """Print and return the advice of Snakemake's own lint, except to use conda."""
+    """Print and return the advice of `snakemake --lint`, except that to use conda."""
     print("lint: snakemake --lint", flush=True)
     report = subprocess.run(tool("snakemake", "--lint"), capture_output=True, text=True, check=False)
     advice = [line.strip() for line in report.stderr.splitlines() if line.startswith("    * ")]
@@ -172,60 +174,60 @@ def workflow_advice() -> list[str]:
 
 
 def benchmark(arguments: list[str]) -> int:
-    """Measure what a beat costs and write docs/performance.md; `--small` leaves out the fine meshes."""
+    """Measure the cost of a beat and write docs/performance.md; `--small` omits the fine meshes."""
     return subprocess.run(tool("python", "-m", "benchmarks", *arguments), check=False).returncode
 
 
 def verification(arguments: list[str]) -> int:
-    """Print the page of verification, or what ARGS of `python -m verification` name."""
+    """Print the page of verification; the arguments are those of `python -m verification`."""
     return subprocess.run(tool("python", "-m", "verification", *arguments), check=False).returncode
 
 
 def convergence(_: list[str]) -> int:
-    """Write docs/convergence.md anew."""
+    """Measure convergence and write docs/convergence.md."""
     return subprocess.run(tool("python", "-m", "benchmarks.convergence"), check=False).returncode
 
 
 def mutations(arguments: list[str]) -> int:
-    """Write docs/mutations.md anew, or try the mutants that are named."""
+    """Test all mutants and write docs/mutations.md, or test only the named ones."""
     return subprocess.run(tool("python", "-m", "tests.mutations", *arguments), check=False).returncode
 
 
 def browser(arguments: list[str]) -> int:
-    """Open the reports that are there, or that are named, and one of made-up results."""
+    """Test the existing or the named reports and one of synthetic results in a browser."""
     return subprocess.run(tool("python", "-m", "tests.browser", *arguments), check=False).returncode
 
 
 def docs(_: list[str]) -> int:
-    """Make the site anew: a link, an anchor, a reference or a formula that is broken is a warning, and that fails."""
+    """Build the site from scratch; a broken link, anchor, reference or formula fails."""
     for folder in ("site", "docs/api", "build/doctrees"):
         shutil.rmtree(folder, ignore_errors=True)
     warnings = ("--nitpicky", "--fail-on-warning", "--keep-going", "--quiet", "--jobs", "2")
     sphinx = tool("python", "-m", "sphinx", *warnings, "-d", "build/doctrees", "docs", "site")
     code = subprocess.run(sphinx, check=False).returncode
-    print("docs: failed, see above" if code else "docs: site/index.html is there", flush=True)
+    print("docs: failed, see above" if code else "docs: wrote site/index.html", flush=True)
     return code
 
 
 def numbers(arguments: list[str]) -> int:
-    """Write the pages of measured numbers anew; `--check` compares them only."""
+    """Write the pages of measured numbers; `--check` only compares them."""
     return subprocess.run(tool("python", "docs/measured_pages.py", *arguments), check=False).returncode
 
 
 def malformed(arguments: list[str]) -> int:
-    """Refuse every malformed input, of which the tests try a part."""
+    """Test the rejection of every malformed input; `test` tests only some of them."""
     selection = ("--numprocesses", "2", "-m", "long or not long", "tests/malformed")
     return subprocess.run(tool("pytest", *selection, *arguments), check=False).returncode
 
 
 def tutorial(arguments: list[str]) -> int:
-    """Run every command of docs/own_heart.md in a copy of the project, the study coarsely."""
+    """Run every command of docs/own_heart.md in a copy of the project, with the coarse study."""
     pages = tool("pytest", "-m", "long", "--capture=no", "tests/tutorials", *arguments)
     return subprocess.run(pages, check=False).returncode
 
 
 def slurm(arguments: list[str]) -> int:
-    """Add the executor for SLURM, then pass its test; ARGS as `python -m tests.slurm` takes them."""
+    """Install the executor for SLURM and run its test; the arguments are those of `python -m tests.slurm`."""
     hashed = ("--no-deps", "--require-hashes", "-r", str(SLURM_LOCK))
     subprocess.run(
         [*create_environment(), "install", "--quiet", "--disable-pip-version-check", *hashed], check=True
@@ -234,12 +236,12 @@ def slurm(arguments: list[str]) -> int:
 
 
 def faults(arguments: list[str]) -> int:
-    """Write docs/faults.md anew; `--quick` tries a part in some minutes and writes nothing."""
+    """Test recovery from faults and write docs/faults.md; `--quick` tests a part in some minutes, without the page."""
     return subprocess.run(tool("python", "-m", "tests.faults", *arguments), check=False).returncode
 
 
 def lock(_: list[str]) -> int:
-    """Write the lock files anew."""
+    """Update the lock files."""
     commands = (COMPILE_LOCK, COMPILE_SLURM_LOCK)
     return max(subprocess.run(tool(*command), check=False).returncode for command in commands)
 
