@@ -12,7 +12,8 @@ from heartfit.io.beats import MEASURED
 from heartfit.io.curves import read_curves
 from heartfit.io.fingerprint import PACKAGE, modules_below
 from heartfit.io.planted import read_conditions_of, read_planted, write_findings
-from heartfit.io.seals import open_seal, read_scored, seal, write_planted
+from heartfit.io.scores import read_scored
+from heartfit.io.seals import open_seal, seal, write_planted
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import plant
 from heartfit.synthetic.trial import VOLUME, ScoredDiagnosis
@@ -86,6 +87,6 @@ def test_the_job_that_diagnoses_rests_on_no_code_that_plants_or_opens_a_seal():
     assert "synthetic/trial.py" in diagnosing
     answers = {f"synthetic/{name}.py" for name in ("case", "hidden", "campaign", "out_of_library", "scoring")}
     assert all((PACKAGE / name).exists() for name in answers)
-    assert not diagnosing & (answers | {"io/seals.py"})
+    assert not diagnosing & (answers | {"io/seals.py", "io/scores.py"})
     planting = {path.relative_to(PACKAGE).as_posix() for path in modules_below(SCRIPTS / "plant_effects.py")}
     assert not planting & {"discovery/inference/search.py", "discovery/sphere_model/diagnose.py"}

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from heartfit.io.run import record
-from heartfit.io.seals import read_scored
+from heartfit.io.scores import read_scored
 from heartfit.io.tables import read_tolerances, write_csv
 from heartfit.results.planted_table import require_claims
 

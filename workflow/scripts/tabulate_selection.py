@@ -8,8 +8,7 @@ from heartfit.io.results import read_sensitivity
 from heartfit.io.run import record
 from heartfit.io.tables import write_figure, write_table
 from heartfit.results.parameters import prior_table
-from heartfit.results.sensitivity import bulk_modulus_table, selection_table
-from heartfit.results.sobol import plot_sobol, sobol_table
+from heartfit.results.sensitivity import bulk_modulus_table, plot_sobol, selection_table, sobol_table
 from heartfit.results.text import render_table
 
 record(snakemake.log[0])

@@ -1,4 +1,4 @@
-"""Sealed answers of synthetic cases, and the comparison of diagnoses with them; no diagnosis imports this file.
+"""Planted cases and their sealed answers; a diagnosis imports none of this.
 
 A seal is two lines: the SHA-256 of an answer, and the answer in base 64, which is not legible at a glance.
 """
@@ -6,7 +6,6 @@ A seal is two lines: the SHA-256 of an answer, and the answer in base 64, which 
 import base64
 import hashlib
 import json
-from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
@@ -14,10 +13,8 @@ from heartfit.core.errors import InputError
 from heartfit.io.beats import MEASURED
 from heartfit.io.curves import write_curves
 from heartfit.io.files import write_text
-from heartfit.io.planted import read_findings
 from heartfit.io.results import decode
 from heartfit.synthetic.case import REST, Answer, PlantedCase
-from heartfit.synthetic.scoring import Scored
 
 
 def write_planted(case: PlantedCase, measured: Path, sealed: Path) -> None:
@@ -44,12 +41,3 @@ def open_seal(path: Path) -> Answer:
     if hashlib.sha256(text).hexdigest() != digest:
         raise InputError(f"{path}: the seal is broken: the answer was changed after it was planted")
     return decode(json.loads(text), Answer, str(path))
-
-
-def read_scored(findings: Iterable[Path], sealed: Iterable[Path]) -> list[Scored]:
-    """Read the findings of several files with their answers, each file with its folder of seals."""
-    return [
-        Scored(open_seal(Path(folder, f"{seed}.answer")), finding)
-        for path, folder in zip(findings, sealed, strict=True)
-        for seed, finding in read_findings(Path(path)).items()
-    ]
