@@ -12,8 +12,8 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.io.report import assets
 from heartfit.results.report.page import render
 from tests.browser.__main__ import found
-from tests.report.conftest import HOSTILE
-from tests.report.small_report import study
+from tests.results.report.conftest import HOSTILE
+from tests.results.report.small_report import study
 
 FLAGS = (
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",

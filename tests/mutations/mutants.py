@@ -2,13 +2,15 @@
 
 from dataclasses import dataclass
 
-MECHANICS, CIRCULATION = "tests/mechanics", "tests/circulation"
-BODY, BCS = f"{MECHANICS}/test_body.py", f"{MECHANICS}/test_bcs.py"
-MOONEY, EXPONENTIAL = f"{MECHANICS}/test_mooney_rivlin.py", f"{MECHANICS}/test_guccione.py"
-SPHERE, TIME = f"{MECHANICS}/test_sphere.py", f"{MECHANICS}/test_time_step.py"
-COMPILED = "tests/sphere/test_simulation.py"
-MUSCLE = "tests/test_mechanisms.py::test_muscle_that_is_switched_off_is_the_same_muscle"
-CAVITY, EIKONAL = "tests/geometry/test_cavity.py", "tests/electrophysiology/test_eikonal.py"
+HEART = "tests/heart"
+ELEMENTS, MUSCLE = f"{HEART}/finite_elements", f"{HEART}/muscle"
+CIRCULATION, ACTIVATION = f"{HEART}/circulation", f"{HEART}/activation"
+BODY, BCS = f"{ELEMENTS}/test_body.py", f"{MUSCLE}/test_bcs.py"
+MOONEY, EXPONENTIAL = f"{MUSCLE}/test_mooney_rivlin.py", f"{MUSCLE}/test_guccione.py"
+SPHERE, TIME = f"{HEART}/sphere/test_sphere.py", f"{HEART}/test_time_step.py"
+COMPILED = f"{HEART}/sphere/test_simulation.py"
+SWITCHED_OFF = "tests/mechanisms/test_mechanisms.py::test_muscle_that_is_switched_off_is_the_same_muscle"
+CAVITY, EIKONAL = "tests/geometry/test_cavity.py", f"{ACTIVATION}/test_eikonal.py"
 UNSCENTED, UPDATE = "tests/calibration/test_unscented.py", "tests/calibration/test_update.py"
 
 
@@ -69,7 +71,7 @@ MUTANTS = (
     ),
     *_in(
         "heart/finite_elements/kinematics.py",
-        f"{MECHANICS}/test_kinematics.py {BODY}",
+        f"{ELEMENTS}/test_kinematics.py {BODY}",
         ("determinant's sign", "- F[e, 0, 1] * (F[e, 1, 0]", "+ F[e, 0, 1] * (F[e, 1, 0]"),
         ("inverse's shear", "out[3] = (C[4] * C[5] - C[3] * C[2])", "out[3] = (C[4] * C[5] + C[3] * C[2])"),
         ("fibre strain without shear", "e[i] = 0.5 * (normal - 1.0) + shear", "e[i] = 0.5 * (normal - 1.0)"),
@@ -102,7 +104,7 @@ MUTANTS = (
     ),
     *_in(
         "heart/finite_elements/elements.py",
-        f"{MECHANICS}/test_elements.py {BODY}",
+        f"{ELEMENTS}/test_elements.py {BODY}",
         (
             "no stabilisation",
             "CONSISTENT_MASS / K + PROJECTION_DEFECT / G",
@@ -137,7 +139,7 @@ MUTANTS = (
     ),
     *_in(
         "heart/muscle/tissue.py",
-        f"{MECHANICS}/test_support.py",
+        f"{MUSCLE}/test_support.py",
         (
             "the pericardium sticks",
             "moduli[:, None, None] * unit[:, :, None] * unit[:, None, :]",
@@ -147,7 +149,7 @@ MUTANTS = (
     ),
     *_in(
         "heart/finite_elements/solver.py",
-        f"{MECHANICS}/test_solver.py",
+        f"{ELEMENTS}/test_solver.py",
         (
             "children are forgotten",
             "update[start:end, :end] -= np.dot(",
@@ -158,7 +160,7 @@ MUTANTS = (
     ),
     *_in(
         "heart/finite_elements/unloading.py",
-        f"{MECHANICS}/test_statics_unloading.py::test_the_tangent_at_fixed_loaded_positions_is_exact_but_for_the_supports",
+        f"{ELEMENTS}/test_statics_unloading.py::test_the_tangent_at_fixed_loaded_positions_is_exact_but_for_the_supports",
         (
             "loaded positions move",
             'np.einsum("eai,ebj->eaibj", forces, slopes)',
@@ -312,26 +314,26 @@ MUTANTS = (
     ),
     *_in(
         "heart/muscle/stiffened.py",
-        f"{MECHANICS}/test_stiffened.py",
+        f"{MUSCLE}/test_stiffened.py",
         ("an added energy not isochoric", "(A[i] - third * Ci[i])", "A[i]"),
         ("an added tangent without curvature", "b * slope[i] * slope[j] + a * bent", "a * bent"),
         ("a sphere's stiffening forgets its own bend", " + first * curve", ""),
     ),
     *_in(
         "heart/muscle/control.py",
-        "tests/electrophysiology/test_control.py",
+        f"{MUSCLE}/test_control.py",
         ("a tail from the activation on", "np.maximum(duration - self.duration, 0.0)", "duration"),
         ("a tail hastens", "rate = rate - self.k_RS", "rate = rate + self.k_RS"),
     ),
     *_in(
         "heart/finite_elements/body.py",
-        MUSCLE,
+        SWITCHED_OFF,
         ("nothing is late on a mesh", "tissue.delays()[reference.segments]", "0.0 * reference.segments"),
         ("nothing is scarred on a mesh", "1.0 - tissue.losses()", "1.0 - 0.0 * tissue.losses()"),
     ),
     *_in(
         "heart/sphere/step.py",
-        MUSCLE,
+        SWITCHED_OFF,
         (
             "nothing is scarred in a compiled beat",
             "fibres[rows.KEPT, i] * available_fraction(",

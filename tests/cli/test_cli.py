@@ -1,0 +1,104 @@
+"""The console command: exit codes, one line for bad input, and what it says of a beat."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from heartfit.cli import main as cli
+from heartfit.cli.console import Progress, beat_summary
+from heartfit.heart.beat import Beat, failed_beat
+from tests.printed import numbers_in
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(autouse=True)
+def in_the_project(monkeypatch):
+    monkeypatch.chdir(ROOT)
+
+
+def test_pages_are_printed(capsys):
+    assert cli.main(["parameters"]) == 0
+    assert "sigma_0" in capsys.readouterr().out
+    assert cli.main(["configuration-schema"]) == 0
+    assert capsys.readouterr().out.startswith("{")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["check", "--config", "nowhere.yaml"], "nowhere.yaml: no such file"),
+        (["simulate", "nowhere.vtu"], "nowhere.vtu: no such file"),
+        (["simulate", "x.vtu", "--setting", "fysical"], "known are paper, physical"),
+        (["simulate", "x.vtu", "--set", "sigma0=1"], "nearest are"),
+        (["simulate", "x.vtu", "--set", "sigma_0"], "expected NAME=VALUE"),
+        (["diagnose", "nowhere.csv"], "nowhere.csv: no such file"),
+        (["diagnose", "resources/plausible_beat.csv", "--rr", "0.9"], "no column time_s"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(arguments, expected, capsys):
+    assert cli.main(arguments) == 2
+    message = capsys.readouterr().err
+    assert message.startswith("heartfit: ")
+    assert expected in message
+    assert message.count("\n") == 1
+
+
+def test_what_a_beat_does_without_is_not_imported():
+    slow = {
+        "pandas",
+        "matplotlib",
+        "skfem",
+        "wildmeshing",
+        "scipy.signal",
+        "scipy.optimize",
+        "scipy.stats",
+        "scipy.spatial",
+    }
+    says = f"import sys, heartfit.cli.main; print(*sorted({slow!r} & set(sys.modules)))"
+    run = subprocess.run([sys.executable, "-c", says], capture_output=True, text=True, check=True)
+    assert run.stdout == "\n", "each takes 0.05 to 0.4 s of every job"
+
+
+def test_tolerances_are_written_anew(tmp_path, capsys):
+    numbers, table = tmp_path / "numbers.csv", tmp_path / "tolerances.tsv"
+    numbers.write_text("table,setting,case,quantity,value,unit\ntable1,paper,v1,V_min,1.25,%\n")
+    header = "table\tsetting\tcase\tquantity\texpected\ttolerance\twhy\n"
+    table.write_text(f"{header}table1\tpaper\tv1\tV_min\t9\t0.5\tmeshes differ\n")
+    assert cli.main(["tolerances", str(numbers), str(table)]) == 0
+    assert capsys.readouterr().out == f"{header}table1\tpaper\tv1\tV_min\t1.25\t0.5\tmeshes differ\n"
+    assert cli.main(["tolerances", str(tmp_path / "none.csv"), str(table)]) == 2
+    assert "none.csv" in capsys.readouterr().err
+
+
+def test_check_says_what_is_left_out(tmp_path, capsys):
+    (tmp_path / "no_heart.yaml").write_text(f"measured_heart: ['{tmp_path}/nowhere']\n")
+    assert cli.main(["check", "--config", "config/config.yaml", str(tmp_path / "no_heart.yaml")]) == 0
+    assert "patient1 left out" in capsys.readouterr().out
+
+
+def test_a_beat_is_summed_up_in_clinical_units():
+    time = np.linspace(0.0, 1.0, 101)
+    volume = 1e-4 + 5e-5 * np.cos(2 * np.pi * time)
+    same = dict.fromkeys(("lv", "rv", "aorta", "pulmonary_artery"), np.full(101, 12e3))
+    seen = {"beats": 2.0, "cpu_s": 3.0, "drift": 0.01, "wall_volume_loss": 0.02}
+    lines = beat_summary(Beat(time, {"lv": volume, "rv": volume}, same, {}, 1.0, 0.0, diagnostics=seen))
+    assert {2.0, 1.5, 1.0} <= set(numbers_in(lines[0]))
+    assert {150.0, 50.0, 66.7, 12.0} <= set(numbers_in(lines[1]))
+    assert [unit for unit in ("LV", "mL", "kPa", "%") if unit not in lines[1]] == []
+
+
+def test_a_failed_beat_says_why():
+    assert beat_summary(failed_beat("beat 1: inverted", 0.8, 0.1, {})) == ["failed: beat 1: inverted"]
+
+
+def test_progress_estimates_the_rest(monkeypatch, capsys):
+    clock = iter([0.0, 0.5, 10.0])
+    monkeypatch.setattr("heartfit.cli.console.time.monotonic", lambda: next(clock))
+    progress = Progress()
+    progress(0.01)
+    progress(0.25)
+    assert numbers_in(capsys.readouterr().err) == [25.0, 30.0]

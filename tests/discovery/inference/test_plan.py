@@ -1,0 +1,70 @@
+"""What a further measurement is expected to add is what it adds on average."""
+
+import numpy as np
+import pytest
+from scipy.stats import multivariate_normal
+
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.data import Block, Noise
+from heartfit.discovery.inference.evidence import Explanation
+from heartfit.discovery.inference.hypothesis import Coordinate
+from heartfit.discovery.inference.plan import FurtherMeasurement, divergence, evaluate, plan
+from tests.discovery.inference.linear import TIMES, data, hypothesis
+
+RAMP, ARCH = TIMES - 0.4, np.sin(np.pi * TIMES)
+KNOWN = Noise((0.1,), 0.0, 0.05, discrepancy=0.5)
+NEW = (Block("new", "m", TIMES, 1.0, KNOWN),)
+
+
+def explained(name: str) -> Explanation:
+    """Data with a ramp, seen through two effects that make the same ramp of them."""
+    matrix = np.column_stack([np.ones(TIMES.size), RAMP])
+    given = hypothesis(matrix, Coordinate(name, one_sided=True, amplitude=True))
+    found = FitContext(data(2.0 * RAMP, KNOWN)).explain(given, given.at(1.0))
+    assert found is not None
+    return found
+
+
+def seen_as(
+    shapes: dict[str, np.ndarray], name: str = "new", cost: float = 1.0, own: int = 0
+) -> FurtherMeasurement:
+    """A measurement in which each effect has its own shape; what is its own shifts it."""
+    return FurtherMeasurement(
+        name, cost, NEW, lambda effects: lambda x: x[1] * shapes[effects[0]] + 3.0 * x[2:].sum(), own
+    )
+
+
+APART = {"a": ARCH, "b": -ARCH}
+ALIKE = {"a": ARCH, "b": ARCH}
+
+
+def test_divergence_is_the_mean_log_ratio() -> None:
+    random = np.random.default_rng(0)
+    means, roots = random.standard_normal((2, 3)), random.standard_normal((2, 3, 3))
+    covariances = roots @ np.swapaxes(roots, 1, 2) + np.eye(3)
+    p, q = (multivariate_normal(mean, each) for mean, each in zip(means, covariances, strict=True))
+    draws = p.rvs(200_000, random_state=1)
+    expected = np.mean(p.logpdf(draws) - q.logpdf(draws))
+    assert divergence(means[0], covariances[0], means[1], covariances[1]) == pytest.approx(expected, rel=0.02)
+    assert divergence(means[0], covariances[0], means[0], covariances[0]) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_what_looks_alike_again_adds_nothing_and_what_differs_adds() -> None:
+    group = [explained("a"), explained("b")]
+    assert evaluate(group, seen_as(ALIKE)).gain == pytest.approx(0.0, abs=1e-9)
+    assert evaluate(group, seen_as(APART)).gain > 3.0
+
+
+def test_what_is_unknown_of_the_measurement_lowers_its_worth() -> None:
+    group, flat = [explained("a"), explained("b")], {"a": np.ones(TIMES.size), "b": -np.ones(TIMES.size)}
+    known, unknown = (evaluate(group, seen_as(flat, own=own)) for own in (0, 1))
+    assert unknown.gain < 0.1 * known.gain
+
+
+def test_the_cheapest_that_decides_leads_and_what_fails_is_left_out() -> None:
+    group = [explained("a"), explained("b")]
+    dead = FurtherMeasurement("dead", 0.1, NEW, lambda effects: lambda x: None)
+    offered = [seen_as(APART, "dear", 5.0), seen_as(ALIKE, "vain", 0.5), dead, seen_as(APART, "cheap", 1.0)]
+    prospects = plan(group, offered)
+    assert [each.name for each in prospects] == ["cheap", "dear", "vain"]
+    assert prospects[0].simulations == 2 * 3

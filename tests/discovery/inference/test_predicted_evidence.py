@@ -1,0 +1,66 @@
+"""Of a linear model the promise is the evidence, and two effects that are both there promise more than one."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.decide import Rules
+from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
+from heartfit.discovery.inference.predicted_evidence import best_prediction, fit_pairs, predict_evidence
+from tests.discovery.inference import oscillator
+from tests.discovery.inference.linear import data, hypothesis, slopes
+
+J = slopes(3)
+FURTHER = hypothesis(J, Coordinate("a", one_sided=True, amplitude=True))
+Y = J @ np.array([0.5, -1.0, 0.8])
+
+
+def test_it_is_the_evidence_of_a_linear_model_for_one_simulation() -> None:
+    context = FitContext(data(Y))
+    base = context.explain(hypothesis(J[:, :2]), np.zeros(2))
+    runs = context.simulations
+    promised = predict_evidence(context, base, FURTHER)
+    assert context.simulations == runs + 1
+    found = context.explain(FURTHER, FURTHER.at(1.0))
+    assert promised.log_evidence == pytest.approx(found.log_evidence, rel=1e-6)
+    assert promised.start[2] == pytest.approx(found.posterior.mean[2], rel=1e-6)
+
+
+def test_an_effect_that_is_not_there_starts_where_it_can_still_be_seen() -> None:
+    context = FitContext(data(-Y))
+    base = context.explain(hypothesis(J[:, :2]), np.zeros(2))
+    assert predict_evidence(context, base, FURTHER).start[2] == 0.3
+
+
+def test_where_the_typical_size_fails_a_smaller_one_does() -> None:
+    context = FitContext(data(Y))
+    base = context.explain(hypothesis(J[:, :2]), np.zeros(2))
+    whole = predict_evidence(context, base, FURTHER)
+    half = predict_evidence(context, base, replace(FURTHER, forward=lambda x: J @ x if x[2] < 0.5 else None))
+    assert half.slopes == pytest.approx(whole.slopes)
+    assert predict_evidence(context, base, replace(FURTHER, forward=lambda x: None)) is None
+
+
+@pytest.mark.parametrize("side", [-1.0, 0.0, 1.0])
+def test_an_effect_starts_on_the_side_on_which_it_acts(side) -> None:
+    """Where it acts, its second coordinate says which of three columns it adds."""
+    shapes = slopes(3, seed=5)
+    coordinates = (*FURTHER.coordinates, Coordinate("place"))
+    placed = Hypothesis(("a",), coordinates, lambda x: J[:, :2] @ x[:2] + x[2] * shapes[:, round(x[3]) + 1])
+    context = FitContext(data(3.0 * shapes[:, int(side) + 1]))
+    base = context.linearise(hypothesis(J[:, :2]), np.zeros(2))
+    start = best_prediction(context, base, placed, (2.0, 2.0)).start
+    assert start[2:] == pytest.approx([2.0, side])
+
+
+def test_only_pairs_that_promise_enough_are_fitted() -> None:
+    truth = oscillator.combined(("delay", "pulse")).forward(np.array([0.5, 0.2, -0.3, 0.1, 2.0, 1.0]))
+    context = FitContext(oscillator.observed(truth, 1))
+    singles = [context.explain(each, each.at(1.0)) for each in oscillator.SINGLES]
+    ranked = sorted(singles, key=lambda each: -each.log_evidence)
+    (pair,) = fit_pairs(context, ranked, oscillator.combined, Rules(predicted_gain=10.0))
+    assert pair.effects == ("delay", "pulse")
+    assert fit_pairs(context, ranked, oscillator.combined, Rules(predicted_gain=1e6)) == []
+    assert len(fit_pairs(context, ranked, oscillator.combined, Rules(predicted_gain=-1e6, pairs=3))) == 3

@@ -1,0 +1,85 @@
+"""The whole search on an oscillator: it names what is hidden, and nothing where nothing is."""
+
+import numpy as np
+import pytest
+
+from heartfit.core.errors import InputError
+from heartfit.discovery.inference.data import Block, Data, Noise
+from heartfit.discovery.inference.hypothesis import Hypothesis
+from heartfit.discovery.inference.search import Findings, search
+from tests.discovery.inference import oscillator
+
+
+def searched(truth: np.ndarray, seed: int) -> Findings:
+    return search(oscillator.observed(truth, seed), oscillator.NONE, oscillator.SINGLES, oscillator.combined)
+
+
+def base(seed: int) -> np.ndarray:
+    return np.random.default_rng(1000 + seed).standard_normal(4)
+
+
+@pytest.mark.parametrize(
+    ("name", "amplitude"), [("clipping", 3.0), ("delay", -2.5), ("drift", 3.0), ("pulse", 1.0)]
+)
+def test_a_hidden_effect_is_named_and_its_interval_holds_it(name, amplitude) -> None:
+    found = searched(oscillator.EFFECTS[name][1](base(4), amplitude), 4)
+    assert found.decision.effects == (name,)
+    _, low, high = found.best.interval(name, 0.99)
+    assert low < amplitude < high
+
+
+def test_two_hidden_effects_are_both_named() -> None:
+    truth = oscillator.combined(("delay", "pulse")).forward(np.array([*base(1), 2.0, 1.0]))
+    found = searched(truth, 1)
+    assert found.decision.verdict == "two"
+    assert found.decision.effects == ("delay", "pulse")
+
+
+def test_what_no_effect_explains_is_unknown_and_its_place_is_shown() -> None:
+    truth = oscillator.curves(base(2))
+    truth[:24] += 0.4 * np.exp(-0.5 * ((oscillator.TIMES - 0.35) / 0.05) ** 2)
+    found = searched(truth, 2)
+    assert found.decision.verdict == "unknown"
+    position, _ = found.baseline_discrepancy
+    assert oscillator.TIMES[np.argmax(position.mean)] == pytest.approx(0.35, abs=0.05)
+
+
+def test_no_hypothesis_fits_worse_than_none() -> None:
+    for seed in range(5):
+        found = searched(oscillator.curves(base(seed)), seed)
+        for single in found.survey.singles:
+            assert single.fit.converged
+            assert single.fit.objective <= found.survey.baseline.fit.objective + 0.05
+
+
+def test_the_simulations_are_counted() -> None:
+    runs = 0
+
+    def counted(hypothesis: Hypothesis) -> Hypothesis:
+        def forward(x: np.ndarray) -> np.ndarray | None:
+            nonlocal runs
+            runs += 1
+            return hypothesis.forward(x)
+
+        return Hypothesis(hypothesis.effects, hypothesis.coordinates, forward)
+
+    found = search(
+        oscillator.observed(oscillator.curves(base(0), pulse=2.0), 0),
+        counted(oscillator.NONE),
+        [counted(each) for each in oscillator.SINGLES],
+        lambda names: counted(oscillator.combined(names)),
+    )
+    assert found.simulations == runs
+
+
+def test_data_and_models_without_which_nothing_can_be_said() -> None:
+    dead = Hypothesis((), oscillator.BASE, lambda x: None)
+    with pytest.raises(InputError, match=r"centre.*prior"):
+        search(
+            oscillator.observed(oscillator.curves(base(0)), 0), dead, oscillator.SINGLES, oscillator.combined
+        )
+    block = Block("y", "m", np.arange(3.0), 1.0, Noise((1.0,), 0.0, 0.1, discrepancy=1.0))
+    with pytest.raises(InputError, match="3"):
+        Data(np.zeros(2), (block,))
+    with pytest.raises(InputError, match="not finite"):
+        Data(np.array([0.0, np.nan, 0.0]), (block,))

@@ -1,0 +1,151 @@
+"""Four ways to see an effect where there is none, each beside the search that does not fall for it.
+
+All hearts here are oscillators without an effect: whatever is named or called unknown is a false alarm.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.decide import DEFAULT_RULES
+from heartfit.discovery.inference.evidence import Explanation, fit
+from heartfit.discovery.inference.hypothesis import Coordinate, CountedHypothesis, Hypothesis
+from heartfit.discovery.inference.search import search
+from tests.discovery.inference import oscillator
+
+SEEDS = range(8)
+
+
+def truth(seed: int) -> np.ndarray:
+    """Base coordinates as scattered as the prior says."""
+    return np.random.default_rng(2000 + seed).standard_normal(4)
+
+
+def share_of_alarms(frozen: int) -> float:
+    """How often anything is found while the first ``frozen`` base coordinates are held at the prior's mean."""
+
+    def held(given: Hypothesis) -> Hypothesis:
+        fixed = np.zeros(frozen)
+        return Hypothesis(
+            given.effects, given.coordinates[frozen:], lambda x: given.forward(np.concatenate([fixed, x]))
+        )
+
+    verdicts = [
+        search(
+            oscillator.observed(oscillator.curves(truth(seed)), seed),
+            held(oscillator.NONE),
+            [held(each) for each in oscillator.SINGLES],
+            lambda names: held(oscillator.combined(names)),
+        ).decision.verdict
+        for seed in SEEDS
+    ]
+    return np.mean([each != "none" for each in verdicts])
+
+
+def test_parameters_that_are_held_invent_effects() -> None:
+    assert share_of_alarms(frozen=2) > 0.8
+    assert share_of_alarms(frozen=0) == 0.0
+
+
+def test_the_residual_of_one_step_is_no_evidence() -> None:
+    """Of right models, one step from the prior's mean mostly leaves what an effect explains, a converged fit not."""
+    alarms = {"one step": 0, "converged": 0}
+    for seed in SEEDS:
+        data = oscillator.observed(oscillator.curves(truth(seed)), seed)
+        context = FitContext(data)
+        rival = max(
+            each.log_evidence for each in (context.explain(each, each.at(1.0)) for each in oscillator.SINGLES)
+        )
+        for name, runs in (("one step", 1 + 4 + 1), ("converged", 400)):
+            found = fit(
+                CountedHypothesis(oscillator.NONE), data.values, context.whitening, np.zeros(4), limit=runs
+            )
+            at_step = replace(
+                found, jacobian=CountedHypothesis(oscillator.NONE).jacobian(found.x, found.predicted)
+            )
+            assert found.converged == (name == "converged")
+            alarms[name] += rival - laplace_there(at_step, context) > DEFAULT_RULES.detected
+    assert alarms["one step"] > len(SEEDS) / 2
+    assert alarms["converged"] == 0
+
+
+def laplace_there(found: object, context: FitContext) -> float:
+    """ln Z as if the fit had converged: without what the linear model still promises."""
+    seen = Explanation.from_fit(found, context.data.values, context.whitening)
+    step = seen.posterior.mean - found.x
+    return seen.log_evidence - 0.5 * step @ np.linalg.solve(seen.posterior.covariance, step)
+
+
+def bent(x: float) -> np.ndarray:
+    """Going down from 0 the frequency rises to a hump; only beyond a valley on the other side it rises without end."""
+    frequency = 1.0 - (x + 0.5) ** 2 if x < 0.5 else 3.0 * (x - 0.5)
+    return oscillator.curves(np.array([0.0, frequency, 0.0, 0.0]))
+
+
+def test_a_base_fit_in_a_side_minimum_is_found_out() -> None:
+    """None alone ends on the hump; an effect that does the same starts beyond the valley, and all others follow."""
+    frequency, lure = Coordinate("frequency"), Coordinate("lure", amplitude=True)
+    none = Hypothesis((), (frequency,), lambda x: bent(x[0]))
+    lured = Hypothesis(("lure",), (frequency, lure), lambda x: bent(x[0] + x[1]))
+    data = oscillator.observed(bent(1.5), 0)
+    alone = fit(CountedHypothesis(none), data.values, FitContext(data).whitening, np.zeros(1))
+    idle = Hypothesis(("idle",), (frequency, Coordinate("idle", amplitude=True)), lambda x: bent(x[0]))
+    found = search(data, none, [lured, idle], oscillator.combined)
+    assert all(
+        each.fit.objective <= found.survey.baseline.fit.objective + 0.05 for each in found.survey.singles
+    )
+    assert alone.objective - found.survey.baseline.fit.objective > DEFAULT_RULES.detected
+    assert found.decision.verdict == "none"
+
+
+def test_a_simulation_that_fails_is_no_curve() -> None:
+    """An effect whose simulation fails from some amplitude on is fitted below it, one that always fails is set aside.
+
+    Had the simulation handed out where it stopped, no choice of coordinates would explain the data.
+    """
+    drift = oscillator.single("drift")
+    failing = replace(drift, forward=lambda x: drift.forward(x) if x[4] < 0.7 else None)
+    dead = replace(oscillator.single("gain"), forward=lambda x: None)
+    data = oscillator.observed(oscillator.curves(truth(1), drift=0.4), 1)
+    found = search(data, oscillator.NONE, [failing, dead], oscillator.combined)
+    assert found.survey.failed == (("gain",),)
+    assert found.decision.verdict == "none"
+    stopped = np.where(oscillator.TIMES < 0.7, 1.0, 0.0)
+    handed_out = np.tile(stopped, 2) * oscillator.curves(truth(1)) + 5.0 * np.tile(1.0 - stopped, 2)
+    fallen = search(
+        oscillator.observed(handed_out, 1), oscillator.NONE, oscillator.SINGLES, oscillator.combined
+    )
+    assert fallen.decision.verdict == "unknown"
+
+
+@pytest.mark.parametrize("effect", list(oscillator.EFFECTS))
+def test_intervals_hold_what_was_hidden(effect) -> None:
+    """95 % of 40; fewer than 33 would be a chance below 1 in 1000."""
+    hidden, held = oscillator.single(effect), 0
+    for seed in range(40):
+        random = np.random.default_rng(3000 + seed)
+        x = np.array(
+            [
+                *random.standard_normal(4),
+                abs(random.standard_normal()) if hidden.one_sided[4] else random.standard_normal(),
+            ]
+        )
+        found = FitContext(oscillator.observed(hidden.forward(x), seed)).explain(hidden, hidden.at(1.0))
+        _, low, high = found.interval(effect)
+        held += low <= x[4] <= high
+    assert held >= 33
+
+
+def test_false_alarms_without_an_effect_are_rare() -> None:
+    verdicts = [
+        search(
+            oscillator.observed(oscillator.curves(truth(seed)), seed),
+            oscillator.NONE,
+            oscillator.SINGLES,
+            oscillator.combined,
+        ).decision.verdict
+        for seed in range(100, 300)
+    ]
+    assert sum(each != "none" for each in verdicts) <= 4

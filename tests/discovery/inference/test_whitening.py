@@ -1,0 +1,41 @@
+"""The likelihood is that of independent blocks of unknown level, and its slope the derivative."""
+
+import numpy as np
+import pytest
+from scipy.stats import multivariate_normal
+
+from heartfit.discovery.inference.data import Data, Whitening
+from tests.discovery.inference import oscillator
+
+R = oscillator.noise(np.random.default_rng(3))
+DATA = Data(R, oscillator.BLOCKS)
+
+
+def test_levels_are_averaged_block_by_block() -> None:
+    density = 1.0
+    for block, rows in zip(DATA.blocks, DATA.rows, strict=True):
+        levels = [block.noise.covariance(block.times, 1.0, level) for level in block.noise.levels]
+        density *= np.mean([multivariate_normal(cov=each).pdf(R[rows]) for each in levels])
+    assert Whitening.from_data(DATA).log_likelihood(R) == pytest.approx(np.log(density), rel=1e-9)
+
+
+def test_a_discrepancy_adds_its_covariance() -> None:
+    (block, *_), rows = DATA.blocks, DATA.rows[0]
+    one = Data(R[rows], (block,))
+    smooth = 4.0 * block.noise.discrepancy_covariance(block.times, block.times, 1.0)
+    levels = [block.noise.covariance(block.times, 1.0, level) + smooth for level in block.noise.levels]
+    density = np.mean([multivariate_normal(cov=each).pdf(R[rows]) for each in levels])
+    assert Whitening.from_data(one, 2.0).log_likelihood(R[rows]) == pytest.approx(np.log(density), rel=1e-9)
+
+
+def test_the_normal_equations_are_the_slope_of_the_logarithm() -> None:
+    J, whitening = np.random.default_rng(1).standard_normal((R.size, 2)), Whitening.from_data(DATA)
+    slope, curvature = whitening.normal(R, J)
+    h = 1e-5
+    differences = [
+        (whitening.log_likelihood(R - J @ each) - whitening.log_likelihood(R + J @ each)) / (2 * h)
+        for each in h * np.eye(2)
+    ]
+    assert slope == pytest.approx(differences, rel=1e-6)
+    assert np.linalg.eigvalsh(curvature).min() > 0.0
+    assert curvature == pytest.approx(curvature.T)

@@ -1,0 +1,21 @@
+"""A late activation is not taken for slow relaxation: how long the fibres take is free in every heart."""
+
+from heartfit.discovery.sphere_model import diagnose as searching
+from heartfit.discovery.sphere_model import forward_model as library
+from heartfit.discovery.sphere_model.diagnose import SearchedRecording
+from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
+from heartfit.discovery.sphere_model.nominal_heart import SPHERE_PARAMETERS
+from heartfit.synthetic.campaign import PlantedPlan
+from tests.discovery.sphere_model.hearts import recorded
+
+
+def rival(model: SphereForwardModel) -> dict[str, library.Candidate]:
+    return {"SlowRelaxation": library.candidates(model)["SlowRelaxation"]}
+
+
+def test_a_late_activation_is_not_called_slow_relaxation_even_where_nothing_else_is_known(monkeypatch):
+    assert "spread" in {each.name for each in SPHERE_PARAMETERS}
+    monkeypatch.setattr(searching, "candidates", rival)
+    found = SearchedRecording.search(recorded(PlantedPlan(712, "single", ("DelayedActivation",), 2.0)))
+    assert found.ranking()["SlowRelaxation"] < found.rules.detected
+    assert found.explanations == ()

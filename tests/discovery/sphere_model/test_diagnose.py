@@ -1,0 +1,87 @@
+"""A planted leak is named and sized, none is found where none is, and a volume alone is not enough."""
+
+from dataclasses import replace
+
+import pytest
+
+from heartfit.discovery.sphere_model.diagnose import diagnose, near_best
+from heartfit.io.causes import read_cause, write_cause_card
+from heartfit.results.cause_card import markdown_card, verdict_sentence
+from heartfit.results.cause_figure import render_cause
+from heartfit.synthetic.case import plant
+from tests.discovery.sphere_model.hearts import LEAK, healthy, recorded
+
+pytestmark = pytest.mark.usefixtures("few_mechanisms")
+
+
+@pytest.fixture(scope="module")
+def found(few_mechanisms):
+    return diagnose(recorded(LEAK), {"legs raised": recorded(LEAK, "legs_raised")})
+
+
+def test_a_planted_leak_is_named_and_its_interval_covers(found):
+    (cause,), (planted,) = found.mechanisms, plant(LEAK).answer.effects
+    assert found.verdict == "named"
+    assert cause.name == planted.name
+    assert cause.ln_bayes_factor > 10.0
+    assert cause.interval[0] < planted.amplitude < cause.interval[1]
+    assert cause.unit == "m^2"
+
+
+def test_it_gains_under_a_loading_that_was_never_fitted(found):
+    assert {each.on for each in found.gain} == {"legs raised"}
+    assert all(each.ratio < 1.0 for each in found.gain)
+    assert all(each.interval[0] < each.ratio < each.interval[1] for each in found.gain)
+
+
+def test_the_card_says_it_in_words(found):
+    assert verdict_sentence(found).startswith("Missing mechanism: mitral regurgitation, 0.")
+    text = markdown_card(found, "case 1")
+    assert "cm²" in text
+    assert "legs raised" in text
+    assert str(found.simulations) in text
+
+
+def test_the_card_is_written_and_read(found, tmp_path):
+    write_cause_card(tmp_path / "deep", render_cause(found, "case 1"), "0123")
+    content = read_cause(tmp_path / "deep" / "cause.json")
+    assert content["verdict"] == "named"
+    assert content["mechanisms"][0]["amplitude"] == found.mechanisms[0].amplitude
+    assert content["fingerprint"] == "0123"
+    assert (tmp_path / "deep" / "cause.png").stat().st_size > 10_000
+
+
+def test_every_model_that_was_tried_is_told_with_its_criteria(found):
+    none, *others = found.tried
+    assert none.effects == ()
+    singles = {each.effects[0]: each for each in others if len(each.effects) == 1}
+    assert singles.keys() == found.ranking.keys() - {"unknown"}
+    for name, each in singles.items():
+        assert each.ln_evidence - none.ln_evidence == pytest.approx(found.ranking[name])
+        assert each.unknowns > none.unknowns == 23
+    leak = singles["MitralRegurgitation"]
+    assert none.negative_ln_likelihood - leak.negative_ln_likelihood > 10.0
+    assert found.samples == sum(trace.times.size for trace in found.traces)
+
+
+def test_what_another_condition_adds_tells_members_of_a_group_apart():
+    leak, delay, shrunk = ("Leak",), ("Delay",), ("Shrunk",)
+    assert near_best({leak: 9.0, delay: 12.5, shrunk: 10.0}, 3.0) == [delay, shrunk]
+    assert near_best({leak: 9.0, delay: 12.5, shrunk: 9.5}, 3.0) == [delay]
+    assert near_best({}, 3.0) == []
+
+
+@pytest.mark.parametrize("seed", [1, 4, 6])
+def test_nothing_is_found_where_nothing_is(seed):
+    found = diagnose(healthy(seed))
+    assert found.verdict == "none"
+    assert found.mechanisms == found.gain == ()
+    assert found.next_measurement == ""
+
+
+def test_a_volume_alone_is_not_enough():
+    both = healthy(4)
+    found = diagnose(replace(both, curves={"lv_volume": both.curves["lv_volume"]}))
+    assert found.verdict == "insufficient"
+    assert "pressure" in found.next_measurement
+    assert verdict_sentence(found).startswith("Insufficient data")

@@ -1,0 +1,103 @@
+"""Two ways to see an effect in a healthy heart and one to miss it, each beside the search that does not fall for it."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+from heartfit.core.arrays import Floats
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.decide import DEFAULT_RULES
+from heartfit.discovery.inference.hypothesis import Hypothesis
+from heartfit.discovery.inference.search import fit_from_baseline, survey_singles
+from heartfit.discovery.sphere_model.forward_model import SphereForwardModel, candidates, hypothesis
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
+from heartfit.discovery.sphere_model.recording import search_data
+from heartfit.synthetic.campaign import PlantedPlan
+from tests.discovery.sphere_model.hearts import healthy, recorded
+
+CALIBRATED = ("cavity", "sigma_0", "mu", "c_1", "R_p", "k_RS", "k_ATP")
+SEEN = np.array([each.name.rsplit(".", 1)[-1] in CALIBRATED for each in FREE_PARAMETERS])
+
+
+@pytest.fixture(scope="module")
+def context():
+    recording = healthy(4)
+    data = search_data(recording)
+    model = SphereForwardModel(
+        ADULT.scaled_to(recording), {block.curve: block.times for block in data.blocks}
+    )
+    return FitContext(data), model
+
+
+def frozen(given: Hypothesis) -> Hypothesis:
+    """The hypothesis with what is not calibrated held at the centre of its prior."""
+    free = np.concatenate([SEEN, np.ones(len(given.coordinates) - SEEN.size, dtype=bool)])
+
+    def forward(x: Floats) -> Floats | None:
+        whole = np.zeros(free.size)
+        whole[free] = x
+        return given.forward(whole)
+
+    kept = tuple(each for each, is_free in zip(given.coordinates, free, strict=True) if is_free)
+    return Hypothesis(given.effects, kept, forward)
+
+
+def best_bayes_factor(context: FitContext, hypotheses: Sequence[Hypothesis]) -> float:
+    """ln evidence of the best effect over none, which comes first."""
+    none, *effects = (context.explain(each, each.at(float(bool(each.effects)))) for each in hypotheses)
+    return max(each.log_evidence for each in effects) - none.log_evidence
+
+
+def test_frozen_parameters_invent_an_effect(context):
+    judge, model = context
+    every = candidates(model)
+    effects = [every[name] for name in ("CatheterDelay", "CatheterOffset", "ImageTriggerDelay")]
+    hypotheses = [hypothesis(model), *(hypothesis(model, (each,)) for each in effects)]
+    assert best_bayes_factor(judge, hypotheses) < DEFAULT_RULES.detected
+    assert best_bayes_factor(judge, [frozen(each) for each in hypotheses]) > 2.0 * DEFAULT_RULES.detected
+
+
+def test_the_residual_of_one_unscented_step_is_no_evidence(context):
+    judge, model = context
+    none = hypothesis(model)
+    fitted = judge.explain(none, none.at(0.0)).fit.predicted
+    assert chi_square(judge, one_step(judge, frozen(none))) > 3.0
+    assert chi_square(judge, fitted) < 1.3
+
+
+def one_step(judge: FitContext, model: Hypothesis) -> Floats:
+    """What the model predicts after one unscented step from the centre: the mean slopes over 2 n + 1 sigma points."""
+    n = len(model.coordinates)
+    reach = np.sqrt(n)
+    up, down = (
+        np.array([model.forward(side * reach * row) for row in np.eye(n)]) / reach for side in (1.0, -1.0)
+    )
+    slopes = 0.5 * (up - down).T
+    slope, gram = judge.whitening.normal(judge.data.values - model.forward(np.zeros(n)), slopes)
+    return model.forward(np.linalg.solve(np.eye(n) + gram, slope))
+
+
+def chi_square(judge: FitContext, predicted: Floats) -> float:
+    """Of the whitened residual at its likeliest level of noise, over the number of values."""
+    residual = judge.data.values - predicted
+    levels = judge.whitening.most_probable_levels(residual)
+    parts = zip(judge.whitening.roots, levels, judge.whitening.rows, strict=True)
+    white = np.concatenate([roots[level] @ residual[rows] for roots, level, rows in parts])
+    return float(np.mean(white**2))
+
+
+def test_a_severe_leak_drags_the_fit_without_it_to_where_the_leak_is_not_seen():
+    """It is named all the same, for every effect starts from the centre of the priors as well."""
+    recording = recorded(PlantedPlan(301, "single", ("MitralRegurgitation",), 3.0))
+    data = search_data(recording)
+    model = SphereForwardModel(
+        ADULT.scaled_to(recording), {block.curve: block.times for block in data.blocks}
+    )
+    leak = hypothesis(model, (candidates(model)["MitralRegurgitation"],))
+    judge = FitContext(data)
+    none = judge.explain(hypothesis(model), hypothesis(model).at(0.0))
+    dragged = fit_from_baseline(judge, none, leak)
+    survey = survey_singles(judge, hypothesis(model), [leak], DEFAULT_RULES)
+    assert dragged.log_evidence - none.log_evidence < DEFAULT_RULES.detected
+    assert survey.singles[0].log_evidence - survey.baseline.log_evidence > 3.0 * DEFAULT_RULES.detected

@@ -1,0 +1,109 @@
+"""The page: whole, closed against the network and against what users write, the same for the same results."""
+
+import json
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.results.cause_card import verdict_sentence
+from heartfit.results.report.cases import facts, status
+from heartfit.results.report.page import Assets, data, render
+from tests.results.report.conftest import ASSETS, HOSTILE
+from tests.results.report.small_report import SETTING, diagnosis, study, volumes
+
+EMPTY = {"meta", "link", "img", "input", "br"}
+
+
+class Outline(HTMLParser):
+    """Tags that were left open, identities, where links lead and what images say."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.ids: list[str] = []
+        self.links: list[str] = []
+        self.images: list[dict[str, str | None]] = []
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+        given = dict(attributes)
+        self.open += [] if tag in EMPTY else [tag]
+        self.ids += [given["id"]] if "id" in given else []
+        self.links += [given["href"]] if "href" in given else []
+        self.images += [given] if tag == "img" else []
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def test_every_tag_is_closed_every_link_leads_somewhere_and_every_picture_is_told(page: str) -> None:
+    outline = Outline(page)
+    assert not outline.open
+    assert len(outline.ids) == len(set(outline.ids))
+    assert {link.removeprefix("#") for link in outline.links} <= set(outline.ids)
+    assert len(outline.images) == 1 + 1 + 2 * (1 + 1) + 2, "cohort, setting, each case, both cause cards"
+    assert all(
+        each["alt"] and each["src"].startswith("data:image/svg+xml;base64,") for each in outline.images
+    )
+
+
+def test_nothing_is_asked_of_the_network(page: str) -> None:
+    assert not re.findall(r"""(?:src|href|action|url\()\s*=?\s*["']?(?:https?:)?//""", page)
+    policy = re.search(r'Content-Security-Policy" content="([^"]*)"', page)[1]
+    assert policy.startswith("default-src &#39;none&#39;; script-src &#39;sha256-")
+    assert "unsafe-eval" not in policy
+    assert "unsafe-inline" not in policy.split("style-src")[0]
+
+
+def test_the_policy_allows_these_scripts_and_no_other() -> None:
+    changed = Assets(ASSETS.library, ASSETS.script + " ", ASSETS.style)
+    assert ASSETS.policy().count("sha256-") == 2
+    assert ASSETS.policy() != changed.policy()
+    # printf 'const own = 2;' | openssl dgst -sha256 -binary | base64
+    assert "'sha256-qKD34zzMFQMgxpImU8FoElsnsqzHWe+offuas9Vn+Uo='" in ASSETS.policy()
+
+
+def test_what_users_write_stays_text(page: str) -> None:
+    assert "<img src=x" not in page
+    assert page.count("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;&amp;") == 2, "below title and table"
+    assert json.loads(str(data([HOSTILE]))) == [HOSTILE]
+    assert not {"<", "\u2028"} & set(str(data([HOSTILE])))
+
+
+def test_the_same_results_give_the_same_bytes(ventricle: VentricularMesh, page: str) -> None:
+    assert render(study(ventricle, note=HOSTILE), ASSETS) == page
+
+
+def part(page: str, case: str) -> str:
+    """The page's section of a case."""
+    return re.search(rf'<section id="{case}".*?</section>', page, re.DOTALL)[0]
+
+
+def test_a_case_shows_what_became_of_its_fit_and_its_causes(page: str, ventricle: VentricularMesh) -> None:
+    sound, weak = part(page, "heart1"), part(page, "heart2")
+    assert (sound.count('class="good"'), sound.count('class="doubt"')) == (1, 0)
+    assert (weak.count('class="good"'), weak.count('class="doubt"')) == (0, 1)
+    assert [text.count('<article class="cause">') for text in (sound, weak)] == [2, 0]
+    failed = study(ventricle).cases["heart2"].fits[SETTING]
+    completed = replace(failed, result=replace(failed.result, notes=()), calibrated=volumes(63.0))
+    assert status(failed) in weak
+    assert status(completed) in sound
+    assert status(replace(failed, calibrated=volumes(63.0))) not in (status(failed), status(completed))
+    assert sound.count(f'<p class="verdict named">{verdict_sentence(diagnosis())}</p>') == 2
+    refits = [re.search(r"<h4>(.*?)</h4>", article)[1] for article in sound.split("<article")[1:]]
+    assert len(set(refits)) == 2
+
+
+def test_a_case_shows_whose_it_is_how_it_conducts_and_which_curves_it_has(
+    page: str, ventricle: VentricularMesh
+) -> None:
+    cases = study(ventricle).cases
+    for name, case in cases.items():
+        assert " · ".join(facts(case)) in part(page, name)
+    patient, volunteer = (facts(case) for case in cases.values())
+    assert all(one != other for one, other in zip(patient[:2], volunteer[:2], strict=True))
+    assert patient[4] != volunteer[4], "pressure was recorded in the first alone"
+    captions = [re.search(r"<figcaption>(.*?)</figcaption>", part(page, name))[1] for name in cases]
+    assert captions[1].startswith(captions[0])
+    assert len(captions[1]) > len(captions[0]), "pressures of the second are predictions"

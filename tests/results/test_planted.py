@@ -1,0 +1,142 @@
+"""Verdicts on hidden effects, printed, drawn and held to claims."""
+
+from dataclasses import replace
+
+import pandas as pd
+import pytest
+
+from heartfit.discovery.sphere_model.cause import Cause
+from heartfit.io.tables import write_figure
+from heartfit.results.planted_figures import plot_confusion, plot_power, plot_rates
+from heartfit.results.planted_page import compare_data, data_table, planted_page
+from heartfit.results.planted_table import (
+    COLUMNS,
+    ClaimError,
+    cases_table,
+    mechanisms_table,
+    rates_table,
+    require_claims,
+)
+from heartfit.synthetic.campaign import Effect
+from heartfit.synthetic.case import Answer
+from heartfit.synthetic.scoring import DetectableSizes, Scored
+from heartfit.synthetic.trial import CONDITION, VOLUME, ScoredDiagnosis
+from tests.printed import numbers_in, outside_tables
+
+
+def scored(seed, kind, planted, verdict, said=(), size=1e-5):
+    effects = tuple(Effect(name, 2.0 * size, 0.0, "m^2", 2.0) for name in planted)
+    named = tuple(Cause(name, 9.0, 1.8 * size, "m^2", (1.5 * size, 2.5 * size)) for name in said)
+    ranking = {"Leak": 9.0, "unknown": 2.0}
+    gain = {"lv_pressure": 0.5} if named else {}
+    return Scored(
+        Answer(seed, kind, effects, {"no beat": 1}, {}, 0.02),
+        ScoredDiagnosis(verdict, named, ranking, gain, 3000, 20.0),
+    )
+
+
+def less(case, verdict):
+    """The same case, also searched by less and more data."""
+    other = {VOLUME: ScoredDiagnosis(verdict), CONDITION: replace(case.finding, gain={"lv_pressure": 0.3})}
+    return replace(case, finding=replace(case.finding, other=other))
+
+
+CASES = [
+    scored(1, "none", (), "none"),
+    scored(2, "none", (), "named", ("Leak",)),
+    scored(3, "single", ("Leak",), "named", ("Leak",)),
+    scored(4, "single", ("Leak",), "unknown"),
+    scored(5, "single", ("Scar",), "none"),
+    scored(6, "outside", ("Whip",), "unknown"),
+    scored(7, "two", ("Leak", "Scar"), "two", ("Leak", "Scar")),
+]
+LEAST = DetectableSizes({("Leak", 1.0): 1.5, ("Scar", 1.0): float("inf")})
+
+
+def claims(*rows):
+    return pd.DataFrame([(*row, "because") for row in rows], columns=COLUMNS)
+
+
+def test_rates_are_counts_with_intervals_and_targets():
+    table = rates_table(CASES).set_index("rate")
+    alarms = table.loc["false alarms of nulls"]
+    assert (alarms["count"], alarms["share (%)"]) == ("1 of 2", 50.0)
+    assert (alarms["target (%)"], alarms["met"]) == ("<= 4", "no")
+    assert alarms["low (%)"] < 50.0 < alarms["high (%)"]
+    assert "singles in their group, of the groups" not in table.index
+
+
+def test_a_mechanism_has_its_size_in_its_unit_and_the_amplitudes_that_were_told():
+    table = mechanisms_table(CASES).set_index("planted")
+    leak = table.loc["Leak"]
+    assert (leak["size"], leak["cases"], leak["detected"], leak["named right"]) == ("0.2 cm^2", 2, 2, 1)
+    assert leak["amplitude ratio, median"] == pytest.approx(0.9)
+    assert leak["in its interval"] == "1 of 1"
+    assert table.loc["Whip (outside)"]["unknown"] == 1
+
+
+def test_less_and_more_data_are_a_row_each_over_the_same_cases():
+    null, leak = less(CASES[0], "insufficient"), less(CASES[2], "named")
+    table = data_table([null, leak, *CASES]).set_index("data")
+    assert table["false alarms"].tolist() == ["0 of 1"] * 3
+    assert table["detected"].tolist() == ["1 of 1"] * 3
+    assert table["named right"].tolist() == [0, 1, 1]
+    assert table["in their group"].tolist() == [0, 0, 0]
+    assert table["named wrong"].tolist() == [1, 0, 0]
+    assert table["insufficient"].tolist() == [1, 0, 0]
+    assert table["held-out pressure"].tolist()[1:] == [0.5, 0.3]
+    page = planted_page([null, leak], 2, "abc", LEAST)
+    assert {1.0, 2.0} <= set(numbers_in(outside_tables(page)))
+    assert compare_data(CASES) is None
+
+
+def test_a_case_is_a_row():
+    table = cases_table(CASES)
+    assert len(table) == len(CASES)
+    assert table["planted"].tolist()[-1] == "Leak + Scar"
+    assert table["right"].tolist() == [False, False, True, False, False, False, True]
+
+
+def test_claims_that_the_counts_allow_are_held():
+    alarms, more = ("false alarms of nulls", 0.06, "at most"), ("singles detected at more", 0.5, "at least")
+    held = require_claims(CASES, claims(alarms, more))
+    assert held["counted"].tolist() == ["1 of 2"]
+    assert held["doubt"].tolist() == pytest.approx([1.0 - 0.94**2])
+
+
+def test_refuted_claims_are_told_one_a_line():
+    many = [scored(seed, "none", (), "unknown") for seed in range(6)]
+    with pytest.raises(ClaimError, match=r"false alarms of nulls.* 6 of 6.* at most 0\.06") as told:
+        require_claims(many, claims(("false alarms of nulls", 0.06, "at most")))
+    assert len(str(told.value).splitlines()) == 2
+
+
+@pytest.mark.parametrize("row", [("no rate", 0.1, "at most"), ("false alarms of nulls", 0.1, "about")])
+def test_a_claim_of_nothing_is_refused(row):
+    with pytest.raises(ValueError, match="rate, claim, bound, why"):
+        require_claims(CASES, claims(row))
+
+
+def test_the_page_tells_seeds_refusals_and_gain():
+    page = planted_page(CASES, 7, "abc", LEAST)
+    numbers = numbers_in(outside_tables(page))
+    assert {7.0, 1.0} <= set(numbers[:4]), "seven cases of the seeds 1 to 7"
+    part = numbers_in(outside_tables(planted_page(CASES, 3001, "abc", LEAST)))
+    assert 3001.0 in part
+    assert 3001.0 not in numbers
+    refused = [line for line in page.splitlines() if {7.0, 14.0} <= set(numbers_in(line))]
+    assert refused, "one of two draws of each case"
+    assert {0.5, 3000.0, 20.0} <= set(numbers)
+
+
+def test_effects_that_cannot_show_are_not_counted_as_missed():
+    table = rates_table(CASES, LEAST.rates()).set_index("rate")
+    assert table.loc["singles detected at 2 scales", "count"] == "2 of 3"
+    assert table.loc["singles above their limit, detected", "count"] == "2 of 2"
+    assert table.loc["singles above their limit, named right", "count"] == "1 of 2"
+
+
+@pytest.mark.parametrize("plot", [plot_rates, plot_confusion, plot_power])
+def test_it_is_drawn(plot, tmp_path):
+    write_figure(tmp_path / "figure.png", plot(CASES))
+    assert (tmp_path / "figure.png").stat().st_size > 5_000

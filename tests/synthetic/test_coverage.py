@@ -1,0 +1,47 @@
+"""On a linear map intervals hold the truth as often as they say, if the noise says all that is unknown."""
+
+import numpy as np
+import pytest
+
+from heartfit.synthetic.race import Coverage, fixed_noise, sphere_coverage
+from heartfit.synthetic.volunteer import OTHER_SPREAD
+from tests.synthetic.linear import SLOPES, linear_twins
+
+HEARTS = 150
+
+
+@pytest.fixture(scope="module")
+def pooled():
+    found = sphere_coverage(linear_twins(noise=0.003, unseen=1.5), HEARTS)
+    return {(each.world, each.noise): each.pooled() for each in found}
+
+
+def test_the_noise_suffices_where_nothing_else_is_unknown(pooled) -> None:
+    share = pooled["nothing", "R of the measurement"]
+    assert share.low < 0.95 < share.high
+
+
+def test_what_is_fixed_must_be_told_where_it_scatters(pooled) -> None:
+    without, told = (pooled["parameters", way] for way in ("R of the measurement", "R and R_fixed"))
+    assert without.high < 0.9
+    assert told.low < 0.95 < told.high
+
+
+def test_a_second_step_changes_nothing_on_a_linear_map(pooled) -> None:
+    one, two = (pooled["parameters", f"R and R_fixed{steps}"] for steps in ("", ", 2 steps"))
+    assert two.covered == pytest.approx(one.covered, abs=0.01)
+
+
+def test_without_noise_the_intervals_are_too_short(pooled) -> None:
+    assert pooled["parameters", "R = 0"].high < 0.9
+
+
+def test_the_noise_of_what_is_fixed_is_that_of_its_slopes() -> None:
+    slopes = OTHER_SPREAD * SLOPES[4:]
+    assert fixed_noise(linear_twins()) == pytest.approx(slopes.T @ slopes)
+
+
+def test_a_calibration_that_failed_is_not_covered() -> None:
+    coverage = Coverage("nothing", "R = 0", ("a", "b"), np.array([[0.0, 3.0], [np.nan, np.nan]]))
+    assert [share.covered for share in coverage.shares().values()] == [0.5, 0.0]
+    assert (coverage.pooled().covered, coverage.pooled().sequences) == (0.25, 2)

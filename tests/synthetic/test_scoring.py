@@ -1,0 +1,104 @@
+"""The scorer counts what it is said to count, whoever the diagnoser is."""
+
+from math import comb
+
+import pytest
+
+from heartfit.discovery.sphere_model.cause import Cause
+from heartfit.observation.noise_model import Share
+from heartfit.synthetic.campaign import Effect
+from heartfit.synthetic.case import Answer
+from heartfit.synthetic.scoring import RATES, Scored, binomial_p_value
+from heartfit.synthetic.trial import ScoredDiagnosis
+
+
+def answer(kind, *names, scales=2.0):
+    effects = tuple(Effect(name, 2.0, 1.0, "m^2", scales) for name in names)
+    return Answer(0, kind, effects, {}, {}, 0.02)
+
+
+def found(verdict, *names):
+    return ScoredDiagnosis(verdict, tuple(Cause(name, 9.0, 1.8, "m^2", (1.5, 2.5)) for name in names))
+
+
+def case(kind, planted, verdict, *said, scales=2.0):
+    return Scored(answer(kind, *planted, scales=scales), found(verdict, *said))
+
+
+CASES = [
+    case("none", (), "none"),
+    case("none", (), "insufficient"),
+    case("none", (), "unknown"),
+    case("none", (), "named", "Leak"),
+    case("single", ("Leak",), "named", "Leak"),
+    case("single", ("Leak",), "named", "Scar"),
+    case("single", ("Leak",), "none"),
+    case("single", ("Scar",), "group", "Leak", "Scar"),
+    case("single", ("Scar",), "group", "Leak", "Kick"),
+    case("single", ("Scar",), "two", "Scar", "Leak", scales=3.0),
+    case("outside", ("Whip",), "unknown"),
+    case("outside", ("Whip",), "named", "Leak"),
+    case("outside", ("Whip",), "none"),
+    case("two", ("Leak", "Scar"), "two", "Scar", "Leak"),
+    case("two", ("Leak", "Scar"), "two", "Scar", "Kick"),
+    case("two", ("Leak", "Scar"), "named", "Scar"),
+    case("two", ("Leak", "Scar"), "named", "Kick"),
+]
+COUNTS = {
+    "false alarms of nulls": (2, 4),
+    "nulls that were given a name": (1, 4),
+    "singles detected at 2 scales": (4, 5),
+    "singles detected at more": (1, 1),
+    "singles named right, of the named": (1, 3),
+    "named right, of all that were named": (2, 9),
+    "singles in their group, of the groups": (1, 2),
+    "outsiders detected": (2, 3),
+    "outsiders called unknown, of the detected": (1, 2),
+    "pairs with both right": (1, 4),
+    "pairs with a wrong pair": (1, 4),
+    "pairs with one name, and right": (1, 4),
+}
+
+
+def test_every_rate_counts_its_cases():
+    shares = {rate.name: rate.share_of(CASES) for rate in RATES}
+    counts = {name: (round(each.covered * each.sequences), each.sequences) for name, each in shares.items()}
+    assert counts == COUNTS
+
+
+def test_a_rate_of_no_case_says_nothing():
+    assert {rate.share_of([]) for rate in RATES} == {None}
+
+
+def test_targets_are_met_or_missed_by_the_share_itself():
+    met = {rate.name: rate.meets_target(rate.share_of(CASES)) for rate in RATES if rate.target is not None}
+    assert met == {
+        "false alarms of nulls": False,
+        "singles detected at 2 scales": True,
+        "singles named right, of the named": False,
+        "outsiders called unknown, of the detected": False,
+        "pairs with a wrong pair": False,
+    }
+
+
+@pytest.mark.parametrize(
+    ("count", "at_most"), [(0, True), (3, True), (16, True), (0, False), (9, False), (16, False)]
+)
+def test_doubt_is_the_tail_of_the_binomial(count, at_most):
+    claim, n = 0.3, 16
+    worse = range(count, n + 1) if at_most else range(count + 1)
+    tail = sum(comb(n, k) * claim**k * (1.0 - claim) ** (n - k) for k in worse)
+    assert binomial_p_value(Share.from_count(count, n), claim, at_most) == pytest.approx(tail)
+
+
+def test_amplitudes_are_compared_from_where_the_effect_is_off():
+    scored = CASES[4]
+    (effect,) = scored.answer.effects
+    assert scored.ratio(effect) == pytest.approx(0.8)
+    assert scored.covered(effect)
+    assert not scored.covered(Effect("Leak", 2.6, 1.0, "m^2", 2.0))
+
+
+def test_what_is_said_is_the_name_where_one_is_given():
+    assert [each.conclusion for each in CASES[:5]] == ["none", "insufficient", "unknown", "Leak", "Leak"]
+    assert CASES[9].conclusion == "two"

@@ -1,0 +1,34 @@
+"""A heart on trial: one search says what volume and pressure show, and what another condition leaves of it."""
+
+import pytest
+
+from heartfit.discovery.sphere_model import forward_model as library
+from heartfit.discovery.sphere_model.diagnose import SearchedRecording
+from heartfit.roles import registered
+from heartfit.synthetic.campaign import PlantedPlan
+from heartfit.synthetic.trial import CONDITION, VOLUME, diagnose_by_data
+from tests.discovery.sphere_model.hearts import recorded
+
+OFFSET = PlantedPlan(11, "single", ("CatheterOffset",), 2.5)
+
+
+@pytest.fixture(autouse=True)
+def searched(monkeypatch):
+    """The recordings that were searched; instruments cost no simulation."""
+    few = {name: registered()[name] for name in ("CatheterOffset", "ImageShrinkage")}
+    monkeypatch.setattr(library, "registered", lambda: few)
+    recordings, search = [], SearchedRecording.search
+    monkeypatch.setattr(
+        SearchedRecording, "search", lambda each, *given: recordings.append(each) or search(each, *given)
+    )
+    return recordings
+
+
+def test_less_and_more_data_are_searched_where_there_are_more(searched):
+    said = diagnose_by_data(recorded(OFFSET), {"legs_raised": recorded(OFFSET, "legs_raised")})
+    assert [len(each.curves) for each in searched] == [2, 1], "a condition is never searched"
+    assert set(said.other) == {VOLUME, CONDITION}
+    assert said.other[VOLUME].verdict == "insufficient"
+    assert said.other[CONDITION].names == {"CatheterOffset"}
+    assert said.other[CONDITION].ranking == said.ranking
+    assert said.other[CONDITION].gain != said.gain
