@@ -1,4 +1,4 @@
-"""The study: from measured and virtual hearts to calibrated models, their missing mechanisms, tables and figures."""
+"""Workflow from measured and virtual hearts to calibrated models, missing mechanisms, tables and figures."""
 
 
 configfile: "config/config.yaml"
@@ -27,12 +27,12 @@ rule all:
         report="<results>/report.html",
 
 
-# Further targets, made only when they are named:
+# Further targets, made only on request:
 #   fetch_measured_heart   download the published heart of patient1 into resources/bivme_patient1
 #   check_numbers          compare the numbers of the tables with the stored ones of config/tolerances.tsv
-#   discovery_benchmark    find planted effects in spheres and in ventricles, score the findings, write the pages
+#   discovery_benchmark    diagnose planted effects in spheres and in ventricles, score the diagnoses, write the pages
 #   check_discovery        compare these scores with the claims of config/discovery_claims.tsv
-#   discovery_ventricles   score the findings in ventricles alone; check_ventricles compares them with their claims
+#   discovery_ventricles   score the diagnoses of ventricles alone; check_ventricles compares them with their claims
 #   compare_elements       test whether linear tetrahedra explain the misfit of a heart on a finer mesh
 
 
@@ -46,7 +46,7 @@ include: "workflow/rules/discovery.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/report.smk"
-# beside it: virtual hearts of known truth, and what limits calibration and discovery
+# beside it: virtual hearts of known truth, and the limits of calibration and discovery
 include: "workflow/rules/cohort.smk"
 include: "workflow/rules/sensitivity.smk"
 include: "workflow/rules/registration_error.smk"

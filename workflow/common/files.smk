@@ -1,4 +1,4 @@
-"""The files that rules read and write, and the results that make up the study."""
+"""Files that rules read and write, and the results of the study."""
 
 from heartfit.io.fingerprint import PACKAGE
 from heartfit.io.sources import source_files
@@ -58,7 +58,7 @@ def list_sigma_point_beats(case, setting):
 
 
 def perturbation_beats(wildcards):
-    """Beats at one-at-a-time perturbations about the prior's mean, which the sensitivities rest on."""
+    """Beats at one-at-a-time perturbations about the prior's mean, for the sensitivities."""
     return list_perturbation_beats(wildcards.setting)
 
 
@@ -68,7 +68,7 @@ def list_perturbation_beats(setting):
 
 
 def calibrated_shapes(cases):
-    """Calibrated motions of the septum of some cases in all settings."""
+    """Shapes of the calibrated motions of some cases in all settings."""
     return expand("<results>/{case}/{setting}/verification/shape.csv", case=cases, setting=SETTINGS)
 
 
@@ -78,7 +78,7 @@ def wall_files(wildcards):
 
 
 def source_images(wildcards):
-    """Images of a measured case, in the folder where the user keeps them."""
+    """Images of a measured case, in the user's folder."""
     return source_of(wildcards).images
 
 
@@ -88,7 +88,7 @@ def pressure_recording(wildcards):
 
 
 def pressure_curve(wildcards):
-    """Pressure of one beat of a case; empty where none was recorded."""
+    """Pressure of one beat of a case; empty without a recording."""
     folder = "curves" if wildcards.case in RECORDED else "cohort"
     return [f"<results>/{{case}}/{folder}/pressure.csv"] if case_of(wildcards).catheter else []
 
@@ -109,7 +109,7 @@ def noise_training_sequences(wildcards):
 
 
 def calibrated_beats(kind):
-    """Input function: a file of a case's calibrated beat, followed by that of the refitted beat where there is one."""
+    """Return an input function: a file of the calibrated beat, and of the refitted beat if there is one."""
     calibrated, refitted = {
         "beat": ("verification/beat.json", "beat.json"),
         "motion": ("verification/motion.npz", "motion.npz"),
@@ -127,16 +127,16 @@ def calibrated_beats(kind):
 
 
 def page_template(name):
-    """Template of a generated page: an edit of its sentences writes the page anew."""
+    """Template of a generated page, so that an edit of its sentences regenerates the page."""
     return str(Path(workflow.basedir, "docs", "templates", f"{name}.md.j2"))
 
 
 def report_templates(_):
-    """Templates of the report, which are no modules, so that its code fingerprint does not cover them."""
+    """Templates of the report, which its code fingerprint does not cover."""
     return sorted(map(str, PACKAGE.glob("results/report/*/*.*")))
 
 
-# figures about methods need hearts of known truth: a study of measured hearts alone has none
+# figures about methods need hearts of known truth, which a study of measured hearts lacks
 METHOD_FIGURES = (
     ["alternatives", "coverage_sphere", "registration", "noise_model", "sobol"] if VIRTUAL else []
 )
@@ -189,7 +189,7 @@ def study_beats():
 
 
 def study_causes():
-    """Cause cards of the search, and where configured of the 3-D proof, with its score and its trials."""
+    """Cause cards of the search and of the configured 3-D proofs, with their scores and trials."""
     return [
         *expand(
             "<results>/{case}/discovery/{setting}/search/cause.json", case=CASES, setting=DISCOVERY.settings
@@ -201,5 +201,5 @@ def study_causes():
 
 
 def study_results():
-    """All results of the study but its costs and its report, which read them."""
+    """All results of the study except the costs and the report, which read them."""
     return [*study_tables(), *inference_data(), *study_figures(), *study_beats(), *study_causes()]

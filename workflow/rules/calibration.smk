@@ -1,4 +1,4 @@
-# compiled once before any beat: many jobs would otherwise compile the same kernels at the same time
+# before all beats, so that parallel jobs do not compile the same kernels
 rule compile_kernels:
     output:
         "<results>/kernels.json",

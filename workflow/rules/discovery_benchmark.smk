@@ -1,4 +1,4 @@
-# true effects are sealed in a folder of their own, which only the scoring rules read; the diagnosis reads measurements
+# a sealed folder contains the true effects: only the scoring rules read it, the diagnosis reads measurements
 SPHERE_DIAGNOSES = {
     "findings": expand("<results>/discovery_benchmark/findings/{batch}.json", batch=SPHERE_BATCHES),
     "sealed": expand("<results>/discovery_benchmark/sealed/{batch}", batch=SPHERE_BATCHES),

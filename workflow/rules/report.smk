@@ -1,7 +1,7 @@
 report: "../report/workflow.rst"
 
 
-# reads the benchmarks of all jobs; as input it names the results of the study, a shorter list with the same effect
+# reads the benchmarks of all jobs; the results of the study as input are a shorter list with the same effect
 rule tabulate_costs:
     input:
         study_results(),
