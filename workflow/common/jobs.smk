@@ -1,4 +1,4 @@
-"""Log, benchmark, memory and time of every job, and the fingerprints of code and configuration that it depends on."""
+"""Log, benchmark, memory and time of every job, and fingerprints of its code and its configuration."""
 
 import inspect
 from functools import cache
@@ -13,7 +13,7 @@ from heartfit.roles import registered
 from heartfit.study.need import SHARED, Need, largest
 
 MEASURED_COSTS = read_table(Need, Path(workflow.basedir, "resources", NEEDS))
-# rules that do the same work on other data: one name in logs, benchmarks and resources/costs.tsv
+# rules that do the same work on other data share a name in logs, benchmarks and resources/costs.tsv
 JOB_NAMES = {
     "build_measured_mesh": "build_mesh",
     "build_volunteer_mesh": "build_mesh",
@@ -23,11 +23,11 @@ JOB_NAMES = {
     "try_acquisition": "try",
 }
 FOLDER_WILDCARDS = ("case", "setting", "acquisition")
-DOWNLOADS = ("fetch_measured_heart",)  # data stay as they are when the code changes
+DOWNLOADS = ("fetch_measured_heart",)  # a change of the code does not repeat a download
 
 
 def complete_rules(rules):
-    """Add to each rule with a script its code fingerprint, and the log, benchmark and resources that it does not state.
+    """Add the code fingerprint to each rule with a script, and log, benchmark and resources unless it states them.
 
     Resources of the command line (--set-resources) take precedence. Call it once, after all rules are defined.
     """
@@ -52,7 +52,7 @@ def complete_rules(rules):
 def job_path(definition):
     """Path of a job's log below logs/ and of its benchmark below benchmarks/, without suffix: <folders>/<name>_<number>.
 
-    Stages that are run once for all cases have a folder of their own; heartfit.study.need reads these paths back.
+    Each stage that runs once for all cases has a folder; heartfit.study.need parses these paths.
     """
     stage = Path(definition.snakefile).stem
     folders = [stage] if stage in SHARED else []
@@ -63,7 +63,7 @@ def job_path(definition):
 
 
 def measured_resources(script):
-    """Memory (MB) and time (min) to request, from measured costs of such jobs; proportional to the attempt."""
+    """Memory (MB) and time (min) to request, from measured costs of such jobs, multiplied by the attempt."""
     job = JOB_NAMES.get(script, script)
     try:
         need = largest(MEASURED_COSTS, job)
@@ -84,12 +84,12 @@ def file_fingerprint(file):
 
 
 def code_fingerprint(script):
-    """Fingerprint of a script, evaluated per job: a job on another machine reads its own script only."""
+    """Fingerprint of a script, evaluated per job: a job on another machine reads only its script."""
     return lambda wildcards: file_fingerprint(Path(workflow.basedir, "workflow", "scripts", script))
 
 
 def setting_mechanisms(wildcards):
-    """Fingerprint of each mechanism that the setting adds: scripts load them by name, unseen by their fingerprint."""
+    """Fingerprint of each mechanism that the setting adds; scripts load mechanisms by name, without an import."""
     classes = registered()
     return {
         name: file_fingerprint(inspect.getfile(classes[name])) for name in setting_of(wildcards).mechanisms
@@ -112,5 +112,5 @@ def tried_mechanism(wildcards):
 
 
 def configuration_text(*parts):
-    """Text of parts of the configuration, in which Snakemake notices changes; it does not notice those of an object."""
+    """Text of parts of the configuration: Snakemake detects changes of text, but not of objects."""
     return lambda wildcards: [repr(part(wildcards) if callable(part) else part) for part in parts]
