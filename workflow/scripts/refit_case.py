@@ -11,7 +11,7 @@ record(snakemake.log[0])
 trial = read_trial(dict(snakemake.input.items()), dict(snakemake.params.items()))
 code = snakemake.params.code
 outcome = trial.refitted()
-beat = trial.model(trial.none, outcome.parameters, keep_positions=True)
+beat = trial.model(trial.baseline, outcome.parameters, keep_positions=True)
 written, state, _, motion = map(Path, snakemake.output)
 write_refit(written, outcome, code)
 write_beat(state, beat, code)

@@ -58,7 +58,7 @@ def test_ratios_are_those_of_the_errors_where_nothing_was_fitted(proof: Proof) -
 
 def test_an_extension_helps_if_all_unseen_curves_together_come_nearer(proof: Proof) -> None:
     assert proof.helps()
-    assert not replace(proof, none=proof.extended, extended=proof.none).helps()
+    assert not replace(proof, baseline=proof.extended, extended=proof.baseline).helps()
     worse = ObservedBeat({"lv_volume": volume(2e-6), "rv_volume": volume(12e-6)}, proof.extended.motion)
     assert not replace(proof, extended=worse).helps()
 

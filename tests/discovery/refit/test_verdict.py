@@ -167,7 +167,7 @@ def test_a_proved_diagnosis_has_the_sizes_and_evidence_of_the_refits() -> None:
 
 def test_an_attempt_asks_no_search() -> None:
     judge = Judge({1: 4.0}, ())
-    judge.setting, judge.none = PLAIN, Extension(PLAIN)
+    judge.setting, judge.baseline = PLAIN, Extension(PLAIN)
     judge.proof = lambda *_: Helped()
     found = ExtensionTrial.attempt(
         cast("ExtensionTrial", judge), "AorticStenosis", fitted(Extension(PLAIN), 1.0)

@@ -1,4 +1,4 @@
-"""A case's three-dimensional model extended step by step, as long as each step helps where nothing was fitted."""
+"""Stepwise extension of a case's three-dimensional model, as long as each step improves the fit to held-out data."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -15,7 +15,7 @@ from heartfit.personalise.setting import Setting
 
 @dataclass(frozen=True, eq=False)
 class FittedExtension:
-    """An extension, its refit and the beat at the refit's estimate."""
+    """An extension, its refit and the beat at the estimate of the refit."""
 
     extension: Extension
     refit: Refit
@@ -24,7 +24,7 @@ class FittedExtension:
 
 @dataclass(frozen=True, eq=False)
 class ExtensionTrial:
-    """A measured case with its registered motion, the model that stands for it, and the most steps of a refit."""
+    """A measured case with its registered motion, its model, and the largest number of steps of a refit."""
 
     case: MeasuredCase
     registered: Motion
@@ -34,19 +34,19 @@ class ExtensionTrial:
     most_steps: int
 
     @property
-    def none(self) -> Extension:
-        """The model as it is."""
+    def baseline(self) -> Extension:
+        """Return the baseline model, without an extension."""
         return Extension(self.setting).with_free_parameters()
 
     def refitted(self) -> Refit:
-        """The model as it is after its steps; raises CalibrationError where too many beats fail."""
-        return refit(self.none, self.model, self.target, self.most_steps)
+        """Return the refit of the baseline model; raises CalibrationError if too many beats fail."""
+        return refit(self.baseline, self.model, self.target, self.most_steps)
 
     def extended(self, extension: Extension, base: Refit) -> Refit:
-        """The better of two refits, from the centre of the priors and from where the model without it ended.
+        """Return the better of two refits, from the prior means and from the refit without the extension.
 
-        A strong effect drags the model without it far off, and a weak one is found from there. Raises CalibrationError
-        where too many beats fail.
+        A strong effect biases the refit without it, so that the prior means are the better start; for a weak effect the
+        refit is. Raises CalibrationError if too many beats fail.
         """
         both = (
             self.continue_refit(extension, base),
@@ -56,56 +56,54 @@ class ExtensionTrial:
         return replace(best, simulations=sum(fit.simulations for fit in both))
 
     def continue_refit(self, extension: Extension, base: Refit) -> Refit:
-        """The refit from where the model without it ended; raises CalibrationError where the beat there fails."""
+        """Return the refit that starts from the base; raises CalibrationError if the beat there fails."""
         return continue_refit(extension, self.model, self.target, self.most_steps, base)
 
     def at(self, extension: Extension, fitted: Refit) -> FittedExtension:
-        """The beat at a refit's estimate; raises CalibrationError where it fails."""
+        """Return a refit with the beat at its estimate; raises CalibrationError if the beat fails."""
         beat = self.model(extension, fitted.parameters, keep_positions=True)
         if not beat.completed:
             raise CalibrationError(f"the beat at the estimate: {beat.reason}")
         return FittedExtension(extension, fitted, ObservedBeat.from_beat(beat, extension, fitted.parameters))
 
-    def proof(self, none: FittedExtension, extended: FittedExtension) -> Proof:
-        """Both refits beside the measurement."""
-        return Proof(self.case, self.model.mesh, self.registered, none.shown, extended.shown)
+    def proof(self, baseline: FittedExtension, extended: FittedExtension) -> Proof:
+        """Return both refits with the measurement."""
+        return Proof(self.case, self.model.mesh, self.registered, baseline.shown, extended.shown)
 
-    def prove(self, diagnosis: Diagnosis, none: Refit) -> tuple[Diagnosis, Refit]:
-        """The diagnosis after its proof, and the last refit that was kept; none: the refit without an extension.
+    def prove(self, diagnosis: Diagnosis, baseline: Refit) -> tuple[Diagnosis, Refit]:
+        """Return the diagnosis after its proof, and the last accepted refit; baseline: the refit without an extension.
 
-        Where no extension is kept the last that was tried is shown; where none of them beats, the model without.
+        If no extension is accepted, the last refit is that of the last trial; if all trials fail, it is the baseline.
         """
-        base = self.at(self.none, none)
+        base = self.at(self.baseline, baseline)
         steps = list(self.climb(base, propose_extensions(diagnosis, self.setting)))
         kept = [fit for fit, helps in steps if helps]
         shown = (kept or [fit for fit, _ in steps] or [base])[-1]
         tried = TriedExtension(
             shown.extension,
-            none,
+            baseline,
             shown.refit,
             kept[-1].extension.effects if kept else (),
             sum(fit.refit.simulations + 1 for fit in (base, *(fit for fit, _ in steps))),
         )
         return apply_proof(diagnosis, tried, self.proof(base, shown)), shown.refit
 
-    def attempt(self, mechanism: str, none: Refit) -> Attempt:
-        """Gain of one mechanism, whatever the search concludes; raises CalibrationError if the extended heart
-        has no beat.
-        """
+    def attempt(self, mechanism: str, baseline: Refit) -> Attempt:
+        """Return the gain of one mechanism, whatever the diagnosis; raises CalibrationError if its beat fails."""
         extension = Extension.from_names(self.setting, mechanism).with_free_parameters()
-        base = self.at(self.none, none)
-        extended = self.at(extension, self.continue_refit(extension, none))
-        beats = none.simulations + extended.refit.simulations + 2
-        tried = TriedExtension(extension, none, extended.refit, (), beats)
+        base = self.at(self.baseline, baseline)
+        extended = self.at(extension, self.continue_refit(extension, baseline))
+        beats = baseline.simulations + extended.refit.simulations + 2
+        tried = TriedExtension(extension, baseline, extended.refit, (), beats)
         proof = self.proof(base, extended)
         return Attempt(tried.refitted({}), tuple(proof.gains()), proof.traces())
 
     def climb(
         self, base: FittedExtension, extensions: Iterable[Extension]
     ) -> Iterator[tuple[FittedExtension, bool]]:
-        """One extension after the other, until one does not beat or does not help over the one before it.
+        """Yield refitted extensions in order and whether they help, until a beat fails or an extension does not help.
 
-        It helps if it comes nearer to what was not fitted, and if what was fitted is evidence for it.
+        An extension helps if it improves both the fit to held-out data and the evidence of the fitted data.
         """
         for extension in extensions:
             try:
