@@ -14,19 +14,19 @@ HOUR = 3600.0
 def clocks(study: TinyStudy, expected: dict[str, str], chance: Random, ways: int) -> list[Outcome]:
     """Results from here and there, from the future, and from the past; some of these ways."""
     jumps = {
-        "every result from another moment of the two days about now": lambda: chance.uniform(-24, 24) * HOUR,
-        "the clock was an hour ahead: all results are from the future": lambda: HOUR,
+        "every result dated at a random time within a day of now": lambda: chance.uniform(-24, 24) * HOUR,
+        "the clock was an hour ahead: all results are dated in the future": lambda: HOUR,
         "the clock was ten years behind: all results are old": lambda: -87660 * HOUR,
     }
     outcomes = []
-    for done, jump in list(jumps.items())[:ways]:
+    for fault, jump in list(jumps.items())[:ways]:
         study.put_back()
         for file in sorted((study.folder / RESULTS).rglob("*")):
             date = file.stat().st_mtime + jump()
             os.utime(file, (date, date))
         study.remove("volunteer1/physical", "tables", "figures")
         mended = one_more_call(study, expected)
-        outcomes.append(Outcome(done, "what is older than its input is made again", mended))
+        outcomes.append(Outcome(fault, "results older than their input are made again", mended))
     return outcomes
 
 
@@ -40,8 +40,8 @@ def jumping_clock(study: TinyStudy, expected: dict[str, str], chance: Random) ->
     code, _ = finish(process)
     timer.cancel()
     mended = one_more_call(study, expected)
-    done = "the clock goes back by an hour while a call is at work"
-    return [Outcome(done, f"that call ended with {code}", mended)]
+    fault = "the clock goes back by an hour during a call"
+    return [Outcome(fault, f"that call ended with {code}", mended)]
 
 
 def _age(study: TinyStudy) -> None:

@@ -19,10 +19,10 @@ KINDS = {
 
 Spoil = Callable[[bytes, Random], bytes]
 WAYS: dict[str, Spoil] = {
-    "cut off in the middle": lambda whole, chance: whole[: len(whole) // 2],
+    "truncated to half": lambda whole, chance: whole[: len(whole) // 2],
     "without its last line": lambda whole, chance: whole[: whole.rstrip().rfind(b"\n") + 1],
     "emptied": lambda whole, chance: b"",
-    "one byte changed": lambda whole, chance: _changed(whole, chance.randrange(len(whole))),
+    "with one byte changed": lambda whole, chance: _changed(whole, chance.randrange(len(whole))),
 }
 
 
@@ -36,12 +36,14 @@ def _damaged_so(study: TinyStudy, expected: dict[str, str], chance: Random, way:
     files = [study.folder / RESULTS / name for name in KINDS.values()]
     for file in files:
         file.write_bytes(WAYS[way](file.read_bytes(), chance))
-    code, said = study.run(asked=[f"{RESULTS}/{name}" for name in KINDS.values()])
-    named = [name for name in KINDS.values() if f"{RESULTS}/{name} was altered" in said]
+    code, output = study.run(targets=[f"{RESULTS}/{name}" for name in KINDS.values()])
+    named = [name for name in KINDS.values() if f"{RESULTS}/{name} was altered" in output]
     kept = [file for file in files if file.with_name(f"{file.name}.altered").exists()]
     mended = code == 0 and len(named) == len(kept) == len(KINDS) and not differences(study.sums(), expected)
-    done = f"a {', a '.join(KINDS)}, each {way}"
-    return Outcome(done, f"{len(named)} of {len(KINDS)} named, set aside and made again by that call", mended)
+    fault = f"a {', a '.join(KINDS)}, each {way}"
+    return Outcome(
+        fault, f"{len(named)} of {len(KINDS)} reported, renamed and made again by that call", mended
+    )
 
 
 def cut_kernels(study: TinyStudy, expected: dict[str, str], chance: Random) -> list[Outcome]:
@@ -54,7 +56,9 @@ def cut_kernels(study: TinyStudy, expected: dict[str, str], chance: Random) -> l
         file.write_bytes(whole[: chance.randrange(len(whole))])
     mended = len(files) > 0 and one_more_call(study, expected)
     return [
-        Outcome(f"{len(files)} files of compiled kernels cut off at random places", "compiled again", mended)
+        Outcome(
+            f"{len(files)} files of compiled kernels truncated at random positions", "compiled again", mended
+        )
     ]
 
 

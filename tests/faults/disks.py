@@ -16,33 +16,33 @@ NEEDS_ROOT = "not tried: needs root, to mount a disk in memory"
 
 def full_disk(study: TinyStudy, expected: dict[str, str]) -> list[Outcome]:
     """Room for some jobs and no more; then there is room."""
-    done = f"the disk of the results full after {ROOM / 1e6:g} MB more, then room made"
+    fault = f"the disk of the results full after {ROOM / 1e6:g} MB more, then enlarged"
     if os.geteuid():
-        return [Outcome(done, NEEDS_ROOT, True)]
+        return [Outcome(fault, NEEDS_ROOT, True)]
     with _small_disk(study) as disk:
         study.remove("volunteer1/physical", "tables", "figures")
         _remount(disk, f"size={_used(disk) + ROOM}")
-        code, said = study.run()
+        code, output = study.run()
         spoilt = half_written(study, expected)
         _remount(disk, "size=1g")
         mended = one_more_call(study, expected) and code != 0 and not spoilt
-    words = last_words(said, "No space left on device")
-    return [Outcome(done, f"the call ended with {code}: “{words}”; {len(spoilt)} files half written", mended)]
+    words = last_words(output, "No space left on device")
+    return [Outcome(fault, f"the call ended with {code}: “{words}”; {len(spoilt)} incomplete files", mended)]
 
 
 def read_only(study: TinyStudy, expected: dict[str, str]) -> list[Outcome]:
     """Results on a disk that is mounted for reading."""
-    done = "the folder of results mounted for reading only, then for writing"
+    fault = "the folder of results mounted read-only, then writable"
     if os.geteuid():
-        return [Outcome(done, NEEDS_ROOT, True)]
+        return [Outcome(fault, NEEDS_ROOT, True)]
     with _small_disk(study) as disk:
         study.remove("volunteer1/physical", "tables", "figures")
         _remount(disk, "ro")
-        code, said = study.run()
+        code, output = study.run()
         _remount(disk, "rw")
         mended = one_more_call(study, expected) and code != 0
-    words = last_words(said, "cannot be written")
-    return [Outcome(done, f"the call ended with {code}: “{words}”", mended)]
+    words = last_words(output, "cannot be written")
+    return [Outcome(fault, f"the call ended with {code}: “{words}”", mended)]
 
 
 @contextmanager

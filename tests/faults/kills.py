@@ -34,10 +34,12 @@ def kills(
         drafts += len(study.left_over())
     mended = one_more_call(study, expected) and not spoilt and not study.left_over()
     moments = ", ".join(f"{after:.1f}" for after in seconds)
-    way = "half of the jobs" if short else "nothing"
-    done = f"SIGKILL to all processes, {times} times from {way} to the tables, after {moments} s of each call"
-    came = f"{drafts} drafts left and swept up, {len(spoilt)} files half written under their name"
-    return [Outcome(done, came, mended)]
+    way = "half of the jobs" if short else "an empty folder"
+    fault = (
+        f"SIGKILL to all processes, {times} times from {way} to the tables, after {moments} s of each call"
+    )
+    came = f"{drafts} drafts left and removed, {len(spoilt)} incomplete files under their final name"
+    return [Outcome(fault, came, mended)]
 
 
 def _from_halfway(study: TinyStudy) -> None:
@@ -58,8 +60,8 @@ def orphans(study: TinyStudy, expected: dict[str, str], chance: Random) -> list[
     process.kill()
     mended = one_more_call(study, expected)
     finish(process)
-    done = "SIGKILL to Snakemake alone, with the next call at once while its jobs live on"
-    return [Outcome(done, "both write the same files", mended)]
+    fault = "SIGKILL to Snakemake alone, and the next call while its jobs continue"
+    return [Outcome(fault, "both write the same files", mended)]
 
 
 def job_killed(study: TinyStudy, expected: dict[str, str], chance: Random) -> list[Outcome]:
@@ -71,7 +73,7 @@ def job_killed(study: TinyStudy, expected: dict[str, str], chance: Random) -> li
     victim.kill()
     code, _ = finish(process)
     mended = one_more_call(study, expected) and code != 0
-    return [Outcome("SIGKILL to one job, as when memory is short", f"the call ended with {code}", mended)]
+    return [Outcome("SIGKILL to one job, as if memory ran out", f"the call ended with {code}", mended)]
 
 
 def _job_of(leader: int, after: float) -> psutil.Process:

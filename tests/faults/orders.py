@@ -28,8 +28,8 @@ def orders(
             same = one_more_call(
                 study, expected, *way, "--prioritize", *(f"{RESULTS}/{name}" for name in first)
             )
-        done = f"from nothing with {count} threads in each job, `{' '.join(way)}`, eight results drawn at random first"
-        outcomes.append(Outcome(done, "the same tables" if same else "other tables", same))
+        fault = f"from an empty folder with {count} thread{'s' * (count > 1)} in each job, `{' '.join(way)}`, eight random results first"
+        outcomes.append(Outcome(fault, "identical tables" if same else "different tables", same))
     return outcomes
 
 
@@ -53,15 +53,15 @@ def other_processor(study: TinyStudy, expected: dict[str, str]) -> list[Outcome]
     code, _ = finish(study.start(environment=OLD_PROCESSOR))
     after = _numbers(numbers.read_text())
     largest = ((after - before).abs() / before.abs().clip(lower=1e-12)).max()
-    done = "from nothing with the arithmetic of a processor of 2008 (no AVX, no FMA)"
-    same = f"{_same(study, expected)} of {len(expected)} results the same"
-    came = f"{same}; the numbers of the tables differ by {largest:.0e} at most"
-    return [Outcome(done, came, code == 0 and len(after) == len(before) and largest < CLOSE)]
+    fault = "from an empty folder, with the arithmetic of a processor of 2008 (no AVX, no FMA)"
+    same = f"{_same(study, expected)} of {len(expected)} results identical"
+    came = f"{same}; the numbers of the tables differ by at most {largest:.0e}"
+    return [Outcome(fault, came, code == 0 and len(after) == len(before) and largest < CLOSE)]
 
 
 def _same(study: TinyStudy, expected: dict[str, str]) -> int:
-    found = study.sums()
-    return sum(found.get(name) == digest for name, digest in expected.items())
+    sums = study.sums()
+    return sum(sums.get(name) == digest for name, digest in expected.items())
 
 
 def _numbers(text: str) -> "pd.Series[float]":

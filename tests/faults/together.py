@@ -14,13 +14,13 @@ def two_runs(study: TinyStudy, expected: dict[str, str]) -> list[Outcome]:
     study.remove("volunteer1/physical", "tables", "figures")
     first = study.start()
     time.sleep(8.0)
-    code, said = study.run()
+    code, output = study.run()
     ended, _ = finish(first)
     mended = ended == 0 and code != 0 and not differences(study.sums(), expected)
     mended &= one_more_call(study, expected)
-    words = last_words(said, "cannot be locked", "locked")
-    done = "two runs at once in one folder of results"
-    return [Outcome(done, f"the first completed, the second ended with {code}: “{words}”", mended)]
+    words = last_words(output, "cannot be locked", "locked")
+    fault = "two runs at once in one folder of results"
+    return [Outcome(fault, f"the first completed, the second ended with {code}: “{words}”", mended)]
 
 
 def two_folders(study: TinyStudy, expected: dict[str, str]) -> list[Outcome]:
@@ -35,4 +35,8 @@ def two_folders(study: TinyStudy, expected: dict[str, str]) -> list[Outcome]:
     same = table.replace(OTHER, RESULTS) == (study.folder / RESULTS / named).read_text()
     mended = codes == [0, 0] and same and not differences(study.sums(), expected)
     mended &= differences(other, expected) == [f"{named}: other bytes"]
-    return [Outcome("two runs at once in two folders of results", "both completed, with the same", mended)]
+    return [
+        Outcome(
+            "two runs at once in two folders of results", "both completed, with identical results", mended
+        )
+    ]
