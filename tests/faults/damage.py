@@ -1,4 +1,4 @@
-"""Files that are not what was written: cut off, emptied, a byte changed; and compiled kernels that are cut off."""
+"""Damaged files: truncated, emptied, with a changed byte; and truncated files of compiled kernels."""
 
 from collections.abc import Callable
 from random import Random

@@ -28,7 +28,8 @@ def orders(
             same = one_more_call(
                 study, expected, *way, "--prioritize", *(f"{RESULTS}/{name}" for name in first)
             )
-        fault = f"from an empty folder with {count} thread{'s' * (count > 1)} in each job, `{' '.join(way)}`, eight random results first"
+        threads_of_job = f"{count} thread{'s' * (count > 1)} in each job"
+        fault = f"from an empty folder with {threads_of_job}, `{' '.join(way)}`, eight random results first"
         outcomes.append(Outcome(fault, "identical tables" if same else "different tables", same))
     return outcomes
 
