@@ -1,1 +1,1 @@
-"""The unscented transform over named parameters; knows vectors, never a heart."""
+"""Unscented transform over named parameters: vectors and Gaussians, without a heart."""

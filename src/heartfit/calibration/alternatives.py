@@ -1,38 +1,35 @@
-r"""Other methods of calibration: the iterated transform, an ensemble smoother, and CMA-ES.
+r"""Other methods of calibration: iterated unscented transform, ensemble smoother, and CMA-ES.
 
-The unscented step repeated about the last estimate.
-
-The points of step k lie about the last estimate x_k with the covariance P_k and make the model linear there,
+**Iterated unscented transform.** The points of step k have the mean x_k, the last estimate, and the covariance P_k.
+They give a linear model,
 
 .. math:: Z \approx \bar Z_k + A_k (X - x_k) + e, \quad A_k = \mathrm{Cov}(Z, X) P_k^{-1}, \quad
           e \sim N(0,\, \mathrm{Cov}(Z, Z) - A_k P_k A_k^T) .
 
-The estimate then is that of this model and the ORIGINAL prior, never of the last posterior: the data are used once.
-With R = 0 the fixed point meets the observations by the least prior-weighted change, with R > 0 it is the maximum a
-posteriori of a Gauss-Newton method whose slopes are statistical. P_k = s^(2k) C shrinks by s a step, so that the last
-slopes are those at the estimate. The first step is that of :func:`heartfit.calibration.update.calibrate`, to the bit
-of rounding.
+The next estimate is the posterior of this model and the original prior, not the last posterior: the data are used only
+once. With R = 0 the fixed point reproduces the observations by the smallest prior-weighted change. With R > 0 it is the
+maximum a posteriori of a Gauss-Newton method with statistical slopes. P_k = s^(2k) C shrinks by the factor s in each
+step, so that the last slopes are those at the estimate. The first step equals
+:func:`heartfit.calibration.update.calibrate` up to rounding.
 
 References: Bell and Cathey 1993, doi:10.1109/9.250476; Garcia-Fernandez et al. 2015, doi:10.1109/TSP.2015.2454485.
 
-An ensemble smoother with multiple data assimilation (ES-MDA).
-
-An ensemble drawn from the prior is moved a times towards the observations, each time with noise inflated by a,
+**Ensemble smoother with multiple data assimilation (ES-MDA).** An ensemble drawn from the prior is moved towards the
+observations a times, each time with the noise inflated by a,
 
 .. math:: x_j \leftarrow x_j + C_{XZ} (C_{ZZ} + a R)^{-1} (z + \sqrt{a}\, R^{1/2} \epsilon_j - h(x_j)),
 
-with the covariances of the ensemble: on a linear map and with many members that is the posterior. Members whose
-simulation fails are left out from there on.
+with the covariances of the ensemble. For a linear map and many members the result is the posterior. Members whose
+simulation fails are omitted from then on.
 
 Reference: Emerick and Reynolds 2013, doi:10.1016/j.cageo.2012.03.011.
 
-The maximum a posteriori by CMA-ES, which asks for no slope of the model.
+**CMA-ES.** The maximum a posteriori without slopes of the model. It minimises, over u in standard deviations of the
+prior, X = X0 + C^(1/2) u,
 
-Minimises, over u in standard deviations of the prior, X = X0 + C^(1/2) u,
+.. math:: J(u) = |u|^2 + (Z(X) - z)^T R^{-1} (Z(X) - z) .
 
-.. math:: J(u) = |u|^2 + (Z(X) - z)^T R^{-1} (Z(X) - z);
-
-a failed simulation counts as infinitely bad. Needs the package cma (BSD-3-Clause), the extra "alternatives".
+The objective of a failed simulation is infinite. Needs the package cma (BSD-3-Clause), the extra "alternatives".
 
 Reference: Hansen 2016, arXiv:1604.00772.
 """
@@ -58,10 +55,10 @@ def iterate(
     shrink: float = 0.5,
     start: Gaussian | None = None,
 ) -> Iterator[Posterior]:
-    """The posteriors of step 1, 2, ... without end, each for as many simulations as the design has points.
+    """Yield the posteriors of steps 1, 2, ... without end, each from one simulation per point of the design.
 
-    start: what the points of the first step are drawn from, the prior if None; its spread is what shrinks. Raises
-    CalibrationError where too many points about an estimate fail.
+    start: Gaussian of the points of the first step, the prior if None; its covariance is shrunk. Raises
+    CalibrationError if too many points about an estimate fail.
     """
     first = around = prior if start is None else start
     spread = 1.0
@@ -75,7 +72,7 @@ def iterate(
 
 
 def under_prior(prior: Gaussian, around: Gaussian, moments: Moments) -> Moments:
-    """Moments under the prior of the linear model that the moments `seen` around another Gaussian give."""
+    """Return the moments under the prior of the linear model from ``moments``, which are those under ``around``."""
     slope = np.linalg.solve(around.covariance, moments.cov_xz)
     bent = moments.cov_zz - slope.T @ around.covariance @ slope
     cov_xz = prior.covariance @ slope
@@ -92,9 +89,9 @@ def smooth_ensemble(
     seed: int,
     assimilations: int = 4,
 ) -> np.ndarray:
-    """The ensemble (members, n) of logarithms after all assimilations, at members x assimilations simulations.
+    """Return the ensemble (members, n) of logarithms after all assimilations, from members x assimilations simulations.
 
-    noise: R (m, m), positive definite. Raises CalibrationError if fewer than three members are left.
+    noise: R (m, m), positive definite. Raises CalibrationError if fewer than three members remain.
     """
     rng = np.random.default_rng(seed)
     x = prior.mean + rng.standard_normal((members, len(prior.names))) @ np.linalg.cholesky(prior.covariance).T
@@ -111,19 +108,19 @@ def smooth_ensemble(
 def _simulate_members(
     prior: Gaussian, x: np.ndarray, forward: Forward, names: tuple[str, ...]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The members whose simulation is completed, and what is observed of them."""
+    """Return the members with a completed simulation, and their observations."""
     outcomes = forward([prior.physical(member) for member in x])
     completed = [not isinstance(outcome, str) for outcome in outcomes]
     if sum(completed) < 3:
         raise CalibrationError(
-            f"calibration: {sum(completed)} of {len(x)} members of the ensemble are left; expected 3: narrow the prior"
+            f"calibration: {sum(completed)} of {len(x)} members of the ensemble remain; expected 3: narrow the prior"
         )
     z = [[outcome[name] for name in names] for outcome in outcomes if not isinstance(outcome, str)]
     return x[completed], np.array(z)
 
 
 FIRST_STEP = 0.5
-"""Standard deviations of the prior."""
+"""Initial step [prior standard deviations]."""
 
 
 def has_cma() -> bool:
@@ -134,7 +131,7 @@ def has_cma() -> bool:
 def minimise_by_cma_es(
     prior: Gaussian, forward: Forward, observed: Mapping[str, float], noise: np.ndarray, seed: int
 ) -> Iterator[np.ndarray]:
-    """The best point z (n,) so far after each generation, without end.
+    """Yield the best point z (n,) so far after each generation, without end.
 
     noise: R (m, m), positive definite; seed: above 0. Raises InputError if cma is not installed.
     """

@@ -1,18 +1,17 @@
-r"""Designs of the unscented transform: the 2n+1 points, the spherical simplex, and failed points.
+r"""Designs of the unscented transform: 2n+1 points, spherical simplex, and replacement of failed points.
 
-The 2n+1 points of the unscented transform: the centre and, for each parameter, one up and one down.
+**2n+1 points.** The centre and two points for each parameter, one above and one below.
 
 Reference: Wan and van der Merwe 2000, doi:10.1109/ASSPCC.2000.882463.
 
-The n+2 points of the spherical simplex: a centre and the corners of a regular simplex, n+1 equal weights.
-
-The corners of n parameters are those of n-1 with a common height below, and one corner more above,
+**Spherical simplex, n+2 points.** The centre and the n+1 corners of a regular simplex, with equal weights. The corners
+for n parameters are those for n-1 at a common negative coordinate, and one more corner at a positive one,
 
 .. math:: X^{(n)} = \begin{pmatrix} X^{(n-1)} & 0 \\ -h_n & n\, h_n \end{pmatrix}, \quad
           h_n = \frac{1}{\sqrt{n (n + 1) w}}, \quad w = \frac{1 - W_0}{n + 1} .
 
-Mean and covariance are exact as those of the 2n+1 points are. The third moments are not zero: curvature of the model
-leaks into Cov(X, Z), which is the price of nearly half the simulations.
+Mean and covariance are as exact as those of the 2n+1 points, with nearly half the simulations. The third moments are
+not zero, so that curvature of the model contributes to Cov(X, Z).
 
 Reference: Julier 2003, doi:10.1109/ACC.2003.1243439.
 """
@@ -27,7 +26,7 @@ from heartfit.core.errors import InputError
 
 
 class CalibrationError(InputError):
-    """The sigma points that remain do not determine what is asked; the message says which are missing."""
+    """The remaining sigma points do not determine the moments; the message names the failed ones."""
 
 
 class Design(Protocol):
@@ -37,25 +36,25 @@ class Design(Protocol):
         """Names (p,) of the points."""
 
     def offsets(self, n: int) -> np.ndarray:
-        """The points (p, n) of a standard Gaussian: mean 0, covariance 1 under the weights."""
+        """Points (p, n) of a standard Gaussian: mean 0, covariance 1 under the weights."""
 
     def weights(self, n: int) -> tuple[np.ndarray, np.ndarray]:
         """W^m and W^c, (p,) each."""
 
     def filled(self, z: np.ndarray, completed: np.ndarray, labels: Sequence[str]) -> np.ndarray:
-        """The observations (p, m) with the rows that are not `done` (p,) as an affine map of the others has them.
+        """Observations (p, m) with the rows of failed points, ``completed`` (p,) False, replaced as for an affine map.
 
-        Raises CalibrationError, naming the points, where the others do not say.
+        Raises CalibrationError, which names the points, if the others do not determine these rows.
         """
 
 
 @dataclass(frozen=True)
 class Scaling:
-    """The three free numbers of the transform.
+    """The three free numbers of the 2n+1 points.
 
-    a = 1, kappa = 0 put the points at gamma = sqrt(n) with W_0^m = 0: far enough that the noise of q_min and
-    dP/dt is not amplified by 1/a^2, near enough that every simulation stays admissible. kappa = 3 - n would
-    make W_0 negative for n > 3. b = 2 is the value for a Gaussian prior.
+    a = 1 and kappa = 0 place the points at gamma = sqrt(n) with W_0^m = 0: far enough that the noise of q_min and dP/dt
+    is not amplified by 1/a^2, and near enough that every simulation is admissible. kappa = 3 - n would make W_0
+    negative for n > 3. b = 2 is the value for a Gaussian prior.
     """
 
     a: float = 1.0
@@ -90,9 +89,9 @@ class Scaling:
         return ["centre", *(f"{name}+" for name in names), *(f"{name}-" for name in names)]
 
     def filled(self, z: np.ndarray, completed: np.ndarray, labels: Sequence[str]) -> np.ndarray:
-        """Lost rows as mirror images, Z_(i+) = 2 Z_0 - Z_(i-), a lost centre as the mean of the whole pairs.
+        """Replace failed rows by mirror images, Z_(i+) = 2 Z_0 - Z_(i-), a failed centre by the mean of complete pairs.
 
-        Raises CalibrationError if a parameter has lost both points, or every pair one and the centre too.
+        Raises CalibrationError if both points of a parameter failed, or the centre and one point of every pair.
         """
         filled, n = z.copy(), len(z) // 2
         up, down = filled[1 : n + 1], filled[n + 1 :]
@@ -110,8 +109,8 @@ def _require_enough(has_up: np.ndarray, has_down: np.ndarray, centre: bool, labe
     n = len(has_up)
     for i in np.flatnonzero(~(has_up | has_down)).tolist():
         raise CalibrationError(
-            f"calibration: {labels[i + 1]} and {labels[i + 1 + n]} both failed, so nothing is known of this "
-            "parameter: narrow its prior or leave it out of the estimate"
+            f"calibration: {labels[i + 1]} and {labels[i + 1 + n]} both failed, so the effect of this "
+            "parameter is unknown: narrow its prior or do not estimate it"
         )
     if not centre and not (has_up & has_down).any():
         raise CalibrationError(
@@ -122,9 +121,10 @@ def _require_enough(has_up: np.ndarray, has_down: np.ndarray, centre: bool, labe
 
 @dataclass(frozen=True)
 class Simplex:
-    """centre: weight W_0 of the centre in the mean, 0 <= W_0 < 1; b is added in the covariance, as `Scaling` does.
+    """The spherical simplex.
 
-    All corners lie sqrt(n / (1 - W_0)) from the centre: with W_0 = 0 as far as the standard 2n+1 points.
+    centre: weight W_0 of the centre in the mean, 0 <= W_0 < 1; b is added to it in the covariance, as in `Scaling`.
+    All corners have the distance sqrt(n / (1 - W_0)) from the centre; for W_0 = 0 that of the standard 2n+1 points.
     """
 
     centre: float = 0.0
@@ -157,14 +157,14 @@ class Simplex:
         return ["centre", *(f"corner {index}" for index in range(len(names) + 1))]
 
     def filled(self, z: np.ndarray, completed: np.ndarray, labels: Sequence[str]) -> np.ndarray:
-        """A lost corner as the centre and the others have it: the corners sum to n+1 times the centre.
+        """Replace a failed point, given that the corners sum to n+1 times the centre.
 
-        Raises CalibrationError if two are lost, since n points say no slope in n directions.
+        Raises CalibrationError if two points failed: n points do not determine slopes in n directions.
         """
         if (~completed).sum() > 1:
             lost = ", ".join(label for label, ok in zip(labels, completed, strict=True) if not ok)
             raise CalibrationError(
-                f"calibration: {lost} failed, and a simplex can lose one point: narrow the prior or use 2n+1 points"
+                f"calibration: {lost} failed; a simplex allows one failed point: narrow the prior or use 2n+1 points"
             )
         filled, corners = z.copy(), len(z) - 1
         if not completed[0]:

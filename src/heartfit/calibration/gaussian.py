@@ -1,14 +1,12 @@
-"""Positive parameters as a Gaussian of their logarithms.
-
-What the data say of the parameters, and what only the prior does.
+"""Positive parameters as a Gaussian of their logarithms, and the information that data add to a prior.
 
 In prior standard deviations, y = L^-1 (z - z_0) with C_0 = L L^T, the prior is the unit ball and
 
     A = I - L^-1 C_post L^-T = sum_i r_i v_i v_i^T,   0 <= r_i <= 1.
 
-r_i is the share of the prior's variance that the data took away along v_i. On a linear map A is the resolution: of a
-truth y the estimate shows A y on average, so that what is not seen comes back as the prior. L A L^-1 is the more usual
-I - C_post C_0^-1.
+r_i is the share of the prior variance along v_i that the data remove. For a linear map A is the resolution matrix: the
+mean estimate of a truth y is A y, so that components without information remain at the prior. L A L^-1 is the more
+usual I - C_post C_0^-1.
 Reference: Backus G, Gilbert F 1968, doi 10.1111/j.1365-246X.1968.tb00216.x.
 """
 
@@ -46,12 +44,12 @@ class Gaussian:
             raise ValueError("gaussian: the covariance is not symmetric")
         if np.linalg.eigvalsh(self.covariance).min() <= 0:
             raise ValueError(
-                "gaussian: the covariance is not positive definite: leave a parameter of no spread out"
+                "gaussian: the covariance is not positive definite: omit parameters without variance"
             )
 
     @classmethod
     def from_relative(cls, mean: Mapping[str, float], relative_sd: Mapping[str, float]) -> Self:
-        """Independent parameters from their physical median and relative standard deviation, keyed alike."""
+        """Independent parameters from their physical medians and relative standard deviations, with the same keys."""
         if set(mean) != set(relative_sd):
             raise ValueError(
                 f"gaussian: means of {sorted(mean)}, deviations of {sorted(relative_sd)}; expected the same"
@@ -70,7 +68,7 @@ class Gaussian:
         return np.sqrt(np.diag(self.covariance))
 
     def marginal(self, names: Sequence[str]) -> Self:
-        """The same belief about these parameters only, in this order; raises ValueError for one it lacks."""
+        """Marginal distribution of these parameters in this order; raises ValueError for an unknown one."""
         places = [self.names.index(name) for name in names]
         return type(self)(tuple(names), self.mean[places], self.covariance[np.ix_(places, places)])
 
@@ -81,12 +79,12 @@ class Gaussian:
 
 
 INFORMED_SHARE = 0.5
-"""Share of the prior's variance that the data must take away before a direction counts as informed."""
+"""Least share of the prior variance that the data remove along an informed direction."""
 
 
 @dataclass(frozen=True, eq=False)
 class Information:
-    """Directions of the parameters from best to least seen.
+    """Directions of the parameters, from best to least informed.
 
     names (n,); reduction (n,) r_i, descending; directions (n, n), the columns v_i, of length 1 in prior standard
     deviations; sd_ratio (n,) posterior over prior standard deviation of each parameter.
@@ -104,22 +102,22 @@ class Information:
 
     @property
     def degrees(self) -> float:
-        """tr A: the number of parameters' worth that the data say."""
+        """Effective number of parameters that the data determine, tr A."""
         return float(self.reduction.sum())
 
     @property
     def resolution(self) -> np.ndarray:
-        """A (n, n)."""
+        """Resolution matrix A (n, n)."""
         return (self.directions * self.reduction) @ self.directions.T
 
     @property
     def informed(self) -> np.ndarray:
-        """Orthonormal basis (n, rank) of what the data inform."""
+        """Orthonormal basis (n, rank) of the informed directions."""
         return self.directions[:, : self.rank]
 
     @property
     def weakest(self) -> np.ndarray:
-        """The direction (n,) of which the data say least, its largest component positive."""
+        """Least informed direction (n,), with a positive largest component."""
         vector: np.ndarray = self.directions[:, -1]
         return vector * np.sign(vector[np.abs(vector).argmax()])
 
@@ -129,9 +127,9 @@ class Information:
         return float(np.sum((change @ self.informed) ** 2)) / square if square > 0.0 else float("nan")
 
     def unshrunk(self, change: np.ndarray) -> np.ndarray:
-        """The change (n,) that the data ask for, A^+ over the informed directions: free of the pull of the prior.
+        """Change (n,) without the shrinkage by the prior, A^+ change over the informed directions.
 
-        What the data do not inform is left out, not guessed.
+        Components along the other directions are zero.
         """
         basis = self.informed
         return (basis / self.reduction[: self.rank]) @ (basis.T @ change)

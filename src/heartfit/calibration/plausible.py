@@ -1,13 +1,13 @@
-"""The prior from trial and error, as a rule: how far one parameter may go until the beat is no longer plausible.
+"""Rule for the prior: the range of each parameter in which the beat remains plausible.
 
 The paper sets C_X "by estimating the minimal and the maximal value of each parameter with a trial and error approach
 on one volunteer". Here each quantity y of the beat (ejection fraction, peak pressure, ...) is the parabola in
-t = ln(theta / theta_0) through the beat of the standard heart (t = 0) and the two at -h and +h; a parameter ends where
-the first parabola leaves its published limits, or at a cap. With t_- < 0 < t_+ the two ends,
+t = ln(theta / theta_0) through the beat of the standard heart (t = 0) and the two at -h and +h. The range ends where
+the first parabola leaves its published limits, or at a cap. With its ends t_- < 0 < t_+,
 
     X0 = theta_0 exp((t_- + t_+) / 2),   sd = (t_+ - t_-) / 4.
 
-A limit that the standard heart itself does not keep says nothing of a single parameter: it is left out and named.
+A limit that the standard heart violates does not constrain a single parameter; it is omitted and named.
 """
 
 from collections.abc import Mapping, Sequence
@@ -23,7 +23,7 @@ NO_BEAT = "no beat"
 
 @dataclass(frozen=True)
 class Limit:
-    """Least and largest plausible value of a quantity, SI; infinite where nothing published limits it."""
+    """Least and largest plausible value of a quantity [SI]; infinite without a published limit."""
 
     quantity: str
     low: float
@@ -63,7 +63,7 @@ class PlausibleRange:
 
 @dataclass(frozen=True)
 class Plausible:
-    """The range of every parameter, and the quantities whose limits the standard beat itself does not keep."""
+    """Range of every parameter, and the quantities whose limits the standard beat violates."""
 
     ranges: tuple[PlausibleRange, ...]
     broken: tuple[str, ...]
@@ -77,10 +77,10 @@ class Plausible:
 def plausible_ranges(
     points: Sequence[SigmaPoint], outcomes: Sequence[Outcome], limits: Sequence[Limit], cap: float
 ) -> Plausible:
-    """The ranges from the outcomes of the points about the prior's mean, in the order of `sigma_points`.
+    """Return the ranges from the outcomes of the points about the prior's mean, in the order of `sigma_points`.
 
-    outcomes hold every quantity that is limited; cap > 1: the largest factor. A beat that failed ends the range
-    halfway to it. Raises InputError if the beat at the mean failed, for then nothing is known.
+    outcomes contain every quantity with a limit; cap > 1: largest factor. The range ends halfway to a failed beat.
+    Raises InputError if the beat at the mean failed.
     """
     centre, n = outcomes[0], len(points) // 2
     if isinstance(centre, str):
@@ -105,7 +105,7 @@ def _reach(
     limits: Sequence[Limit],
     cap: float,
 ) -> tuple[float, str]:
-    """Distance t > 0 in the direction of the beat `ahead` at which the first limit is met, and its quantity."""
+    """Distance t > 0 towards the beat `ahead` at which the first limit is reached, and its quantity."""
     if isinstance(ahead, str):
         return min((h / 2.0, NO_BEAT), (log(cap), CAP))
     ends = [(log(cap), CAP)]
@@ -123,6 +123,6 @@ def _first_root(a: float, b: float, c: float) -> float:
     discriminant = b * b - 4.0 * a * c
     if discriminant < 0.0:
         return inf
-    q = -0.5 * (b + copysign(sqrt(discriminant), b))  # without cancellation
+    q = -0.5 * (b + copysign(sqrt(discriminant), b))  # avoids cancellation
     roots = [part / whole for part, whole in ((q, a), (c, q)) if whole != 0.0]
     return min((root for root in roots if root > 0.0), default=inf)

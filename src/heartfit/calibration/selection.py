@@ -1,13 +1,13 @@
 """Selection of k of n parameters to estimate, by the singular value decomposition of the normalised Cov(X, Z).
 
-With A = U S V^T, the rows of U S are the parameters as vectors in the space of what the observations tell apart: long
-for a strong parameter, parallel for two that the observations cannot tell from each other. The rule takes the longest
-row, removes its direction from all others, and repeats (pivoted QR). Once every direction is spent, after three
-parameters for three observations, it starts anew among those that are left: the next one is then strong, but its
-effect is a combination of those already chosen, and only the prior tells it from them.
+With A = U S V^T, the rows of U S represent the parameters in the space of the distinguishable observations: long for a
+strong parameter, parallel for two that the observations do not distinguish. The rule selects the longest row, removes
+its direction from all others, and repeats (pivoted QR). After all directions are used, three parameters for three
+observations, it restarts with the remaining parameters. The next one is strong, but its effect is a combination of
+those already selected, and only the prior distinguishes it from them.
 
 References: Golub and Van Loan, Matrix Computations, section 5.5.6 (subset selection); Marchesseau et al. 2012,
-section 3.2, which does not say how the decomposition was read.
+section 3.2, which does not state how the decomposition was interpreted.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -17,10 +17,10 @@ from math import comb
 import numpy as np
 
 Measure = Callable[[np.ndarray, Sequence[int]], float]
-"""Quality of rows of A, by their indices: the larger, the better."""
+"""Quality of a set of rows of A, given by their indices; larger is better."""
 
 SPENT_LENGTH = 1e-6
-"""Length of a remainder, over the longest row, that counts as nothing."""
+"""Length of a remainder over that of the longest row below which it counts as zero."""
 
 
 def decomposition(covariance: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -31,7 +31,7 @@ def decomposition(covariance: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
 
 
 def select(covariance: np.ndarray, count: int) -> list[int]:
-    """Indices of `count` rows of (n, m), in the order in which the rule takes them."""
+    """Return the indices of `count` rows of (n, m) in the order of selection."""
     n = len(covariance)
     if not 0 < count <= n:
         raise ValueError(f"selection: {count} of {n} parameters; expected 1 to {n}")
@@ -44,7 +44,7 @@ def select(covariance: np.ndarray, count: int) -> list[int]:
 
 
 def _pivot_rows(rows: np.ndarray) -> Iterator[int]:
-    """Rows that add a direction, the longest remainder first; at least one."""
+    """Yield rows that add a direction, the longest remainder first; at least one."""
     remainder, least = rows.copy(), SPENT_LENGTH * np.linalg.norm(rows, axis=1).max()
     while True:
         lengths = np.linalg.norm(remainder, axis=1)
@@ -58,14 +58,14 @@ def _pivot_rows(rows: np.ndarray) -> Iterator[int]:
 
 
 def squared_share(covariance: np.ndarray, rows: Sequence[int]) -> float:
-    """Share of the squares of A in some rows: how much of the observations' variance they are to blame for."""
+    """Share of the squares of A in some rows: the share of the observations' variance that they cause."""
     return float((covariance[list(rows)] ** 2).sum() / (covariance**2).sum())
 
 
 def volume_share(covariance: np.ndarray, rows: Sequence[int]) -> float:
-    """det(A_S^T A_S) / det(A^T A): near one if the rows move all combinations of the observations as all do.
+    """det(A_S^T A_S) / det(A^T A): near one if the rows change all combinations of the observations like all rows.
 
-    Zero if they leave one unmoved. It does not depend on the scale of any observation.
+    Zero if they do not change one combination. It does not depend on the scale of any observation.
     """
     part = covariance[list(rows)]
     return float(np.linalg.det(part.T @ part) / np.linalg.det(covariance.T @ covariance))

@@ -1,24 +1,21 @@
-r"""Normalised covariance of parameters and observations, and what fixed parameters contribute.
+r"""Normalised covariance of parameters and observations, and the uncertainty due to fixed parameters.
 
-What the observations owe to parameters that are not estimated.
-
-A parameter p_j that is held at its mean, though it scatters with the standard deviation s_j of its logarithm, moves
-the observations by what the calibration cannot explain; to first order it is noise of the model,
+**Fixed parameters.** A parameter p_j is fixed at its mean, although its logarithm has the standard deviation s_j. The
+resulting scatter of the observations is noise of the model; to first order
 
 .. math:: R_{fixed} = \sum_j s_j^2\, \frac{\partial Z}{\partial \ln p_j}
           \Big(\frac{\partial Z}{\partial \ln p_j}\Big)^T .
 
-Normalised Cov(X, Z) of all parameters from one beat at the prior's mean and two for each parameter.
-
-With z = ln theta, prior standard deviations s_i and points at h s_i on either side of the mean,
+**Normalised Cov(X, Z)** of all parameters, from one beat at the prior's mean and two for each parameter. With
+z = ln theta, prior standard deviations s_i and points at h s_i on either side of the mean,
 
     Cov(X, Z)_ij = s_i (Z_j(i+) - Z_j(i-)) / (2 h),   sd(Z_j)^2 = sum_i (Cov(X, Z)_ij / s_i)^2,
     A_ij = Cov(X, Z)_ij / (s_i sd(Z_j)).
 
-The squares of a column of A add up to one: each is the share of that observation's variance, to first order,
-which the parameter is to blame for. The unscented transform would put the points of n = 14 parameters at
-h = sqrt(14) = 3.7, where alpha is 4.5 times its mean or a quarter of it. The covariance of an odd pair does not
-depend on the weight of the centre, so h is free; one standard deviation is where the calibration looks too.
+The squares of a column of A add up to one: each is the share of that observation's variance, to first order, that the
+parameter causes. The unscented transform would place the points of n = 14 parameters at h = sqrt(14) = 3.7, where
+alpha is 4.5 times its mean or a quarter of it. The covariance of an odd pair does not depend on the weight of the
+centre, so h is free; one standard deviation is also the distance in the calibration.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -34,9 +31,9 @@ from heartfit.core.errors import InputError
 
 
 def covariance_of_fixed(slopes: np.ndarray, sds: np.ndarray) -> np.ndarray:
-    """R_fixed (m, m) from the slopes dZ/dln p_j (k, m) and the standard deviations s_j (k,); added to that of images.
+    """R_fixed (m, m) from the slopes dZ/dln p_j (k, m) and the standard deviations s_j (k,), added to R of the images.
 
-    With no parameter held fixed it is zero. Raises ValueError for shapes that do not agree and for what is not finite.
+    Zero without fixed parameters. Raises ValueError for inconsistent shapes and non-finite values.
     """
     if slopes.ndim != 2 or sds.shape != (len(slopes),):
         raise ValueError(f"fixed: slopes {slopes.shape}, deviations {sds.shape}; expected (k, m) and (k,)")
@@ -57,13 +54,13 @@ class Slopes:
     def covariance(self, estimated: Collection[str], observed: Mapping[str, float], sd: float) -> np.ndarray:
         """R_fixed (m, m), in the units and order of `observed`, of all parameters that are not estimated.
 
-        The relative derivatives of the one heart are taken for any. Raises InputError for an observation that the
-        slopes do not know, or whose slope is not a number.
+        All hearts are assumed to have the same relative derivatives. Raises InputError for an observation without
+        slopes, or with one that is not a number.
         """
         unknown = sorted(set(observed) - set(self.observations))
         if unknown:
             raise InputError(
-                f"slopes: nothing of {', '.join(unknown)}; there are {', '.join(self.observations)}"
+                f"slopes: no observation {', '.join(unknown)}; there are {', '.join(self.observations)}"
             )
         rows = [row for row, name in enumerate(self.parameters) if name not in estimated]
         columns = [self.observations.index(name) for name in observed]
@@ -84,8 +81,8 @@ class Slopes:
 class Sensitivity:
     """Effect of n parameters on m observations about the prior.
 
-    covariance (n, m): A, see above; slopes (n, m): d ln Z / d ln theta, exact for a pure power law; centre (m,): Z at
-    the mean, SI; failed names the points without a beat, each with the reason.
+    covariance (n, m): A of the module; slopes (n, m): d ln Z / d ln theta, exact for a pure power law; centre (m,): Z
+    at the mean, SI; failed: points without a beat, with reasons.
     """
 
     prior: Gaussian
@@ -101,11 +98,11 @@ class Sensitivity:
         return self.prior.names
 
     def of(self, observations: Sequence[str]) -> np.ndarray:
-        """The columns (n, k) of A that belong to some observations, in their order."""
+        """Columns (n, k) of A of some observations, in their order."""
         return self.covariance[:, [self.observations.index(name) for name in observations]]
 
     def with_sd(self, sd: Sequence[float]) -> Self:
-        """The same slopes under other standard deviations (n,) of the parameters."""
+        """Return the same slopes with other standard deviations (n,) of the parameters."""
         variance = np.diag(np.square(sd))
         effects = self.slopes * np.asarray(sd)[:, None] * self.centre
         scale = np.linalg.norm(effects, axis=0)
@@ -114,7 +111,7 @@ class Sensitivity:
 
 
 def one_at_a_time_scaling(parameters: int, step: float) -> Scaling:
-    """The scaling that puts the points at `step` standard deviations of the prior."""
+    """Return the scaling that places the points at `step` standard deviations of the prior."""
     return Scaling(kappa=step**2 - parameters)
 
 
@@ -125,10 +122,10 @@ def sensitivity(
     scaling: Scaling,
     observations: Sequence[str],
 ) -> Sensitivity:
-    """Sensitivities of some observations from the outcome of each sigma point of the prior under `scaling`.
+    """Return the sensitivities of some observations from the outcome of each sigma point of the prior under `scaling`.
 
-    A point that failed is mirrored, as `transform` does. Raises CalibrationError if both points of a parameter
-    did, or if an observation is the same in all beats.
+    A failed point is mirrored, as in `transform`. Raises CalibrationError if both points of a parameter failed, or if
+    an observation is the same in all beats.
     """
     z = np.array([_row(outcome, observations) for outcome in outcomes])
     completed = np.array([not isinstance(outcome, str) for outcome in outcomes])

@@ -1,13 +1,13 @@
-"""Sobol's indices: a second opinion on which parameters matter, which takes neither small steps nor straight lines.
+"""Sobol's indices: variance-based sensitivities without the assumption of small steps or a linear model.
 
-With parameters drawn independently from the prior, the variance of an observation splits into what each parameter
-causes alone (first order) and with others (total):
+With parameters drawn independently from the prior, the variance of an observation is divided into the share of each
+parameter alone (first order) and with interactions (total):
 
     S_i = Var(E[Z | X_i]) / Var(Z),   T_i = 1 - Var(E[Z | all but X_i]) / Var(Z).
 
-SALib samples by Saltelli's scheme, N (n + 2) beats, and estimates the indices. Of outputs with one NaN it makes
-indices that are all zero, without a word, so nothing but whole blocks of finite outputs is handed to it: the n + 2
-beats of a base sample are left out together if one of them failed.
+SALib samples by Saltelli's scheme, N (n + 2) beats, and estimates the indices. With a single NaN among the outputs it
+returns zero for all indices without a warning. Therefore it receives only complete blocks of finite outputs: the n + 2
+beats of a base sample are omitted together if one of them failed.
 
 References: Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018; Herman and Usher 2017, doi:10.21105/joss.00097 (SALib).
 """
@@ -22,23 +22,23 @@ from heartfit.calibration.unscented import Outcome
 from heartfit.core.errors import InputError
 
 TRUNCATION = 3.0
-"""Standard deviations of the prior beyond which nothing is drawn."""
+"""Truncation of the draws [prior standard deviations]."""
 
 LARGEST_LOSS = 0.05
-"""Share of base samples that may be left out; more would change what is drawn from."""
+"""Largest share of omitted base samples; a larger one would bias the distribution."""
 
 Forward = Callable[[Mapping[str, float]], Outcome]
 
 
 class SobolError(InputError):
-    """Too many beats failed for the indices to be those of the prior; the message says how many and why."""
+    """Too many beats failed for indices of the prior; the message gives the number and the reason."""
 
 
 @dataclass(frozen=True)
 class SobolIndices:
-    """Indices (n, m) with the half-widths of their 95 % intervals; how many base samples gave them, and the losses.
+    """Indices (n, m) with the half-widths of their 95 % intervals.
 
-    lost: reasons of the base samples that were left out, one each.
+    samples: number of base samples used; lost: reason of each omitted base sample.
     """
 
     parameters: tuple[str, ...]
@@ -52,9 +52,9 @@ class SobolIndices:
 
 
 def sobol_indices(prior: Gaussian, forward: Forward, samples: int, seed: int) -> SobolIndices:
-    """Indices over the prior, whose parameters must be independent, from `samples` base samples (a power of two).
+    """Return the indices over a prior with independent parameters, from `samples` base samples (a power of two).
 
-    Raises SobolError if more than a twentieth of them are lost.
+    Raises SobolError if more than a twentieth of them are omitted.
     """
     from SALib.sample.sobol import sample  # 1 s to import, with pandas and matplotlib
 
@@ -65,7 +65,7 @@ def sobol_indices(prior: Gaussian, forward: Forward, samples: int, seed: int) ->
 
 
 def indices_of(prior: Gaussian, outcomes: list[Outcome], seed: int) -> SobolIndices:
-    """Indices from the outcomes of Saltelli's samples, in their order."""
+    """Return the indices from the outcomes of Saltelli's samples, in their order."""
     from SALib.analyze.sobol import analyze
 
     names, values, lost = _whole_blocks(outcomes, len(prior.names) + 2)
@@ -91,7 +91,7 @@ def _problem(prior: Gaussian) -> dict[str, object]:
 
 
 def _whole_blocks(outcomes: list[Outcome], size: int) -> tuple[tuple[str, ...], np.ndarray, tuple[str, ...]]:
-    """Names and values (k size, m) of the blocks without a failure, and why the others are left out."""
+    """Return names and values (k size, m) of the blocks without a failure, and the reasons of the omitted ones."""
     blocks = [outcomes[start : start + size] for start in range(0, len(outcomes), size)]
     reasons = [_reason(block) for block in blocks]
     lost = tuple(reason for reason in reasons if reason)

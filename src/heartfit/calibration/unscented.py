@@ -1,8 +1,6 @@
-"""The model as a calibration sees it: parameters in, observations out, and every run counted.
+"""Forward models that count or cache their simulations, sigma points, and the moments of the observations.
 
-Sigma points and the moments they give.
-
-Equations, with n parameters X ~ N(X0, C), lambda = a^2 (n + kappa) - n and gamma = sqrt(n + lambda):
+With n parameters X ~ N(X0, C), lambda = a^2 (n + kappa) - n and gamma = sqrt(n + lambda):
 
     X_0 = X0,   X_(i+-) = X0 +- gamma (sqrt C)_i,   i = 1..n
     W_0^m = lambda / (n + lambda),   W_0^c = W_0^m + 1 - a^2 + b,   W_i = 1 / (2 (n + lambda))
@@ -24,13 +22,13 @@ from heartfit.calibration.design import Scaling as Scaling
 from heartfit.calibration.gaussian import Gaussian
 
 Outcome = Mapping[str, float] | str
-"""Observations by name, or the reason why there are none."""
+"""Observations by name, or the reason of a failure."""
 Forward = Callable[[Sequence[Mapping[str, float]]], list[Outcome]]
-"""From the parameters of some simulations, by name and SI, to their outcomes."""
+"""Map from the parameters of some simulations, by name [SI], to their outcomes."""
 
 
 class CountedForward:
-    """A forward model that counts the simulations asked of it."""
+    """A forward model that counts its simulations."""
 
     def __init__(self, forward: Forward) -> None:
         self._forward, self.simulations = forward, 0
@@ -41,7 +39,7 @@ class CountedForward:
 
 
 class CachedForward:
-    """A forward model that runs no parameters twice: hearts of one shape and prior share their sigma points."""
+    """A forward model that simulates no parameters twice: hearts with the same shape and prior share sigma points."""
 
     def __init__(self, forward: Forward) -> None:
         self._forward, self._known = forward, dict[frozenset[tuple[str, float]], Outcome]()
@@ -67,7 +65,7 @@ class SigmaPoint:
 
 
 def sigma_points(prior: Gaussian, design: Design = STANDARD_DESIGN) -> list[SigmaPoint]:
-    """The points of the design under the prior, in its order: those of the standard one are the 2n+1 above."""
+    """Return the points of the design under the prior, in its order; by default the 2n+1 points of the module."""
     z = prior.mean + design.offsets(len(prior.names)) @ np.linalg.cholesky(prior.covariance).T
     return [
         SigmaPoint(index, label, z[index], prior.physical(z[index]))
@@ -77,7 +75,7 @@ def sigma_points(prior: Gaussian, design: Design = STANDARD_DESIGN) -> list[Sigm
 
 @dataclass(frozen=True)
 class Moments:
-    """Zbar (m,), Cov(X, Z) (n, m), Cov(Z, Z) (m, m), and the labels of the points that are not in them."""
+    """Zbar (m,), Cov(X, Z) (n, m), Cov(Z, Z) (m, m), and the labels of the failed points."""
 
     mean: np.ndarray
     cov_xz: np.ndarray
@@ -91,11 +89,11 @@ def transform(
     design: Design = STANDARD_DESIGN,
     completed: np.ndarray | None = None,
 ) -> Moments:
-    """Moments of the observations z (p, m); rows whose `completed` (p,) is False are not looked at.
+    """Return the moments of the observations z (p, m); rows with `completed` (p,) False are ignored.
 
-    What replaces them says the design, such that a linear map keeps its exact moments: of the 2n+1 points a lost
-    X_(i+) the mirror image Z_(i+) = 2 Z_0 - Z_(i-), a lost centre the mean of the whole pairs. The joint covariance
-    stays positive. Raises CalibrationError if too many are lost.
+    The design replaces these rows such that the moments of a linear map remain exact. Of the 2n+1 points, a failed
+    X_(i+) is replaced by the mirror image Z_(i+) = 2 Z_0 - Z_(i-), a failed centre by the mean of the complete pairs.
+    The joint covariance remains positive. Raises CalibrationError if too many points failed.
     """
     labels = [point.label for point in points]
     x = np.array([point.z for point in points])

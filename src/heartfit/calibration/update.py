@@ -1,10 +1,10 @@
-"""One step from the prior to the parameters that match the observations.
+"""Kalman update of the prior by the observations.
 
     G = Cov(X, Z) (Cov(Z, Z) + R)^-1,   X_new = X0 + G (Z_obs - Zbar),   C_post = C - G (Cov(Z, Z) + R) G^T
 
-With R = 0 this is eq. (3) of Marchesseau et al. 2012: on a linear map the observations are met exactly and,
-with more parameters than observations, the change of least prior-weighted norm is returned; the direction no
-observation informs keeps its prior.
+With R = 0 this is eq. (3) of Marchesseau et al. 2012. For a linear map it reproduces the observations exactly and,
+with more parameters than observations, by the change of least prior-weighted norm. Directions without information keep
+their prior.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -23,12 +23,14 @@ from heartfit.calibration.unscented import (
     transform,
 )
 
-LONG_STEP = 3.0  # prior standard deviations: beyond them the moments say little about the model
-SILENT_VARIATION = 1e-8  # relative standard deviation of an observation below which it is rounding
+LONG_STEP = 3.0  # prior standard deviations, beyond which the moments do not describe the model
+SILENT_VARIATION = 1e-8  # relative standard deviation of an observation that is only rounding
 COLLINEAR_EIGENVALUE = (
-    1e-10  # eigenvalue of the normalised covariance of the observations that counts as zero
+    1e-10  # largest eigenvalue of the normalised covariance of the observations that counts as zero
 )
-ROUNDING = 1e-6  # negative variance, over the prior's, that the inverse of that covariance can leave
+ROUNDING = (
+    1e-6  # largest negative variance, over the prior's, due to rounding in the inverse of that covariance
+)
 NEGATIVE_VARIANCE = (
     "calibration: the {what} over the sigma points is negative, as a negative weight of the centre allows: "
     "take a <= 1 and kappa such that a^2 (n + kappa) >= n"
@@ -37,12 +39,12 @@ NEGATIVE_VARIANCE = (
 
 @dataclass(frozen=True)
 class Posterior:
-    """The estimate and everything needed to judge it; logarithms of parameters throughout.
+    """Result of an update; all parameters are logarithms.
 
     prior, estimate: mean and covariance before and after; observed (m,) Z_obs; predicted (m,) Zbar; gain (n, m);
     cov_xz (n, m); cov_zz (m, m) without R; step (n,) in prior standard deviations; sensitivity (n, m) is
-    Cov(X, Z) with rows divided by sd_X and columns by sd_Z, singular_values those of it: the paper's tool to
-    choose parameters; failed names the sigma points without a beat, each with the reason.
+    Cov(X, Z) with rows divided by sd_X and columns by sd_Z, and singular_values are its singular values, by which the
+    paper selects parameters; failed: sigma points without a beat, with reasons.
     """
 
     prior: Gaussian
@@ -67,7 +69,7 @@ def calibrate(
     noise: np.ndarray | None = None,
     design: Design = STANDARD_DESIGN,
 ) -> Posterior:
-    """The posterior from the observations of each sigma point's beat, or the reason why there are none."""
+    """Return the posterior from the outcome of each sigma point: its observations, or the reason of its failure."""
     return update(prior, moments_of(prior, outcomes, tuple(observed), design), observed, noise)
 
 
@@ -77,7 +79,7 @@ def moments_of(
     names: Sequence[str],
     design: Design = STANDARD_DESIGN,
 ) -> Moments:
-    """Moments of the observations `names` over the sigma points, from the outcome of each."""
+    """Return the moments of the observations `names` from the outcome of each sigma point."""
     points = sigma_points(prior, design)
     if len(outcomes) != len(points):
         raise ValueError(
@@ -100,7 +102,7 @@ def _row(outcome: Mapping[str, float] | str, names: Iterable[str]) -> list[float
 def update(
     prior: Gaussian, moments: Moments, observed: Mapping[str, float], noise: np.ndarray | None = None
 ) -> Posterior:
-    """The posterior after observing `observed` (by name, in the order of the moments' columns).
+    """Return the posterior given `observed` (by name, in the order of the moments' columns).
 
     noise: R (m, m) in the observations' units, zero if None (the paper). Raises CalibrationError if an
     observation does not respond to any parameter, if the observations are collinear over the prior, or if a
@@ -169,7 +171,7 @@ def _require_definite(correlation: np.ndarray, names: tuple[str, ...]) -> None:
 
 
 def _make_positive(covariance: np.ndarray, prior: np.ndarray) -> np.ndarray:
-    """Symmetrise; directions fixed to rounding get a variance of 1e-12 of the prior's mean one."""
+    """Symmetrise; raise variances that vanish up to rounding to 1e-12 of the mean prior variance."""
     values, vectors = np.linalg.eigh((covariance + covariance.T) / 2)
     variance = np.trace(prior) / len(prior)
     if values.min() < -ROUNDING * variance:
@@ -186,7 +188,7 @@ def _failures(failed: tuple[str, ...]) -> list[str]:
 
 
 def _excess(parameters: int, names: tuple[str, ...], noise: np.ndarray | None) -> list[str]:
-    """Without noise, each observation beyond the parameters is inverted through the map's curvature alone."""
+    """Warn about more observations than parameters without noise: only the map's curvature determines the surplus."""
     if noise is not None or len(names) <= parameters:
         return []
     return [

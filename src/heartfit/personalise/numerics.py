@@ -22,14 +22,14 @@ class Protocol:
 
 
 class MeshSize(Strict):
-    """Wished edge length and how far the boundary may leave the measured surface."""
+    """Target edge length, and largest distance of the boundary from the measured surface."""
 
     edge_length: float = Field(gt=1e-3, lt=0.05, description="m")
     tolerance: float = Field(gt=1e-5, lt=5e-3, description="m")
 
 
 class TimeScheme(Strict):
-    """Step of the beat and when the beats count as periodic."""
+    """Time step, and criterion of periodic beats."""
 
     time_step: float = Field(gt=1e-5, le=0.02, description="s")
     second_order: bool = Field(True, description="BDF2 and midpoints of the fibres, or backward Euler")
@@ -37,25 +37,25 @@ class TimeScheme(Strict):
     drift: float = Field(gt=0, lt=1, description="largest relative change from beat to beat")
 
     def numerics(self) -> Numerics:
-        """As the simulation takes it."""
+        """Return the numerics of a simulation."""
         return Numerics(**self.model_dump())
 
 
 class Pressures(Strict):
-    """Pressures of the ventricles at end diastole, under which the measured mesh stands."""
+    """End-diastolic pressures of the ventricles, which load the measured mesh."""
 
     lv: float = Field(ge=0, lt=5e3, description="Pa")
     rv: float = Field(ge=0, lt=5e3, description="Pa")
 
 
 class Generator(Strict):
-    """Mesh and time scheme of such hearts."""
+    """Mesh and time scheme of generated hearts."""
 
     mesh: MeshSize
     numerics: TimeScheme
 
     def protocol(self, pressures: Pressures) -> Protocol:
-        """As the cohort takes it."""
+        """Return the protocol of a generated heart."""
         return Protocol(self.numerics.numerics(), (pressures.lv, pressures.rv))
 
 
@@ -73,11 +73,11 @@ class Operator(Strict):
         return self
 
     def features(self, measured: Mapping[str, Curve]) -> dict[str, CurveFeatures]:
-        """The operator of each curve that is observed: the LV's volume, and its pressure where measured."""
+        """Return the operator of each observed curve: the LV volume, and its pressure if measured."""
         return operators(measured, self.frames, self.window, self.order)
 
     def trial_features(self, frames: int) -> dict[str, CurveFeatures]:
-        """The operators of a trial of the measurement, whose images have this number of frames."""
+        """Return the operators of a synthetic measurement with this number of image frames."""
         return {
             "lv_volume": VolumeFeatures(frames, self.window, self.order),
             "lv_pressure": PressureFeatures(),
@@ -85,18 +85,20 @@ class Operator(Strict):
 
 
 class Transform(Strict):
-    """The numbers of the unscented transform, and whether bias and noise of the observations are used (R > 0)."""
+    """Parameters of the unscented transform, and whether bias and noise of the observations are used (R > 0)."""
 
     a: PositiveFloat = 1.0
     b: float = 2.0
     kappa: float = 0.0
     noise: bool = False
-    fixed_sd: Annotated[float, Field(ge=0, lt=1, description="relative, of what is not estimated")] = 0.1
+    fixed_sd: Annotated[
+        float, Field(ge=0, lt=1, description="relative, of parameters that are not estimated")
+    ] = 0.1
 
     def with_noise(self) -> "Transform":
-        """The same with the noise of the observations, whatever this one says."""
+        """Return the same transform with the noise of the observations."""
         return self.model_copy(update={"noise": True})
 
     def scaling(self) -> Scaling:
-        """As the calibration takes it."""
+        """Return the scaling of the sigma points."""
         return Scaling(self.a, self.b, self.kappa)

@@ -1,4 +1,4 @@
-"""The steps of a calibration, each from values to values."""
+"""Steps of a calibration as functions of values: body, beat, estimate, observations."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -28,11 +28,11 @@ from heartfit.personalise.setting import Setting
 
 
 def ventricles(mesh: VentricularMesh, tissue: Tissue, loads: Floats, unloaded: bool = True) -> Body:
-    """The ventricles that were measured as ``mesh`` under the end-diastolic pressures ``loads`` (2,), Pa.
+    """Return the ventricles measured as ``mesh`` under the end-diastolic pressures ``loads`` (2,) [Pa].
 
-    With ``unloaded`` their stress-free reference is found first; without, the measured state is taken as
-    stress-free. The element "sphere" keeps of the mesh only its volumes.
-    Raises StepFailed if there is no such reference.
+    With ``unloaded`` their stress-free reference is computed first; otherwise the measured state is assumed to be
+    stress-free. The element "sphere" uses only the volumes of the mesh.
+    Raises StepFailed without a stress-free reference.
     """
     if tissue.element == "sphere":
         return _spheres(mesh, tissue, loads if unloaded else np.zeros(2))
@@ -40,8 +40,8 @@ def ventricles(mesh: VentricularMesh, tissue: Tissue, loads: Floats, unloaded: b
 
 
 def _spheres(mesh: VentricularMesh, tissue: Tissue, loads: Floats) -> Body:
-    """Spheres of the same cavities; the septum belongs to the left one."""
-    from heartfit.heart.sphere.body import Sphere, SphericalBody  # finite elements need no root finder
+    """Return spheres with the same cavity volumes; the septum belongs to the left one."""
+    from heartfit.heart.sphere.body import Sphere, SphericalBody  # only spheres need the root finder
 
     cavities = [Cavity.from_endocardium(mesh, f"{chamber}_endo").volume(mesh.points) for chamber in CHAMBERS]
     volumes, right = mesh.element_volumes(), np.asarray(mesh.segments) == 0
@@ -70,11 +70,10 @@ def run_beat(
     progress: Progress | None = None,
     keep_positions: bool = False,
 ) -> Beat:
-    """The beat of a setting with some parameters changed, of ventricles that were measured at end diastole.
+    """Return the beat of a setting with changed parameters, for ventricles that were measured at end diastole.
 
-    The stress-free reference is found for these very parameters: a reference frozen at other passive parameters
-    would change the end-diastolic volume that was measured. With the setting's reference "end_diastolic" it
-    is the mesh itself.
+    The stress-free reference is computed for these parameters: a reference for other passive parameters would change
+    the measured end-diastolic volume. For the setting's reference "end_diastolic" it is the mesh.
     """
     heart = setting.base_heart(period).with_parameters(parameters)
     loads = np.array([pressures.lv, pressures.rv])
@@ -96,10 +95,10 @@ def estimate(
     transform: Transform,
     slopes: Slopes | None = None,
 ) -> Posterior:
-    """The posterior from the beats of all sigma points, in their order, each seen through its own sensors.
+    """Return the posterior from the beats of all sigma points, in their order, each observed by its sensors.
 
-    Without the transform's noise the numbers are met as they were measured, as the paper does; with it, those without
-    bias under their covariance. Slopes add to it what the parameters that are not estimated may do.
+    Without the transform's noise the measured values are fitted exactly, as in the paper; with it, the bias-corrected
+    values with their covariance. ``slopes`` add the uncertainty due to parameters that are not estimated.
     """
     sensors = [setting.sensors(point.parameters) for point in points]
     noise = measurement.covariance if transform.noise else None
@@ -113,9 +112,9 @@ def estimate(
 def observe_plausibility(
     setting: Setting, points: Sequence[SigmaPoint], beats: Iterable[Beat], operator: Operator
 ) -> list[Outcome]:
-    """The six observations of each beat and what else says whether it is plausible, or why it failed.
+    """Return the six observations and the cavity indices of each beat, which limit its plausibility, or its failure.
 
-    EDV and ESV in m^3, SV in m^3 and EF as shares: not through the operator, as published values are.
+    EDV, ESV and SV [m^3] and EF [1] are not smoothed by the operator, as published values are not.
     """
     features = operator.trial_features(operator.frames)
     outcomes: list[Outcome] = []
@@ -128,7 +127,7 @@ def observe_plausibility(
 def curves_of_points(
     setting: Setting, points: Sequence[SigmaPoint], beats: Iterable[Beat]
 ) -> dict[str, dict[str, Curve]]:
-    """The curves of each point's beat by its label, none of a failed one."""
+    """Return the curves of each point's beat by its label, empty for a failed beat."""
     return {
         point.label: beat_curves(beat, setting.sensors(point.parameters))
         for point, beat in zip(points, beats, strict=True)
@@ -141,10 +140,10 @@ def observe_case(
     models: Sequence[NoiseModel],
     protocol: Mapping[str, float | int | str | bool],
 ) -> Measurement:
-    """Observe a case, by the noise model of its images if there is one.
+    """Observe a case, with the noise model of its images if given.
 
-    The period of synthetic images is known; a measured heart's breath-holds differ in theirs. Raises InputError for a
-    model of another protocol than this.
+    The period of synthetic images is known; that of a measured heart varies between breath-holds. Raises InputError for
+    a model of another protocol.
     """
     features = operator.features(measured)
     for model in models:
