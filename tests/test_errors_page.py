@@ -38,7 +38,7 @@ def messages(trees: list[ast.Module], error: str) -> set[str]:
     raised = {
         written(call.args[0]) for call in calls if isinstance(call.func, ast.Name) and call.func.id == error
     }
-    return {said for said in raised if re.search(r"\w", said.replace("expected", ""))}
+    return {text for text in raised if re.search(r"\w", text.replace("expected", ""))}
 
 
 def tells_of(phrase: str, text: str) -> bool:
@@ -46,9 +46,9 @@ def tells_of(phrase: str, text: str) -> bool:
 
 
 def test_every_message_of_the_code_is_on_the_page():
-    said = messages(TREES, "InputError") | messages(CONFIGURATION, "ValueError")
-    untold = [text for text in sorted(said) if not any(tells_of(phrase, text) for phrase in PHRASES)]
-    assert len(said) > 200
+    texts = messages(TREES, "InputError") | messages(CONFIGURATION, "ValueError")
+    untold = [text for text in sorted(texts) if not any(tells_of(phrase, text) for phrase in PHRASES)]
+    assert len(texts) > 200
     assert not untold, "tell in docs/errors.md what they mean"
 
 

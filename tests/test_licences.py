@@ -10,14 +10,14 @@ PERMISSIVE = re.compile(r"\b(MIT|BSD|Apache|PSF|MPL|Public Domain|ISC)\b", re.IG
 
 def core():
     """Names of all distributions that heartfit needs, directly or not, without its development tools."""
-    found, waiting = set(), {"heartfit"}
+    core_names, waiting = set(), {"heartfit"}
     while waiting:
         name = waiting.pop()
-        found.add(name)
+        core_names.add(name)
         needs = [text for text in metadata.requires(name) or [] if "extra ==" not in text]
         names = {re.match(r"[\w.-]+", text)[0].lower().replace("_", "-") for text in needs}
-        waiting |= {each for each in names - found if installed(each)}
-    return found - {"heartfit"}
+        waiting |= {name for name in names - core_names if installed(name)}
+    return core_names - {"heartfit"}
 
 
 def installed(name):

@@ -60,13 +60,13 @@ def imported(node: ast.AST) -> list[str]:
 
 def is_dangerous(call: ast.Call, file: str) -> bool:
     name = name_of(call)
-    given = {each.arg: getattr(each.value, "value", None) for each in call.keywords}
+    values = {keyword.arg: getattr(keyword.value, "value", None) for keyword in call.keywords}
     return (
         (name.split(".")[-1] in CALLS - ASKED_FOR.get(file, set()) and name not in HARMLESS)
-        or bool(given.get("shell") or given.get("allow_pickle"))
+        or bool(values.get("shell") or values.get("allow_pickle"))
         or name == "yaml.load"
-        or (name == "np.load" and given.get("allow_pickle", True) is not False)
-        or (name.endswith("Environment") and "autoescape" not in given)
+        or (name == "np.load" and values.get("allow_pickle", True) is not False)
+        or (name.endswith("Environment") and "autoescape" not in values)
     )
 
 
@@ -80,7 +80,7 @@ def dangers(tree: ast.Module, file: str) -> Iterator[str]:
 
 def test_nothing_is_evaluated() -> None:
     trees = {file: ast.parse(file.read_text(encoding="utf-8")) for file in FILES}
-    assert not {str(file): said for file, tree in trees.items() if (said := [*dangers(tree, file.name)])}
+    assert not {str(file): lines for file, tree in trees.items() if (lines := [*dangers(tree, file.name)])}
 
 
 FORBIDDEN = (

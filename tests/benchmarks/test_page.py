@@ -38,12 +38,12 @@ def test_growth_is_the_exponent_of_a_power():
 
 
 def test_figures_carry_the_ratios_and_their_verdicts(measured):
-    found = {figure.name: figure for figure in figures(measured)}
-    assert found["Newton step, 10k, `mixed`, beside NGSolve"].measured == pytest.approx(15.0)
-    assert found["Newton step, 10k, `mixed`, beside NGSolve"].met, "at least 10"
-    assert found["one job beside its beat"].met
+    figure_by_name = {figure.name: figure for figure in figures(measured)}
+    assert figure_by_name["Newton step, 10k, `mixed`, beside NGSolve"].measured == pytest.approx(15.0)
+    assert figure_by_name["Newton step, 10k, `mixed`, beside NGSolve"].met, "at least 10"
+    assert figure_by_name["one job beside its beat"].met
     assert exponent(measured, "physical") == pytest.approx(2.0)
-    assert not found["growth, `mixed`"].met
+    assert not figure_by_name["growth, `mixed`"].met
     assert not Figure("none", float("nan"), 1.0, "s").met
 
 

@@ -39,9 +39,9 @@ def test_a_matching_finds_a_shift_in_the_sense_of_the_mesh(name):
     """fixed(x) = moving(x + shift): a node at x goes to x + shift, not back."""
     fixed, moving = blobs(np.zeros(3)), blobs(SHIFT)
     everywhere = sitk.Cast(fixed > -1.0, sitk.sitkUInt8)
-    found = MATCHINGS[name](Images(fixed, moving, everywhere, sitk.Transform(3, sitk.sitkIdentity)))
+    transform = MATCHINGS[name](Images(fixed, moving, everywhere, sitk.Transform(3, sitk.sitkIdentity)))
     for place in ([13.0, 12.0, 11.0], [10.0, 14.0, 12.0]):
-        assert np.subtract(found.TransformPoint(place), place) == pytest.approx(SHIFT, abs=0.1)
+        assert np.subtract(transform.TransformPoint(place), place) == pytest.approx(SHIFT, abs=0.1)
 
 
 def errors(mean: float) -> Errors:

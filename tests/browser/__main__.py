@@ -21,9 +21,10 @@ INSTALL = (
 
 def main(arguments: list[str]) -> int:
     """Find the browser, installing Debian's if need be, and pass the tests of this folder."""
-    reports = arguments or [each for each in MADE if Path(each).exists()]
+    reports = arguments or [report for report in MADE if Path(report).exists()]
     print(
-        f"browser: {chromium()} opens made-up results{''.join(f', {each}' for each in reports)}", flush=True
+        f"browser: {chromium()} opens made-up results{''.join(f', {report}' for report in reports)}",
+        flush=True,
     )
     os.environ["REPORTS"] = os.pathsep.join(reports)
     return int(pytest.main([str(HERE), "-m", "long", "-v"]))
@@ -31,12 +32,12 @@ def main(arguments: list[str]) -> int:
 
 def chromium() -> str:
     """The browser's program; leaves with one line where there is none and none can be installed."""
-    if not found() and shutil.which("apt-get") and os.geteuid() == 0:
+    if not browser_path() and shutil.which("apt-get") and os.geteuid() == 0:
         print("browser: installs Debian's chromium", flush=True)
         quiet = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
         for command in INSTALL:
             subprocess.run(command, check=True, env=quiet, stdout=subprocess.DEVNULL)
-    program = found()
+    program = browser_path()
     if program is None:
         sys.exit(
             "browser: no chromium; expected the program on the path: install it (Debian: apt-get install chromium)"
@@ -44,7 +45,7 @@ def chromium() -> str:
     return program
 
 
-def found() -> str | None:
+def browser_path() -> str | None:
     return shutil.which("chromium") or shutil.which("chromium-browser")
 
 

@@ -11,7 +11,7 @@ from playwright.sync_api import Page, Request, sync_playwright
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.io.report import assets
 from heartfit.results.report.page import render
-from tests.browser.__main__ import found
+from tests.browser.__main__ import browser_path
 from tests.results.report.conftest import HOSTILE
 from tests.results.report.small_report import study
 
@@ -20,7 +20,7 @@ FLAGS = (
     "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
 )  # fmt: skip
 SCREEN = {"width": 1366, "height": 768}
-REPORTS = [each for each in os.environ.get("REPORTS", "").split(os.pathsep) if each]
+REPORTS = [path for path in os.environ.get("REPORTS", "").split(os.pathsep) if path]
 
 
 @dataclass
@@ -28,17 +28,17 @@ class Opened:
     """A report in the browser, what the page said on the console, and what it asked for."""
 
     page: Page
-    said: list[str] = field(default_factory=list)
-    asked: list[str] = field(default_factory=list)
+    errors: list[str] = field(default_factory=list)
+    requests: list[str] = field(default_factory=list)
 
     def listen(self) -> None:
-        self.page.on("console", lambda line: self.said.append(line.text) if line.type == "error" else None)
-        self.page.on("pageerror", lambda error: self.said.append(str(error)))
+        self.page.on("console", lambda line: self.errors.append(line.text) if line.type == "error" else None)
+        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("request", self._ask)
 
     def _ask(self, request: Request) -> None:
         if not request.url.startswith(("data:", "blob:")):
-            self.asked.append(request.url)
+            self.requests.append(request.url)
 
 
 @pytest.fixture(scope="session", params=["made up", *REPORTS])
@@ -58,7 +58,7 @@ def opened(report: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[O
     profile = tmp_path_factory.mktemp("profile")
     with sync_playwright() as playwright:
         context = playwright.chromium.launch_persistent_context(
-            profile, executable_path=found(), headless=True, args=FLAGS, viewport=SCREEN
+            profile, executable_path=browser_path(), headless=True, args=FLAGS, viewport=SCREEN
         )
         here = Opened(context.pages[0])
         here.listen()

@@ -48,8 +48,8 @@ def changed(before: np.ndarray, after: np.ndarray) -> float:
 
 
 def test_it_opens_without_a_word_and_without_the_network(opened: Opened, heart: Locator) -> None:
-    assert opened.said == []
-    assert opened.asked == [opened.page.url]
+    assert opened.errors == []
+    assert opened.requests == [opened.page.url]
 
 
 def test_no_picture_is_blank(opened: Opened) -> None:
@@ -144,5 +144,5 @@ def test_it_prints(opened: Opened) -> None:
 
 
 def test_the_page_has_stayed_quiet(opened: Opened) -> None:
-    assert opened.said == []
-    assert opened.asked == [opened.page.url]
+    assert opened.errors == []
+    assert opened.requests == [opened.page.url]

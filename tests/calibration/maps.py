@@ -21,22 +21,22 @@ def forward_of(prior: Gaussian, function: Callable[[np.ndarray], np.ndarray]) ->
     """From parameters by name to the function of their logarithms."""
 
     def forward(parameters: Sequence[Mapping[str, float]]) -> list[Outcome]:
-        z = [np.log([each[name] for name in prior.names]) for each in parameters]
-        return [dict(zip(NAMES, function(each).tolist(), strict=True)) for each in z]
+        z = [np.log([point[name] for name in prior.names]) for point in parameters]
+        return [dict(zip(NAMES, function(point).tolist(), strict=True)) for point in z]
 
     return forward
 
 
 def failing(forward: Forward, lost: Sequence[int]) -> Forward:
     """The same model whose runs of these numbers, counted from 0, fail."""
-    done = [0]
+    calls = [0]
 
     def failed(parameters: Sequence[Mapping[str, float]]) -> list[Outcome]:
         outcomes = [
-            "no beat" if done[0] + index in lost else outcome
+            "no beat" if calls[0] + index in lost else outcome
             for index, outcome in enumerate(forward(parameters))
         ]
-        done[0] += len(outcomes)
+        calls[0] += len(outcomes)
         return outcomes
 
     return failed

@@ -44,12 +44,12 @@ def test_the_same_seed_is_the_same_ensemble() -> None:
 
 @pytest.mark.skipif(not has_cma(), reason="the extra `alternatives` is not installed")
 def test_cma_es_finds_the_maximum_a_posteriori_past_failures() -> None:
-    found = [
+    estimates = [
         list(islice(minimise_by_cma_es(PRIOR, failing(LINEAR, [0, 9]), named(OBSERVED), NOISE, seed=1), 60))
         for _ in range(2)
     ]
-    assert (found[0][-1] - MEAN) / PRIOR.sd == pytest.approx(np.zeros(4), abs=1e-3)
-    assert np.array_equal(*found)
+    assert (estimates[0][-1] - MEAN) / PRIOR.sd == pytest.approx(np.zeros(4), abs=1e-3)
+    assert np.array_equal(*estimates)
 
 
 def test_without_the_package_cma_es_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -26,7 +26,9 @@ def linear(z: np.ndarray) -> Outcome:
     return dict(zip(NAMES, values.tolist(), strict=True)) | {"EF": 0.6}
 
 
-def found(sd: np.ndarray = SD, step: float = 1.0, lost: Mapping[int, str] | None = None) -> Sensitivity:
+def sensitivity_of(
+    sd: np.ndarray = SD, step: float = 1.0, lost: Mapping[int, str] | None = None
+) -> Sensitivity:
     prior, scaling = prior_of(sd), one_at_a_time_scaling(3, step)
     points = sigma_points(prior, scaling)
     outcomes = [(lost or {}).get(point.index, linear(point.z)) for point in points]
@@ -40,24 +42,24 @@ def test_points_lie_at_the_step_and_not_at_root_n() -> None:
 
 @given(step=some.floats(0.1, 3.0))
 def test_squares_are_shares_of_the_variance_whatever_the_step(step: float) -> None:
-    moved = SD[:, None] * SLOPES
-    result = found(step=step)
-    assert result.covariance == pytest.approx(moved / np.linalg.norm(moved, axis=0))
+    changes = SD[:, None] * SLOPES
+    result = sensitivity_of(step=step)
+    assert result.covariance == pytest.approx(changes / np.linalg.norm(changes, axis=0))
     assert (result.covariance**2).sum(axis=0) == pytest.approx([1.0, 1.0])
     assert result.slopes == pytest.approx(SLOPES / CENTRE)
 
 
 @pytest.mark.parametrize("lost", [0, 2, 6])
 def test_a_failed_beat_is_mirrored_and_named(lost: int) -> None:
-    result = found(lost={lost: "inverted"})
-    assert result.covariance == pytest.approx(found().covariance)
-    assert result.slopes == pytest.approx(found().slopes)
+    result = sensitivity_of(lost={lost: "inverted"})
+    assert result.covariance == pytest.approx(sensitivity_of().covariance)
+    assert result.slopes == pytest.approx(sensitivity_of().slopes)
     assert [name.partition(" ")[2] for name in result.failed] == ["(inverted)"]
 
 
 def test_a_parameter_without_beats_is_refused() -> None:
     with pytest.raises(CalibrationError, match=r"b\+ \(cold\).*b- \(hot\)"):
-        found(lost={2: "cold", 5: "hot"})
+        sensitivity_of(lost={2: "cold", 5: "hot"})
 
 
 def test_an_observation_that_nothing_moves_is_refused() -> None:
@@ -69,9 +71,11 @@ def test_an_observation_that_nothing_moves_is_refused() -> None:
 
 def test_other_deviations_are_as_if_drawn_with_them() -> None:
     other = np.array([0.1, 0.1, 0.4])
-    assert found().with_sd(other.tolist()).covariance == pytest.approx(found(other).covariance)
-    assert found().with_sd(other.tolist()).prior.sd == pytest.approx(other)
+    assert sensitivity_of().with_sd(other.tolist()).covariance == pytest.approx(
+        sensitivity_of(other).covariance
+    )
+    assert sensitivity_of().with_sd(other.tolist()).prior.sd == pytest.approx(other)
 
 
 def test_columns_are_taken_by_name() -> None:
-    assert found().of(["q_min"]) == pytest.approx(found().covariance[:, 1:])
+    assert sensitivity_of().of(["q_min"]) == pytest.approx(sensitivity_of().covariance[:, 1:])

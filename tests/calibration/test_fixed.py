@@ -9,8 +9,8 @@ from heartfit.calibration.sensitivity import covariance_of_fixed
 def test_it_is_the_covariance_of_a_linear_map() -> None:
     rng = np.random.default_rng(0)
     slopes, sds = rng.standard_normal((5, 3)), rng.uniform(0.1, 0.3, 5)
-    moved = (sds * rng.standard_normal((200_000, 5))) @ slopes
-    assert covariance_of_fixed(slopes, sds) == pytest.approx(np.cov(moved.T), abs=0.01)
+    changes = (sds * rng.standard_normal((200_000, 5))) @ slopes
+    assert covariance_of_fixed(slopes, sds) == pytest.approx(np.cov(changes.T), abs=0.01)
 
 
 def test_nothing_fixed_is_no_noise() -> None:

@@ -16,7 +16,7 @@ def prior(correlation: float = 0.0) -> Gaussian:
     return Gaussian(("a", "b", "c"), np.array([1.0, 2.0, 3.0]), np.outer(SD, SD) * shape)
 
 
-def seen(before: Gaussian, a: np.ndarray, noise: float, truth: np.ndarray) -> Posterior:
+def posterior_of(before: Gaussian, a: np.ndarray, noise: float, truth: np.ndarray) -> Posterior:
     """The posterior of z = A x at the truth, without a draw of the noise."""
     names = [f"z{row}" for row in range(len(a))]
     outcomes = [dict(zip(names, a @ point.z, strict=True)) for point in sigma_points(before)]
@@ -24,22 +24,24 @@ def seen(before: Gaussian, a: np.ndarray, noise: float, truth: np.ndarray) -> Po
 
 
 def test_one_observation_takes_away_what_the_ratio_of_signal_and_noise_says():
-    posterior = seen(prior(), np.array([[1.0, 0.0, 0.0]]), 0.15, np.zeros(3))
-    found = information(posterior.prior, posterior.estimate)
-    assert found.reduction == pytest.approx([0.3**2 / (0.3**2 + 0.15**2), 0.0, 0.0], abs=1e-12)
-    assert found.sd_ratio == pytest.approx([np.sqrt(0.2), 1.0, 1.0])
-    assert (found.rank, found.degrees) == (1, pytest.approx(0.8))
-    assert np.abs(found.informed[:, 0]) == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
+    posterior = posterior_of(prior(), np.array([[1.0, 0.0, 0.0]]), 0.15, np.zeros(3))
+    informed = information(posterior.prior, posterior.estimate)
+    assert informed.reduction == pytest.approx([0.3**2 / (0.3**2 + 0.15**2), 0.0, 0.0], abs=1e-12)
+    assert informed.sd_ratio == pytest.approx([np.sqrt(0.2), 1.0, 1.0])
+    assert (informed.rank, informed.degrees) == (1, pytest.approx(0.8))
+    assert np.abs(informed.informed[:, 0]) == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
 
 
 def test_a_sum_informs_the_sum_in_prior_deviations_and_leaves_the_exchange_unseen():
-    posterior = seen(prior(), np.array([[1.0, 1.0, 0.0]]), 1e-6, np.zeros(3))
-    found = information(posterior.prior, posterior.estimate)
-    assert np.abs(found.informed[:, 0]) == pytest.approx(np.array([3.0, 2.0, 0.0]) / np.sqrt(13.0), abs=1e-6)
-    assert found.weakest.max() == pytest.approx(np.abs(found.weakest).max())
-    assert found.share(np.array([2.0, -3.0, 1.0])) == pytest.approx(0.0, abs=1e-9)
-    assert found.share(np.array([3.0, 2.0, 0.0])) == pytest.approx(1.0)
-    assert np.isnan(found.share(np.zeros(3)))
+    posterior = posterior_of(prior(), np.array([[1.0, 1.0, 0.0]]), 1e-6, np.zeros(3))
+    informed = information(posterior.prior, posterior.estimate)
+    assert np.abs(informed.informed[:, 0]) == pytest.approx(
+        np.array([3.0, 2.0, 0.0]) / np.sqrt(13.0), abs=1e-6
+    )
+    assert informed.weakest.max() == pytest.approx(np.abs(informed.weakest).max())
+    assert informed.share(np.array([2.0, -3.0, 1.0])) == pytest.approx(0.0, abs=1e-9)
+    assert informed.share(np.array([3.0, 2.0, 0.0])) == pytest.approx(1.0)
+    assert np.isnan(informed.share(np.zeros(3)))
 
 
 @pytest.mark.parametrize("correlation", [0.0, 0.6])
@@ -47,12 +49,12 @@ def test_the_resolution_is_what_the_estimate_shows_of_the_truth(correlation):
     before = prior(correlation)
     a = np.array([[1.0, 0.5, 0.0], [0.2, -1.0, 0.4]])
     truth = before.mean + np.array([0.2, -0.1, 0.05])
-    posterior = seen(before, a, 0.1, truth)
-    found = information(before, posterior.estimate)
+    posterior = posterior_of(before, a, 0.1, truth)
+    informed = information(before, posterior.estimate)
     inverse = np.linalg.inv(np.linalg.cholesky(before.covariance))
     shown = inverse @ (posterior.estimate.mean - before.mean)
-    assert shown == pytest.approx(found.resolution @ inverse @ (truth - before.mean), rel=1e-9)
-    assert found.degrees == pytest.approx(
+    assert shown == pytest.approx(informed.resolution @ inverse @ (truth - before.mean), rel=1e-9)
+    assert informed.degrees == pytest.approx(
         np.trace(np.eye(3) - posterior.estimate.covariance @ np.linalg.inv(before.covariance))
     )
 
@@ -60,11 +62,11 @@ def test_the_resolution_is_what_the_estimate_shows_of_the_truth(correlation):
 def test_what_was_shrunk_is_restored_where_it_was_seen():
     before = prior()
     truth = before.mean + np.array([0.3, 0.2, 0.3])
-    posterior = seen(before, np.array([[1.0, 0.0, 0.0], [0.0, 0.1, 0.0]]), 0.1, truth)
-    found = information(before, posterior.estimate)
+    posterior = posterior_of(before, np.array([[1.0, 0.0, 0.0], [0.0, 0.1, 0.0]]), 0.1, truth)
+    informed = information(before, posterior.estimate)
     shrunk = (posterior.estimate.mean - before.mean) / before.sd
     assert shrunk[0] == pytest.approx(0.9)
-    assert found.unshrunk(shrunk) == pytest.approx([1.0, 0.0, 0.0], abs=1e-9), (
+    assert informed.unshrunk(shrunk) == pytest.approx([1.0, 0.0, 0.0], abs=1e-9), (
         "b is hardly seen, c not at all"
     )
 

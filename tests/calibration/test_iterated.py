@@ -61,16 +61,16 @@ def test_with_noise_it_converges_to_the_maximum_a_posteriori() -> None:
         return float(off @ inverse @ off + residual @ weight @ residual)
 
     best = minimize(cost, prior.mean, method="BFGS", options={"gtol": 1e-9}).x
-    found = islice(iterate(prior, forward_of(prior, lambda x: bent(a, x)), named(observed), NOISE), 12)
-    away = [np.linalg.norm(posterior.estimate.mean - best) for posterior in found]
+    iterations = islice(iterate(prior, forward_of(prior, lambda x: bent(a, x)), named(observed), NOISE), 12)
+    away = [np.linalg.norm(posterior.estimate.mean - best) for posterior in iterations]
     assert away[-1] < 1e-4 < away[0]
 
 
 def test_without_noise_it_meets_the_observations_that_one_step_misses() -> None:
     prior, a = random_prior(4, 7), slopes(4, 7)
     observed = bent(a, prior.mean) * np.array([1.5, 0.8, 1.2])
-    found = islice(iterate(prior, forward_of(prior, lambda x: bent(a, x)), named(observed)), 10)
-    missed = [np.abs(bent(a, each.estimate.mean) / observed - 1.0).max() for each in found]
+    iterations = islice(iterate(prior, forward_of(prior, lambda x: bent(a, x)), named(observed)), 10)
+    missed = [np.abs(bent(a, iteration.estimate.mean) / observed - 1.0).max() for iteration in iterations]
     assert missed[-1] < 1e-6 < 1e-2 < missed[0]
 
 
@@ -78,10 +78,10 @@ def test_each_step_costs_the_points_of_its_design_and_survives_a_failure() -> No
     prior, a = random_prior(4, 1), slopes(4, 1)
     forward = CountedForward(failing(forward_of(prior, lambda x: a @ x), [2, 11]))
     observed = named(a @ prior.mean + 0.1)
-    found = list(islice(iterate(prior, forward, observed, NOISE), 2))
+    iterations = list(islice(iterate(prior, forward, observed, NOISE), 2))
     assert forward.simulations == 18
-    assert [posterior.failed for posterior in found] == [("p1+ (no beat)",)] * 2
-    assert found[1].estimate.mean == pytest.approx(kalman(prior, a, np.array([*observed.values()]))[0])
+    assert [posterior.failed for posterior in iterations] == [("p1+ (no beat)",)] * 2
+    assert iterations[1].estimate.mean == pytest.approx(kalman(prior, a, np.array([*observed.values()]))[0])
 
 
 def test_points_that_all_fail_are_told() -> None:

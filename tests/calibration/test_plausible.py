@@ -21,7 +21,7 @@ def beat(z: tuple[float, float]) -> dict[str, float]:
     return {"EF": 0.6 + 0.4 * t - 0.2 * t**2, "P_max": 15e3 + 10e3 * t}
 
 
-def found(*limits: Limit, lost: int | None = None, cap: float = 2.0) -> Plausible:
+def ranges_within(*limits: Limit, lost: int | None = None, cap: float = 2.0) -> Plausible:
     outcomes: list[Outcome] = [beat(point.z) for point in POINTS]
     if lost is not None:
         outcomes[lost] = "inverted"
@@ -29,7 +29,7 @@ def found(*limits: Limit, lost: int | None = None, cap: float = 2.0) -> Plausibl
 
 
 def test_the_first_limit_on_each_side_ends_the_range() -> None:
-    sigma_0 = found(EF, PEAK).ranges[0]
+    sigma_0 = ranges_within(EF, PEAK).ranges[0]
     above = 1.0 - sqrt(1.0 - 0.5)  # 0.6 + 0.4 t - 0.2 t^2 = 0.7
     below = sqrt(1.5) - 1.0  # = 0.5, before P_max is met at t = -0.5
     assert (sigma_0.highest.stopped_by, sigma_0.lowest.stopped_by) == ("EF", "EF")
@@ -40,33 +40,33 @@ def test_the_first_limit_on_each_side_ends_the_range() -> None:
 
 
 def test_a_straight_line_has_one_root() -> None:
-    lowest = found(PEAK).ranges[0].lowest
+    lowest = ranges_within(PEAK).ranges[0].lowest
     assert (log(lowest.factor), lowest.stopped_by) == (pytest.approx(-0.5), "P_max")
 
 
 def test_where_nothing_is_limited_there_is_a_cap() -> None:
-    k = found(EF, PEAK).ranges[1]
+    k = ranges_within(EF, PEAK).ranges[1]
     assert (k.lowest.factor, k.highest.factor) == pytest.approx((0.5, 2.0))
     assert k.lowest.stopped_by == k.highest.stopped_by == "cap"
     assert k.median == pytest.approx(1e6)
 
 
 def test_a_limit_that_the_standard_beat_breaks_is_named_and_ends_nothing() -> None:
-    result = found(Limit("EF", 0.61, 0.7))
+    result = ranges_within(Limit("EF", 0.61, 0.7))
     assert result.broken == ("EF",)
-    assert {end.stopped_by for each in result.ranges for end in (each.lowest, each.highest)} == {"cap"}
+    assert {end.stopped_by for bounds in result.ranges for end in (bounds.lowest, bounds.highest)} == {"cap"}
 
 
 def test_a_failed_beat_ends_the_range_halfway_and_the_other_side_is_a_line() -> None:
-    sigma_0 = found(PEAK, lost=1).ranges[0]
+    sigma_0 = ranges_within(PEAK, lost=1).ranges[0]
     assert (log(sigma_0.highest.factor), sigma_0.highest.stopped_by) == (pytest.approx(0.1), "no beat")
     assert log(sigma_0.lowest.factor) == pytest.approx(-0.5)
 
 
 def test_without_the_standard_beat_nothing_is_known() -> None:
     with pytest.raises(InputError, match=r"\bmean\b.*fail"):
-        found(EF, lost=0)
+        ranges_within(EF, lost=0)
 
 
 def test_deviations_are_in_the_order_of_the_parameters() -> None:
-    assert found().sd == pytest.approx([log(2.0) / 2, log(2.0) / 2])
+    assert ranges_within().sd == pytest.approx([log(2.0) / 2, log(2.0) / 2])

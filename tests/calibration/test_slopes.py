@@ -14,9 +14,9 @@ SLOPES = Slopes(
 
 
 def test_slopes_are_scaled_by_what_was_observed_and_leave_out_what_is_estimated():
-    found = SLOPES.covariance({"a", "c"}, {"q_min": -5.0, "V_min": 2.0}, 0.1)
+    covariance = SLOPES.covariance({"a", "c"}, {"q_min": -5.0, "V_min": 2.0}, 0.1)
     vector = 0.1 * np.array([-5.0 * 0.2, 2.0 * 0.3])
-    assert found == pytest.approx(np.outer(vector, vector))
+    assert covariance == pytest.approx(np.outer(vector, vector))
     assert SLOPES.covariance({"a", "b", "c"}, {"V_min": 2.0}, 0.1) == pytest.approx(np.zeros((1, 1)))
 
 

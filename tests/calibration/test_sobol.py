@@ -27,13 +27,13 @@ class Linear:
 
 def test_shares_of_a_linear_map() -> None:
     forward = Linear()
-    found = sobol_indices(PRIOR, forward, SAMPLES, seed=0)
+    indices = sobol_indices(PRIOR, forward, SAMPLES, seed=0)
     assert forward.calls == SAMPLES * BLOCK
-    assert found.samples == SAMPLES
-    assert found.first[:2, 0] == pytest.approx([0.2, 0.8], abs=0.05)
-    assert found.total[:2, 0] == pytest.approx([0.2, 0.8], abs=0.05)
-    assert found.first[2, 0] == found.total[2, 0] == 0.0
-    assert found.lost == ()
+    assert indices.samples == SAMPLES
+    assert indices.first[:2, 0] == pytest.approx([0.2, 0.8], abs=0.05)
+    assert indices.total[:2, 0] == pytest.approx([0.2, 0.8], abs=0.05)
+    assert indices.first[2, 0] == indices.total[2, 0] == 0.0
+    assert indices.lost == ()
 
 
 def test_two_that_act_only_together_have_no_share_alone() -> None:
@@ -42,9 +42,9 @@ def test_two_that_act_only_together_have_no_share_alone() -> None:
     def product(parameters: Mapping[str, float]) -> Outcome:
         return {"Z": float((np.log(parameters["a"]) - mean[0]) * (np.log(parameters["b"]) - mean[1]))}
 
-    found = sobol_indices(PRIOR, product, 4 * SAMPLES, seed=0)
-    assert found.first[:2, 0] == pytest.approx([0.0, 0.0], abs=0.15)
-    assert found.total[:2, 0] == pytest.approx([1.0, 1.0], abs=0.1)
+    indices = sobol_indices(PRIOR, product, 4 * SAMPLES, seed=0)
+    assert indices.first[:2, 0] == pytest.approx([0.0, 0.0], abs=0.15)
+    assert indices.total[:2, 0] == pytest.approx([1.0, 1.0], abs=0.1)
 
 
 def test_the_same_seed_gives_the_same_indices() -> None:
@@ -57,10 +57,10 @@ def test_the_same_seed_gives_the_same_indices() -> None:
     ("planted", "reason"), [({"Z": float("nan")}, "Z not finite"), ("no balance", "no balance")]
 )
 def test_a_lost_output_takes_its_block_with_it_and_is_counted(planted: Outcome, reason: str) -> None:
-    found = sobol_indices(PRIOR, Linear({7: planted}), SAMPLES, seed=0)
-    assert found.samples == SAMPLES - 1
-    assert found.lost == (reason,)
-    assert found.total[:2, 0] == pytest.approx([0.2, 0.8], abs=0.06)
+    indices = sobol_indices(PRIOR, Linear({7: planted}), SAMPLES, seed=0)
+    assert indices.samples == SAMPLES - 1
+    assert indices.lost == (reason,)
+    assert indices.total[:2, 0] == pytest.approx([0.2, 0.8], abs=0.06)
 
 
 def test_many_lost_outputs_stop_the_study() -> None:

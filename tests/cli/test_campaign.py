@@ -12,8 +12,8 @@ ROOT = Path(__file__).parents[2]
 
 def jobs(capsys, *arguments):
     assert main(["plan", *arguments]) == 0
-    found = re.search(r"^\| all \| (\d+) \|", capsys.readouterr().out, re.MULTILINE)
-    return int(found[1])
+    match = re.search(r"^\| all \| (\d+) \|", capsys.readouterr().out, re.MULTILINE)
+    return int(match[1])
 
 
 def test_a_plan_grows_by_the_same_for_each_subject_setting_and_parameter(capsys):
@@ -21,8 +21,8 @@ def test_a_plan_grows_by_the_same_for_each_subject_setting_and_parameter(capsys)
     assert both[2] - both[1] == both[1] - both[0] > 0
     one = [jobs(capsys, "--cases", str(number), "--setting", "physical") for number in (10, 20)]
     assert one[1] - one[0] < both[1] - both[0]
-    seen = [jobs(capsys, "--cases", str(number), "--pressure") for number in (10, 20)]
-    assert seen[1] - seen[0] == both[1] - both[0] + 10 * 2 * 6  # three parameters more, two points each
+    counts = [jobs(capsys, "--cases", str(number), "--pressure") for number in (10, 20)]
+    assert counts[1] - counts[0] == both[1] - both[0] + 10 * 2 * 6  # three parameters more, two points each
 
 
 def test_the_page_shows_what_the_command_prints(capsys):

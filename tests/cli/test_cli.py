@@ -84,8 +84,10 @@ def test_a_beat_is_summed_up_in_clinical_units():
     time = np.linspace(0.0, 1.0, 101)
     volume = 1e-4 + 5e-5 * np.cos(2 * np.pi * time)
     same = dict.fromkeys(("lv", "rv", "aorta", "pulmonary_artery"), np.full(101, 12e3))
-    seen = {"beats": 2.0, "cpu_s": 3.0, "drift": 0.01, "wall_volume_loss": 0.02}
-    lines = beat_summary(Beat(time, {"lv": volume, "rv": volume}, same, {}, 1.0, 0.0, diagnostics=seen))
+    diagnostics = {"beats": 2.0, "cpu_s": 3.0, "drift": 0.01, "wall_volume_loss": 0.02}
+    lines = beat_summary(
+        Beat(time, {"lv": volume, "rv": volume}, same, {}, 1.0, 0.0, diagnostics=diagnostics)
+    )
     assert {2.0, 1.5, 1.0} <= set(numbers_in(lines[0]))
     assert {150.0, 50.0, 66.7, 12.0} <= set(numbers_in(lines[1]))
     assert [unit for unit in ("LV", "mL", "kPa", "%") if unit not in lines[1]] == []

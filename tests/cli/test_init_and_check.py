@@ -23,9 +23,9 @@ def project(tmp_path, monkeypatch):
 
 def lines(capsys):
     """What went to standard error, a mistake in each line."""
-    said = capsys.readouterr().err.splitlines()
-    assert all(line.startswith("heartfit: ") for line in said)
-    return said
+    errors = capsys.readouterr().err.splitlines()
+    assert all(line.startswith("heartfit: ") for line in errors)
+    return errors
 
 
 def record(folder, **columns):
@@ -39,11 +39,11 @@ def record(folder, **columns):
 def test_what_is_to_be_filled_in_is_refused_line_by_line(project, capsys):
     assert main(["init", "heart1"]) == 0
     assert main(["check", "heart1"]) == 2
-    said = "\n".join(lines(capsys))
+    errors = "\n".join(lines(capsys))
     for place in ("labels.lv_cavity", "labels.lv_wall", "labels.rv_cavity", "period", "conduction"):
-        assert f"{place} = 'FILL_IN'" in said
+        assert f"{place} = 'FILL_IN'" in errors
     for place in ("segmentation", "images"):
-        assert f"heart1: {place}: FILL_IN: no such file or folder" in said
+        assert f"heart1: {place}: FILL_IN: no such file or folder" in errors
     assert not (project / "results").exists()
 
 
@@ -86,21 +86,21 @@ def test_every_mistake_is_said_at_once(project, capsys):
     study = project / "config" / "heart1.yaml"
     study.write_text(study.read_text() + "mehs: {}\n")
     assert main(["check", "heart1"]) == 2
-    said = lines(capsys)
+    errors = lines(capsys)
     assert [
-        part for part in ("unknown key mehs", "conduction = 'FILL_IN'") if not any(part in x for x in said)
+        part for part in ("unknown key mehs", "conduction = 'FILL_IN'") if not any(part in x for x in errors)
     ] == []
-    assert any("nowhere: no such file or folder" in line for line in said)
+    assert any("nowhere: no such file or folder" in line for line in errors)
     row = project / "config" / "heart1.tsv"
     row.write_text(row.read_text().replace("FILL_IN", "healthy"))
     assert main(["check", "heart1"]) == 2
-    said = lines(capsys)
-    assert any("nowhere/control_points: missing" in line for line in said)
-    assert any("column lv_pressure has no unit" in line for line in said), "the data are read all the same"
+    errors = lines(capsys)
+    assert any("nowhere/control_points: missing" in line for line in errors)
+    assert any("column lv_pressure has no unit" in line for line in errors), "the data are read all the same"
 
 
-@pytest.mark.parametrize(("pressure", "said"), [(12.0, 12.0 * 133.322368), (-2.0, None)])
-def test_the_pressure_at_the_trigger_is_the_filling_pressure(project, pressure, said):
+@pytest.mark.parametrize(("pressure", "expected"), [(12.0, 12.0 * 133.322368), (-2.0, None)])
+def test_the_pressure_at_the_trigger_is_the_filling_pressure(project, pressure, expected):
     times = np.arange(0.0, 0.8, 0.005)
     systole = np.where(times < 0.4, 100.0 * np.sin(np.pi * times / 0.4) ** 2, 0.0)
     file = record(project, time_s=times, lv_pressure_mmhg=pressure + systole)
@@ -110,7 +110,9 @@ def test_the_pressure_at_the_trigger_is_the_filling_pressure(project, pressure, 
     study = read_study([Path("config/config.yaml")])
     usual = study.end_diastolic_pressure
     assert study.filling_pressures(case).rv == usual.rv
-    assert study.filling_pressures(case).lv == pytest.approx(usual.lv if said is None else said, rel=2e-2)
+    assert study.filling_pressures(case).lv == pytest.approx(
+        usual.lv if expected is None else expected, rel=2e-2
+    )
 
 
 @pytest.mark.measured

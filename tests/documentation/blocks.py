@@ -47,7 +47,7 @@ class Block:
 def blocks_of(page: Path) -> list[Block]:
     """The blocks of a page in their order."""
     text = page.read_text(encoding="utf-8")
-    elsewhere = [f"<!-- {said} -->" for said in ELSEWHERE.findall(text)]
+    elsewhere = [f"<!-- {remark} -->" for remark in ELSEWHERE.findall(text)]
     return [
         Block(language, code, *elsewhere or [remark.strip()])
         for remark, language, code in FENCE.findall(text)
@@ -72,8 +72,8 @@ def _python(code: str, folder: Path) -> None:
 def _console(code: str, folder: Path) -> None:
     for part in re.split(r"^\$ ", code, flags=re.MULTILINE)[1:]:
         command, _, expected = part.partition("\n")
-        said = _run(["bash", "-c", command], folder)
-        assert NUMBER.sub("#", said) == NUMBER.sub("#", expected), f"{command}: prints\n{said}"
+        output = _run(["bash", "-c", command], folder)
+        assert NUMBER.sub("#", output) == NUMBER.sub("#", expected), f"{command}: prints\n{output}"
 
 
 def _run(command: list[str], folder: Path) -> str:

@@ -85,8 +85,8 @@ def test_the_page_of_the_search_counts_the_effects_of_the_detection_limits():
         re.MULTILINE,
     )
     least: dict[str, float] = {}
-    for hidden, _, seen, scales in rows:
-        name = hidden or seen
+    for hidden, _, detected, scales in rows:
+        name = hidden or detected
         least[name] = min(least.get(name, float("inf")), float(scales or "inf"))
     never = sum(scales == float("inf") for scales in least.values())
     late = sum(2.0 < scales <= 4.0 for scales in least.values())

@@ -43,9 +43,9 @@ def main(arguments: list[str]) -> int:
 def _reference(study: TinyStudy) -> dict[str, str]:
     """The results of a study that nothing happens to, kept to begin from."""
     begin = time.monotonic()
-    code, said = study.run()
+    code, output = study.run()
     if code:
-        raise RuntimeError(f"the study fails without a fault:\n{said}")
+        raise RuntimeError(f"the study fails without a fault:\n{output}")
     study.keep()
     _say(f"a study without faults took {time.monotonic() - begin:.0f} s")
     return study.sums()
@@ -55,7 +55,7 @@ def _all(study: TinyStudy, expected: dict[str, str], quick: bool) -> Iterator[Ou
     for fault in _faults(Random(SEED), quick):
         begin = time.monotonic()
         for outcome in fault(study, expected):
-            _say(f"{'mended' if outcome.mended else 'NOT MENDED'}: {outcome.done}: {outcome.came}")
+            _say(f"{'mended' if outcome.mended else 'NOT MENDED'}: {outcome.fault}: {outcome.came}")
             yield outcome
         _say(f"  in {time.monotonic() - begin:.0f} s")
 
@@ -79,7 +79,7 @@ def page(expected: dict[str, str], outcomes: list[Outcome]) -> str:
     """The table of what was done."""
     kinds = ", ".join(sorted({f"`{Path(name).suffix}`" for name in expected}))
     rows = "".join(
-        f"| {outcome.done} | {outcome.came} | {'yes' if outcome.mended else '**no**'} |\n"
+        f"| {outcome.fault} | {outcome.came} | {'yes' if outcome.mended else '**no**'} |\n"
         for outcome in outcomes
     )
     return render_page("faults", files=len(expected), kinds=kinds, rows=rows)

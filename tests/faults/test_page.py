@@ -13,8 +13,8 @@ def test_every_row_was_mended():
 
 def test_a_fault_that_is_not_mended_is_told():
     outcomes = [Outcome("a kill", "nothing", True), Outcome("a flood", "water", False)]
-    told = page({"tables/table1.csv": "", "motion.npz": ""}, outcomes)
-    rows = rows_of(told)
+    text = page({"tables/table1.csv": "", "motion.npz": ""}, outcomes)
+    rows = rows_of(text)
     assert (rows["a kill"], rows["a flood"]) == (["nothing", "yes"], ["water", "**no**"])
-    heading = told.split("|")[0]
+    heading = text.split("|")[0]
     assert [kind for kind in (".csv", ".npz", "2 results") if kind not in heading] == []

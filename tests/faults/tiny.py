@@ -34,14 +34,14 @@ class TinyStudy:
         *arguments: str,
         results: str = RESULTS,
         environment: Mapping[str, str] | None = None,
-        asked: Iterable[str] = (),
+        targets: Iterable[str] = (),
     ) -> "subprocess.Popen[str]":
         """Begin a run that makes the tables and what is asked for, the leader of its own group of processes."""
         command = [sys.executable, "-m", "snakemake", "--cores", "2", "--configfile", "config/tiny.yaml"]
-        targets = [target.replace(RESULTS, results) for target in (*TARGETS, *asked)]
+        paths = [target.replace(RESULTS, results) for target in (*TARGETS, *targets)]
         elsewhere = [] if results == RESULTS else ["--config", f"results={results}"]
         return subprocess.Popen(
-            [*command, *elsewhere, *arguments, "--", *targets],
+            [*command, *elsewhere, *arguments, "--", *paths],
             cwd=self.folder,
             env=environment_of(self.folder) | dict(environment or {}),
             stdout=subprocess.PIPE,
@@ -50,9 +50,9 @@ class TinyStudy:
             start_new_session=True,
         )
 
-    def run(self, *arguments: str, asked: Iterable[str] = ()) -> tuple[int, str]:
+    def run(self, *arguments: str, targets: Iterable[str] = ()) -> tuple[int, str]:
         """Run to the end; what it ended with and said."""
-        return finish(self.start(*arguments, asked=asked))
+        return finish(self.start(*arguments, targets=targets))
 
     def sums(self, results: str = RESULTS) -> dict[str, str]:
         """The SHA-256 of every result by name, but of those that tell of times."""
@@ -111,8 +111,8 @@ class TinyStudy:
 
 def finish(process: "subprocess.Popen[str]") -> tuple[int, str]:
     """What the run ended with and said."""
-    said, _ = process.communicate(timeout=PATIENCE)
-    return process.returncode, said
+    output, _ = process.communicate(timeout=PATIENCE)
+    return process.returncode, output
 
 
 def kill(process: "subprocess.Popen[str]", after: float) -> bool:

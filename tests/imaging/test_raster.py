@@ -9,7 +9,7 @@ from heartfit.imaging.raster import interpolate, paint_inside, paint_wall, sampl
 
 SHAPE = (22, 24, 26)
 FLAT = np.ones((1, 1, 1))
-ONE = np.array([[0, 1, 2, 3]])
+ONE_TETRAHEDRON = np.array([[0, 1, 2, 3]])
 REGULAR = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]])
 
 
@@ -58,7 +58,7 @@ def test_the_voxels_of_a_tetrahedron_are_those_with_no_negative_barycentric_coor
     rng = np.random.default_rng(seed)
     corners, shift = rng.uniform(-4.0, 28.0, (4, 3)), rng.normal(0.0, 2.0, (SHAPE[0], 2))
     image = np.zeros(SHAPE)
-    paint_wall(image, corners, ONE, corners, FLAT, shift)
+    paint_wall(image, corners, ONE_TETRAHEDRON, corners, FLAT, shift)
     assert image.sum() > 100
     np.testing.assert_array_equal(image > 0.0, within(corners, shift))
 
@@ -67,9 +67,9 @@ def test_the_voxels_of_a_tetrahedron_are_those_with_no_negative_barycentric_coor
 def test_a_face_along_the_rows_bounds_what_is_painted(order: list[int]) -> None:
     """An edge along i, and with it two slanted faces that no row crosses; voxels lie on it and on corners."""
     corners = np.array([[2.0, 2, 2], [12, 2, 2], [5, 12, 3], [6, 4, 12]])[order]
-    found = painted(corners, ONE)
-    assert found[2, 2, 2:13].all()
-    np.testing.assert_array_equal(found, within(corners, np.zeros((SHAPE[0], 2))))
+    mask = painted(corners, ONE_TETRAHEDRON)
+    assert mask[2, 2, 2:13].all()
+    np.testing.assert_array_equal(mask, within(corners, np.zeros((SHAPE[0], 2))))
 
 
 def test_the_painted_volume_of_a_tetrahedron_converges_with_the_voxel() -> None:
@@ -80,7 +80,9 @@ def test_the_painted_volume_of_a_tetrahedron_converges_with_the_voxel() -> None:
 
     def error(n: int) -> float:
         """Root mean square error of the volume, 1/3, with voxels of 1/n."""
-        counts = [painted(n * (corners - low) + offset, ONE, (2 * n,) * 3).sum() for offset in offsets]
+        counts = [
+            painted(n * (corners - low) + offset, ONE_TETRAHEDRON, (2 * n,) * 3).sum() for offset in offsets
+        ]
         return float(np.sqrt(np.mean((np.array(counts) / n**3 - 1.0 / 3.0) ** 2)))
 
     assert error(fine) < error(coarse) * coarse / fine
@@ -91,13 +93,13 @@ def test_the_painted_volume_of_a_tetrahedron_converges_with_the_voxel() -> None:
 def test_a_wall_of_many_tetrahedra_has_no_holes(offset: float) -> None:
     """Nor where their faces, edges and corners meet the voxels' centres."""
     block = cube(4, 12.0)
-    found = painted(block.points + 5.0 + offset, block.tets)
+    mask = painted(block.points + 5.0 + offset, block.tets)
     place = voxels(SHAPE, np.zeros((SHAPE[0], 2))) - 5.0 - offset
-    np.testing.assert_array_equal(found, ((place >= 0.0) & (place <= 12.0)).all(axis=-1))
+    np.testing.assert_array_equal(mask, ((place >= 0.0) & (place <= 12.0)).all(axis=-1))
 
 
 def test_a_flat_tetrahedron_paints_nothing() -> None:
-    assert not painted(np.array([[2.0, 2, 2], [9, 2, 2], [2, 9, 2], [9, 9, 2]]), ONE).any()
+    assert not painted(np.array([[2.0, 2, 2], [9, 2, 2], [2, 9, 2], [9, 9, 2]]), ONE_TETRAHEDRON).any()
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -135,12 +137,12 @@ def test_several_fields_are_sampled_as_one_is_and_only_where_they_weigh() -> Non
         np.zeros((2, 3, 4)),
     )
     weight[:, 1:, ::2] = 0.5
-    found = sample_fields(fields, index, weight)
-    assert found.shape == (2, 2, 3, 4)
+    samples = sample_fields(fields, index, weight)
+    assert samples.shape == (2, 2, 3, 4)
     for place in np.ndindex(weight.shape):
         k, j, i = index[(slice(None), *place)]
         expected = [interpolate(field, i, j, k) if weight[place] else 0.0 for field in fields]
-        np.testing.assert_array_equal(found[(slice(None), *place)], expected)
+        np.testing.assert_array_equal(samples[(slice(None), *place)], expected)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -149,14 +151,14 @@ def test_what_a_sphere_surrounds_is_inside(seed: int) -> None:
     rng = np.random.default_rng(seed)
     centre, radius = np.array([13.0, 12.0, 11.0]) + rng.random(3), 8.0
     corners, triangles = sphere(centre, radius)
-    found = inside(corners, triangles)
+    mask = inside(corners, triangles)
     distance = np.linalg.norm(voxels(SHAPE, np.zeros((SHAPE[0], 2))) - centre, axis=-1)
     facet = radius - np.linalg.norm(corners[triangles].mean(axis=1) - centre, axis=1).min()
     clear = np.abs(distance - radius) > facet
     assert clear.mean() > 0.98
-    np.testing.assert_array_equal(found[clear], distance[clear] < radius)
-    assert found.sum() == pytest.approx(4.0 / 3.0 * np.pi * radius**3, rel=0.01)
-    np.testing.assert_array_equal(found, inside(corners, triangles[:, ::-1]))
+    np.testing.assert_array_equal(mask[clear], distance[clear] < radius)
+    assert mask.sum() == pytest.approx(4.0 / 3.0 * np.pi * radius**3, rel=0.01)
+    np.testing.assert_array_equal(mask, inside(corners, triangles[:, ::-1]))
 
 
 def test_a_hole_in_the_surface_s_inside_is_outside() -> None:
@@ -173,11 +175,11 @@ def test_rows_through_edges_and_corners_cross_a_surface_once(turn: int) -> None:
     ring = 1 + np.roll(np.arange(4), turn)
     slopes = [[0, b, a] for a, b in zip(ring, np.roll(ring, -1), strict=True)]
     base = [[ring[0], ring[1], ring[2]], [ring[0], ring[2], ring[3]]]
-    found = inside(corners, np.array(slopes + base))
+    mask = inside(corners, np.array(slopes + base))
     i, j, k = np.moveaxis(voxels(SHAPE, np.zeros((SHAPE[0], 2))), -1, 0)
     reach = i - 4.0 - np.maximum(np.abs(j - 12.0), np.abs(k - 11.0))
-    assert found[(reach > 0.0) & (i < 12.0)].all()
-    assert not found[(reach < 0.0) | (i > 12.0)].any()
+    assert mask[(reach > 0.0) & (i < 12.0)].all()
+    assert not mask[(reach < 0.0) | (i > 12.0)].any()
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -186,7 +188,7 @@ def test_a_displaced_slice_shows_what_lies_where_its_samples_are(seed: int) -> N
     rng = np.random.default_rng(seed)
     corners, triangles = sphere(np.array([12.3, 11.6, 10.7]), 9.0, 300)
     shift = rng.normal(0.0, 6.0, (SHAPE[0], 2))
-    found = inside(corners, triangles, shift)
+    mask = inside(corners, triangles, shift)
     for k in range(SHAPE[0]):
-        moved = inside(corners - [*shift[k], 0.0], triangles)
-        np.testing.assert_array_equal(found[k], moved[k])
+        shifted = inside(corners - [*shift[k], 0.0], triangles)
+        np.testing.assert_array_equal(mask[k], shifted[k])

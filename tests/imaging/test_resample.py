@@ -22,28 +22,28 @@ def sequence() -> ImageSequence:
     return ImageSequence(grid, voxels, 0.1 * np.arange(8), 0.8)
 
 
-def assert_linear(found: ImageSequence) -> None:
-    for frame, image in enumerate(found.voxels):
-        assert image == pytest.approx(places(found.grid) @ SLOPE + frame, abs=1e-12)
+def assert_linear(sequence: ImageSequence) -> None:
+    for frame, image in enumerate(sequence.voxels):
+        assert image == pytest.approx(places(sequence.grid) @ SLOPE + frame, abs=1e-12)
 
 
 def test_cubic_voxels_fill_what_lies_between_the_outermost_centres(sequence: ImageSequence) -> None:
-    found = resample_isotropic(sequence)
-    assert found.grid.size == (12, 11, 13)
-    assert found.grid.spacing.tolist() == [2e-3] * 3
-    assert_linear(found)
-    assert resample_isotropic(found) is found
+    resampled = resample_isotropic(sequence)
+    assert resampled.grid.size == (12, 11, 13)
+    assert resampled.grid.spacing.tolist() == [2e-3] * 3
+    assert_linear(resampled)
+    assert resample_isotropic(resampled) is resampled
 
 
 def test_a_cropped_image_holds_the_points_and_their_margin(sequence: ImageSequence) -> None:
     points = sequence.grid.points(np.array([[4.5, 5.0, 3.2], [6.1, 5.5, 3.9]]))
-    found = crop(sequence, points, 2e-3)
-    assert found.grid.size == (6, 4, 4)
-    assert found.grid.origin == pytest.approx(sequence.grid.points(np.array([3.0, 4.0, 2.0])))
-    assert_linear(found)
+    cropped = crop(sequence, points, 2e-3)
+    assert cropped.grid.size == (6, 4, 4)
+    assert cropped.grid.origin == pytest.approx(sequence.grid.points(np.array([3.0, 4.0, 2.0])))
+    assert_linear(cropped)
 
 
 def test_beyond_the_image_there_is_nothing_to_keep(sequence: ImageSequence) -> None:
-    found = crop(sequence, sequence.grid.points(np.array([[0.5, 5.0, 3.0]])), 1.0)
-    assert found.grid.size == sequence.grid.size
-    assert_linear(found)
+    cropped = crop(sequence, sequence.grid.points(np.array([[0.5, 5.0, 3.0]])), 1.0)
+    assert cropped.grid.size == sequence.grid.size
+    assert_linear(cropped)

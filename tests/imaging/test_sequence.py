@@ -33,15 +33,15 @@ def test_index_undoes_points(grid):
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         ({"spacing": np.array([1e-3, 0.0, 1e-3])}, "spacing"),
         ({"direction": np.ones((3, 3))}, "orthonormal"),
         ({"size": (4, 0, 2)}, "size"),
     ],
 )
-def test_a_grid_that_cannot_be_is_refused(grid, change, said):
-    with pytest.raises(InputError, match=said):
+def test_a_grid_that_cannot_be_is_refused(grid, change, message):
+    with pytest.raises(InputError, match=message):
         Grid(
             **{"size": grid.size, "spacing": grid.spacing, "origin": grid.origin, "direction": TURN} | change
         )

@@ -27,7 +27,7 @@ def test_what_was_written_is_read(path):
 
 
 @pytest.mark.parametrize(
-    ("spoil", "said"),
+    ("spoil", "message"),
     [
         (lambda whole: whole[: len(whole) // 2], "not a zip file"),
         (lambda whole: b"", "No data left"),
@@ -35,13 +35,13 @@ def test_what_was_written_is_read(path):
         (lambda whole: b"text", "pickled"),
     ],
 )
-def test_what_is_damaged_is_refused_with_and_without_its_sum(path, spoil, said):
+def test_what_is_damaged_is_refused_with_and_without_its_sum(path, spoil, message):
     whole = path.read_bytes()
     path.write_bytes(spoil(whole))
     with pytest.raises(InputError, match=r"motion\.npz: not what was written there"):
         read_arrays(path, "times")
     elsewhere(path).write_bytes(spoil(whole))
-    with pytest.raises(InputError, match=said) as refused:
+    with pytest.raises(InputError, match=message) as refused:
         read_arrays(elsewhere(path), "times")
     assert "\n" not in str(refused.value)
 

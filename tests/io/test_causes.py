@@ -43,11 +43,11 @@ def path(tmp_path):
 
 def test_the_picture_is_there_in_numbers_and_in_words(path):
     content = read_cause(path)
-    (departure,), (said,) = content["departures"], content["misses"]
+    (departure,), (miss,) = content["departures"], content["misses"]
     assert departure["curve"] == "lv_pressure"
     assert (departure["phase"], departure["size"]) == ("ejection", pytest.approx(600.0))
-    assert {0.6, 0.2, 3.0, 200.0} <= set(numbers_in(said))
-    assert [part for part in ("kPa", " high", "ejection") if part not in said] == []
+    assert {0.6, 0.2, 3.0, 200.0} <= set(numbers_in(miss))
+    assert [part for part in ("kPa", " high", "ejection") if part not in miss] == []
 
 
 def test_every_key_is_asked_for(path):
@@ -57,7 +57,7 @@ def test_every_key_is_asked_for(path):
         "verdict", "mechanisms", "alternatives", "next_measurement", "gain", "simulations", "fingerprint",
     ]  # fmt: skip
     for key in required:
-        path.write_text(json.dumps({name: each for name, each in content.items() if name != key}))
+        path.write_text(json.dumps({name: value for name, value in content.items() if name != key}))
         with pytest.raises(InputError, match=rf"{key}: .*cause\.json"):
             read_cause(path)
 
@@ -73,9 +73,9 @@ def test_every_key_is_asked_for(path):
 )
 def test_a_broken_file_is_told_in_a_line(path, old, new, expected):
     path.write_text(path.read_text().replace(old, new, 1))
-    with pytest.raises(InputError, match=expected) as told:
+    with pytest.raises(InputError, match=expected) as error:
         read_cause(path)
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(error.value)
 
 
 def test_the_schema_is_in_step():
@@ -104,12 +104,12 @@ def test_a_diagnosis_is_read_back_to_the_bit(tmp_path, diagnosis):
     write_cause_card(tmp_path, render_cause(diagnosis, "heart1"), "0123")
     restored = read_diagnosis(tmp_path)
     arrays = {"traces", "phases"}
-    for name in {each.name for each in fields(Diagnosis)} - arrays:
+    for name in {field.name for field in fields(Diagnosis)} - arrays:
         assert getattr(restored, name) == getattr(diagnosis, name), name
     assert list(restored.ranking) == list(diagnosis.ranking)
     assert np.array_equal(restored.phases.starts, diagnosis.phases.starts)
     assert restored.phases.period == diagnosis.phases.period
     (trace,) = restored.traces
-    for name in {each.name for each in fields(Trace)}:
+    for name in {field.name for field in fields(Trace)}:
         assert np.array_equal(getattr(trace, name), getattr(diagnosis.traces[0], name)), name
     assert markdown_card(restored, "") == markdown_card(diagnosis, "")

@@ -86,14 +86,14 @@ def file(folder: Path, place: int, frame: int) -> Path:
 
 
 def test_slices_are_in_place_and_frames_in_time(cine: Path) -> None:
-    found = read_images(cine)
+    sequence = read_images(cine)
     expected = [[pixels(place, frame) for place in range(SLICES)] for frame in range(FRAMES)]
-    assert np.array_equal(found.voxels, np.array(expected, np.float32))
-    assert found.grid.spacing == pytest.approx([1e-3 * PIXEL, 1e-3 * PIXEL, 1e-3 * STEP])
-    assert found.grid.origin == pytest.approx(1e-3 * ORIGIN)
-    assert found.grid.direction == pytest.approx(DIRECTION)
-    assert found.period == pytest.approx(0.82)
-    assert found.times == pytest.approx(np.arange(FRAMES) * 0.82 / FRAMES)
+    assert np.array_equal(sequence.voxels, np.array(expected, np.float32))
+    assert sequence.grid.spacing == pytest.approx([1e-3 * PIXEL, 1e-3 * PIXEL, 1e-3 * STEP])
+    assert sequence.grid.origin == pytest.approx(1e-3 * ORIGIN)
+    assert sequence.grid.direction == pytest.approx(DIRECTION)
+    assert sequence.period == pytest.approx(0.82)
+    assert sequence.times == pytest.approx(np.arange(FRAMES) * 0.82 / FRAMES)
 
 
 def test_trigger_times_need_not_be_even(tmp_path: Path) -> None:
@@ -108,10 +108,10 @@ def test_temporal_positions_do_where_there_are_no_trigger_times(tmp_path: Path) 
     folder = stack(
         tmp_path / "cine", lambda place, frame: {"0018|1060": "", "0018|1062": "", "0018|1088": "75"}
     )
-    found = read_images(folder)
-    assert found.period == pytest.approx(0.8)
-    assert found.times == pytest.approx(0.1 * np.arange(FRAMES))
-    assert found.voxels[3, 1, 0, 0] == pixels(1, 3)[0, 0]
+    sequence = read_images(folder)
+    assert sequence.period == pytest.approx(0.8)
+    assert sequence.times == pytest.approx(0.1 * np.arange(FRAMES))
+    assert sequence.voxels[3, 1, 0, 0] == pixels(1, 3)[0, 0]
 
 
 def test_the_caller_knows_the_beat_that_the_files_do_not_tell(tmp_path: Path) -> None:
@@ -152,7 +152,7 @@ TILTED = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
 
 
 @pytest.mark.parametrize(
-    ("spoil", "said"),
+    ("spoil", "message"),
     [
         (cut_off, name(1, 4) + ": not a sound DICOM image"),
         (lambda folder: (folder / "notes.txt").write_text("x"), r"notes\.txt: not a sound DICOM image"),
@@ -177,23 +177,23 @@ TILTED = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
     ],
 )
 def test_a_spoilt_cine_is_refused(
-    cine: Path, spoil: Callable[[Path], object], said: str, capfd: pytest.CaptureFixture[str]
+    cine: Path, spoil: Callable[[Path], object], message: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     spoil(cine)
-    with pytest.raises(InputError, match=said) as caught:
+    with pytest.raises(InputError, match=message) as caught:
         read_images(cine)
     assert "\n" not in str(caught.value)
     assert capfd.readouterr().err == ""
 
 
 @pytest.mark.parametrize(
-    ("place", "said"), [(4.0, "20.0 mm away, the others 10.0 mm; a slice is missing"), (2.4, "mixed")]
+    ("place", "message"), [(4.0, "20.0 mm away, the others 10.0 mm; a slice is missing"), (2.4, "mixed")]
 )
-def test_slices_that_are_not_evenly_spaced_are_refused(cine: Path, place: float, said: str) -> None:
+def test_slices_that_are_not_evenly_spaced_are_refused(cine: Path, place: float, message: str) -> None:
     (cine / "more").mkdir()
     for frame in range(FRAMES):
         write(cine / "more" / name(2, frame), 2, frame, offset=(0.0, 0.0, (place - 2.0) * STEP))
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read_images(cine)
 
 

@@ -114,6 +114,6 @@ def test_numbers_of_numpy_are_plain_numbers():
 def test_what_is_no_record_is_refused_in_one_line(content, says):
     with pytest.raises(
         InputError, match=rf"points\.json: .*{says}.*; delete it and run the stage again"
-    ) as told:
+    ) as error:
         decode(content, SigmaPoint, "points.json")
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(error.value)

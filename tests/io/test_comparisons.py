@@ -24,13 +24,13 @@ def test_a_comparison_there_and_back(tmp_path: Path) -> None:
     error, folded = 1e-3 * random.random((12, 2)), np.arange(12)
     comparison = Comparison(Pair(reading(1.0), reading(0.9)), strain[0], strain[1], error, error[3], folded)
     write_comparison(tmp_path / "1.json", comparison, "abc")
-    found = read_comparison(tmp_path / "1.json")
+    restored = read_comparison(tmp_path / "1.json")
 
     for name in {field.name for field in fields(Comparison)} - {"pair"}:
-        assert np.array_equal(getattr(found, name), getattr(comparison, name)), name
+        assert np.array_equal(getattr(restored, name), getattr(comparison, name)), name
     for one, other in (
-        (found.pair.true, comparison.pair.true),
-        (found.pair.measured, comparison.pair.measured),
+        (restored.pair.true, comparison.pair.true),
+        (restored.pair.measured, comparison.pair.measured),
     ):
         assert one.observations == other.observations
         assert np.array_equal(one.curves["lv_volume"].values, other.curves["lv_volume"].values)

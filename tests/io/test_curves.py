@@ -24,11 +24,11 @@ def sample() -> dict[str, Curve]:
 
 def test_there_and_back(tmp_path: Path) -> None:
     write_curves(tmp_path / "deep" / "measured.csv", sample())
-    found = read_curves(tmp_path / "deep" / "measured.csv")
-    assert set(found) == set(sample())
+    restored = read_curves(tmp_path / "deep" / "measured.csv")
+    assert set(restored) == set(sample())
     for name, curve in sample().items():
-        assert found[name].values == pytest.approx(curve.values, rel=1e-10)
-        assert found[name].period == 0.825
+        assert restored[name].values == pytest.approx(curve.values, rel=1e-10)
+        assert restored[name].period == 0.825
 
 
 def test_units_are_in_the_header(tmp_path: Path) -> None:
@@ -43,10 +43,10 @@ def test_curves_keep_their_own_times_in_one_file(tmp_path: Path) -> None:
     fast = np.arange(200) * 0.004
     curves = sample() | {"lv_pressure": Curve(fast, 8e3 - 7e3 * np.cos(2 * np.pi * fast / 0.825), 0.825)}
     write_curves(tmp_path / "c.csv", curves)
-    found = read_curves(tmp_path / "c.csv")
+    restored = read_curves(tmp_path / "c.csv")
     for name, curve in curves.items():
-        assert found[name].times == pytest.approx(curve.times, abs=1e-12)
-        assert found[name].values == pytest.approx(curve.values, rel=1e-10)
+        assert restored[name].times == pytest.approx(curve.times, abs=1e-12)
+        assert restored[name].values == pytest.approx(curve.values, rel=1e-10)
     with pytest.raises(InputError, match="lv_volume in data row 2 is empty"):
         read_table_of_curves(tmp_path / "c.csv")
 

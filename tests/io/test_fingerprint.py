@@ -29,10 +29,10 @@ def package(tmp_path, monkeypatch):
 
 
 def test_the_modules_below_a_script(package):
-    found = {
+    modules = {
         path.relative_to(package).as_posix() for path in module.modules_below(package.parent / "script.py")
     }
-    assert found == {"__init__.py", "a.py", "b/__init__.py", "b/c.py", "d.py"}
+    assert modules == {"__init__.py", "a.py", "b/__init__.py", "b/c.py", "d.py"}
 
 
 @pytest.mark.parametrize(("edited", "changes"), [("d.py", True), ("b/__init__.py", True), ("e.py", False)])

@@ -58,13 +58,13 @@ def test_voxels_that_break_off_are_refused(image: Path, share: float) -> None:
         load(image)
 
 
-def with_length(voxels: np.ndarray, path: Path, said: str) -> Path:
+def with_length(voxels: np.ndarray, path: Path, stated: str) -> Path:
     """A MetaImage that says another length of its compressed voxels; a dot stands for the true one."""
     sitk.WriteImage(sitk.GetImageFromArray(voxels), str(path), useCompression=True)
     content = path.read_bytes()
     name, length = next(line.split(b" = ") for line in content.splitlines() if b"DataSize" in line)
     path.write_bytes(
-        content.replace(name + b" = " + length, name + b" = " + said.encode().replace(b".", length))
+        content.replace(name + b" = " + length, name + b" = " + stated.encode().replace(b".", length))
     )
     return path
 
@@ -74,7 +74,7 @@ def test_a_length_that_leaves_voxels_out_is_refused(voxels: np.ndarray, tmp_path
         load(with_length(voxels, tmp_path / "x.mha", "99"))
 
 
-@pytest.mark.parametrize("said", [".0", "99999999999999", "9" * 30, "9" * 5000])
-def test_a_length_beyond_the_file_asks_for_no_memory(voxels: np.ndarray, tmp_path: Path, said: str) -> None:
+@pytest.mark.parametrize("length", [".0", "99999999999999", "9" * 30, "9" * 5000])
+def test_a_length_beyond_the_file_asks_for_no_memory(voxels: np.ndarray, tmp_path: Path, length: str) -> None:
     with pytest.raises(InputError, match=r"x\.mha: cannot be read"):
-        load(with_length(voxels, tmp_path / "x.mha", said))
+        load(with_length(voxels, tmp_path / "x.mha", length))

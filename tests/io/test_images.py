@@ -44,12 +44,12 @@ def test_there_and_back(
         tmp_path_factory.mktemp("x") / f"a{suffix}",
     )
     write_images(path, given_)
-    found = read_images(path)
-    assert np.array_equal(found.voxels, given_.voxels)
-    assert np.array_equal(found.times, given_.times)
-    assert found.period == given_.period
+    restored = read_images(path)
+    assert np.array_equal(restored.voxels, given_.voxels)
+    assert np.array_equal(restored.times, given_.times)
+    assert restored.period == given_.period
     corners = np.array([[0.0, 0.0, 0.0], np.array(size) - 1.0])
-    assert found.grid.points(corners) == pytest.approx(given_.grid.points(corners), abs=PLACE[suffix])
+    assert restored.grid.points(corners) == pytest.approx(given_.grid.points(corners), abs=PLACE[suffix])
 
 
 @pytest.mark.parametrize("suffix", WRITTEN)
@@ -81,10 +81,10 @@ def nifti(folder: Path, xyzt_units: int = 10, spacing: float = 0.09) -> Path:
 
 @pytest.mark.parametrize(("unit", "spacing"), [(10, 0.09), (18, 90.0), (26, 9e4)], ids=["s", "ms", "us"])
 def test_a_nifti_that_states_its_unit_needs_no_sidecar(tmp_path: Path, unit: int, spacing: float) -> None:
-    found = read_images(nifti(tmp_path, unit, spacing))
-    assert found.period == pytest.approx(0.81, rel=1e-6)
-    assert found.times == pytest.approx(0.09 * np.arange(9), rel=1e-6)
-    assert found.grid.spacing.tolist() == [1e-3] * 3
+    restored = read_images(nifti(tmp_path, unit, spacing))
+    assert restored.period == pytest.approx(0.81, rel=1e-6)
+    assert restored.times == pytest.approx(0.09 * np.arange(9), rel=1e-6)
+    assert restored.grid.spacing.tolist() == [1e-3] * 3
 
 
 def test_the_caller_goes_before_the_sidecar_and_that_before_the_header(tmp_path: Path) -> None:
@@ -93,9 +93,9 @@ def test_the_caller_goes_before_the_sidecar_and_that_before_the_header(tmp_path:
     assert read_images(path).period == 0.9
     assert read_images(path).times[1] == pytest.approx(0.09)
     late = 0.01 + 0.1 * np.arange(9)
-    told = read_images(path, period=1.0, times=late)
-    assert told.period == 1.0
-    assert np.array_equal(told.times, late)
+    restored = read_images(path, period=1.0, times=late)
+    assert restored.period == 1.0
+    assert np.array_equal(restored.times, late)
 
 
 def test_without_times_frames_are_evenly_spread_over_the_period(tmp_path: Path) -> None:
@@ -160,7 +160,7 @@ def sidecar(text: str) -> Callable[[Path], None]:
 
 
 @pytest.mark.parametrize(
-    ("spoil", "said"),
+    ("spoil", "message"),
     [
         (Path.unlink, r"cine\.nii: no such file"),
         (lambda path: path.write_text("text"), r"cine\.nii: cannot be read: .*no image"),
@@ -182,11 +182,11 @@ def sidecar(text: str) -> Callable[[Path], None]:
     ],
 )
 def test_what_is_no_sequence_is_refused_in_one_line(
-    tmp_path: Path, spoil: Callable[[Path], object], said: str, capfd: pytest.CaptureFixture[str]
+    tmp_path: Path, spoil: Callable[[Path], object], message: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     path = nifti(tmp_path)
     spoil(path)
-    with pytest.raises(InputError, match=said) as caught:
+    with pytest.raises(InputError, match=message) as caught:
         read_images(path)
     assert "\n" not in str(caught.value)
     assert capfd.readouterr().err == ""
@@ -206,10 +206,10 @@ def frames(tmp_path: Path) -> Path:
 
 
 def test_a_folder_of_frames_is_the_same_sequence(frames: Path) -> None:
-    found, expected = read_images(frames), read_images(frames.with_name("all.nrrd"))
-    assert np.array_equal(found.voxels, expected.voxels)
-    assert np.array_equal(found.times, expected.times)
-    assert found.grid.direction == pytest.approx(expected.grid.direction)
+    restored, expected = read_images(frames), read_images(frames.with_name("all.nrrd"))
+    assert np.array_equal(restored.voxels, expected.voxels)
+    assert np.array_equal(restored.times, expected.times)
+    assert restored.grid.direction == pytest.approx(expected.grid.direction)
 
 
 def rewritten(change: Callable[[sitk.Image], sitk.Image | None]) -> Callable[[Path], None]:
@@ -232,7 +232,7 @@ def farther(image: sitk.Image) -> None:
 
 
 @pytest.mark.parametrize(
-    ("spoil", "said"),
+    ("spoil", "message"),
     [
         (lambda folder: (folder / "p1_4_sax.mha").unlink(), "frames 0 to 11, but 4 missing"),
         (
@@ -265,9 +265,9 @@ def farther(image: sitk.Image) -> None:
         ),
     ],
 )
-def test_a_spoilt_folder_is_refused(frames: Path, spoil: Callable[[Path], object], said: str) -> None:
+def test_a_spoilt_folder_is_refused(frames: Path, spoil: Callable[[Path], object], message: str) -> None:
     spoil(frames)
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read_images(frames)
 
 

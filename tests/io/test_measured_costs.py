@@ -23,14 +23,14 @@ def study(folder: Path, **seconds: float) -> Path:
 def test_of_a_job_that_several_studies_ran_the_first_one_counts(tmp_path):
     first = study(tmp_path / "first", compile_kernels=3.0, heart1__build_mesh=5.0)
     second = study(tmp_path / "second", compile_kernels=9.0, make_tables=1.0)
-    found = {row.job: row.typical_s for row in measured_needs([first, second])}
-    assert found == {"build_mesh": 5.0, "compile_kernels": 3.0, "make_tables": 1.0}
+    typical = {row.job: row.typical_s for row in measured_needs([first, second])}
+    assert typical == {"build_mesh": 5.0, "compile_kernels": 3.0, "make_tables": 1.0}
 
 
 def test_files_are_counted_by_case_and_setting(tmp_path):
     results = study(tmp_path, heart1__build_mesh=5.0, heart1__paper__compare_case=1.0)
-    found = {(each.per, each.kind): each.files for each in measured_footprints(results)}
-    assert found == {("case", "measured"): 1.0, ("setting", "measured"): 1.0}
+    counts = {(footprint.per, footprint.kind): footprint.files for footprint in measured_footprints(results)}
+    assert counts == {("case", "measured"): 1.0, ("setting", "measured"): 1.0}
 
 
 def test_sums_are_files_of_what_they_are_sums_of(tmp_path):
@@ -40,8 +40,8 @@ def test_sums_are_files_of_what_they_are_sums_of(tmp_path):
             file = folder / "heart1" / "paper" / "calibration" / "beats" / beat
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text("{}")
-    found = {(each.per, each.kind): each.files for each in measured_footprints(results)}
-    assert found["point", "measured"] == 2.0
+    counts = {(footprint.per, footprint.kind): footprint.files for footprint in measured_footprints(results)}
+    assert counts["point", "measured"] == 2.0
 
 
 def test_a_table_is_read_as_it_was_written(tmp_path):

@@ -43,7 +43,7 @@ def test_a_package_offers_its_own_by_an_entry_point(pump, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "complaint"),
     [
         ("x = 1\ny = x / 0\n", "line 2: ZeroDivisionError: division by zero"),
         ("def f(:\n", "SyntaxError"),
@@ -52,13 +52,13 @@ def test_a_package_offers_its_own_by_an_entry_point(pump, monkeypatch):
         ("x = 1\n", "declares no mechanism"),
     ],
 )
-def test_what_is_wrong_with_a_file_is_said_in_a_line(tmp_path, capsys, text, said):
+def test_what_is_wrong_with_a_file_is_said_in_a_line(tmp_path, capsys, text, complaint):
     file = tmp_path / "mine.py"
     file.write_text(text)
     assert cli.main(["diagnose", "none.csv", "--mechanism", str(file)]) == 2
     message = capsys.readouterr().err
     assert message.startswith(f"heartfit: {file}")
-    assert said in message
+    assert complaint in message
     assert message.count("\n") == 1
 
 

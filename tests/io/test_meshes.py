@@ -16,19 +16,19 @@ FIELDS = ("points", "tets", "fibres", "orientation", "segments", "activation", "
 
 def test_a_mesh_comes_back_bit_for_bit(ventricle: VentricularMesh, tmp_path: Path) -> None:
     write_mesh(tmp_path / "new" / "mesh.vtu", ventricle)
-    found = read_mesh(tmp_path / "new" / "mesh.vtu")
+    restored = read_mesh(tmp_path / "new" / "mesh.vtu")
     for name in FIELDS:
-        wanted, got = getattr(ventricle, name), getattr(found, name)
+        wanted, got = getattr(ventricle, name), getattr(restored, name)
         assert got.dtype == wanted.dtype, name
         assert np.array_equal(got, wanted), name
     for name, faces in ventricle.surfaces.items():
-        assert np.array_equal(found.surfaces[name], faces), name
+        assert np.array_equal(restored.surfaces[name], faces), name
 
 
 def test_a_bare_mesh_stays_bare(ventricle: VentricularMesh, tmp_path: Path) -> None:
     write_mesh(tmp_path / "mesh.vtu", replace(ventricle, **dict.fromkeys(FIELDS[2:])))
-    found = read_mesh(tmp_path / "mesh.vtu")
-    assert [getattr(found, name) for name in FIELDS[2:]] == [None] * 5
+    restored = read_mesh(tmp_path / "mesh.vtu")
+    assert [getattr(restored, name) for name in FIELDS[2:]] == [None] * 5
 
 
 def test_inverted_tets_are_refused_by_number(ventricle: VentricularMesh, tmp_path: Path) -> None:
@@ -51,10 +51,10 @@ def test_missing_and_foreign_files_are_refused(tmp_path: Path) -> None:
 def test_a_motion_comes_back_bit_for_bit(tmp_path: Path) -> None:
     motion = Motion(np.linspace(0.0, 0.7, 8), 0.8, np.random.default_rng(0).random((8, 5, 3)))
     write_motion(tmp_path / "new" / "motion.npz", motion)
-    found = read_motion(tmp_path / "new" / "motion.npz")
-    assert np.array_equal(found.times, motion.times)
-    assert np.array_equal(found.positions, motion.positions)
-    assert found.period == motion.period
+    restored = read_motion(tmp_path / "new" / "motion.npz")
+    assert np.array_equal(restored.times, motion.times)
+    assert np.array_equal(restored.positions, motion.positions)
+    assert restored.period == motion.period
 
 
 def test_a_file_that_is_no_mesh_is_refused(tmp_path: Path) -> None:

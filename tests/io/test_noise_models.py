@@ -25,10 +25,10 @@ def test_a_noise_model_there_and_back(tmp_path: Path) -> None:
         Scatter.from_sample([f"phase {k} of 25" for k in range(25)], sample, shrunk=True),
     )
     write_noise_model(tmp_path / "model.json", model, "abc")
-    found = read_noise_model(tmp_path / "model.json")
-    assert found.protocol == protocol
-    require_same(found.observations, model.observations)
-    require_same(found.curve, model.curve)
+    restored = read_noise_model(tmp_path / "model.json")
+    assert restored.protocol == protocol
+    require_same(restored.observations, model.observations)
+    require_same(restored.curve, model.curve)
     assert read_fingerprint(tmp_path / "model.json") == "abc"
 
 

@@ -64,9 +64,9 @@ def test_the_mistakes_in_the_data_of_all_cases_are_kept(content, tmp_path):
         "heart1": {"fit": str(tmp_path / "nowhere"), "pressure": pressure},
         "heart2": {"fit": str(tmp_path), "images": str(tmp_path / "cine.nrrd")},
     }
-    found = problems(content, plan_study)
-    assert [line.split(":")[0] for line in found] == ["heart1", "heart1", "heart2", "heart2"]
-    assert "none.csv" in found[1]
+    mistakes = problems(content, plan_study)
+    assert [line.split(":")[0] for line in mistakes] == ["heart1", "heart1", "heart2", "heart2"]
+    assert "none.csv" in mistakes[1]
 
 
 @pytest.mark.parametrize("results", ["../results", "/tmp/results", "a/../../b", ""])

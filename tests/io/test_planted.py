@@ -50,9 +50,9 @@ def test_a_changed_answer_breaks_the_seal(tmp_path):
 
 
 def test_a_missing_answer_is_told_in_one_line(tmp_path):
-    with pytest.raises(InputError, match="no sealed answer") as told:
+    with pytest.raises(InputError, match="no sealed answer") as error:
         open_seal(tmp_path / "none")
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(error.value)
 
 
 def test_findings_are_read_back_beside_their_answers(tmp_path):

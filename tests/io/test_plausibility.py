@@ -17,7 +17,7 @@ RESOURCES = Path(__file__).parents[2] / "resources"
 
 
 def test_the_published_limits_are_in_si() -> None:
-    limits = {each.quantity: each for each in read_limits(RESOURCES / "plausible_beat.csv")}
+    limits = {limit.quantity: limit for limit in read_limits(RESOURCES / "plausible_beat.csv")}
     assert (limits["EF"].low, limits["EF"].high) == pytest.approx((0.48, 0.71))
     assert limits["P_max"].high == pytest.approx(140 * 133.322)
     assert limits["dPdt_max"].high == inf
@@ -25,26 +25,26 @@ def test_the_published_limits_are_in_si() -> None:
 
 
 def test_ranges_survive(tmp_path: Path) -> None:
-    found = Plausible((PlausibleRange("K", 1e6, End(0.5, "cap"), End(1.5, "EF")),), ("dPdt_min",))
-    write_ranges(tmp_path / "ranges.json", found, "abc")
-    assert read_ranges(tmp_path / "ranges.json") == found
+    original = Plausible((PlausibleRange("K", 1e6, End(0.5, "cap"), End(1.5, "EF")),), ("dPdt_min",))
+    write_ranges(tmp_path / "ranges.json", original, "abc")
+    assert read_ranges(tmp_path / "ranges.json") == original
 
 
 def test_sensitivities_survive(tmp_path: Path) -> None:
     prior = Gaussian.from_relative({"sigma_0": 3e5, "mu": 9e3}, {"sigma_0": 0.2, "mu": 0.2})
-    found = Sensitivity(prior, ("V_min",), np.ones(1), np.eye(2)[:, :1], np.ones((2, 1)), ("mu+ (cold)",))
-    write_sensitivity(tmp_path / "found.json", found, "abc")
+    original = Sensitivity(prior, ("V_min",), np.ones(1), np.eye(2)[:, :1], np.ones((2, 1)), ("mu+ (cold)",))
+    write_sensitivity(tmp_path / "found.json", original, "abc")
     again = read_sensitivity(tmp_path / "found.json")
-    assert (again.parameters, again.observations, again.failed) == (prior.names, ("V_min",), found.failed)
-    assert again.slopes == pytest.approx(found.slopes)
-    assert again.covariance == pytest.approx(found.covariance)
+    assert (again.parameters, again.observations, again.failed) == (prior.names, ("V_min",), original.failed)
+    assert again.slopes == pytest.approx(original.slopes)
+    assert again.covariance == pytest.approx(original.covariance)
     assert again.prior.sd == pytest.approx(prior.sd)
 
 
 def test_indices_survive(tmp_path: Path) -> None:
     values = np.arange(2.0)[:, None]
-    found = SobolIndices(("a", "b"), ("Z",), values, values, values, values, 8, ("cold",))
-    write_sobol(tmp_path / "sobol.json", found, "abc")
+    original = SobolIndices(("a", "b"), ("Z",), values, values, values, values, 8, ("cold",))
+    write_sobol(tmp_path / "sobol.json", original, "abc")
     again = read_sobol(tmp_path / "sobol.json")
     assert (again.parameters, again.samples, again.lost) == (("a", "b"), 8, ("cold",))
     assert again.total == pytest.approx(values)

@@ -20,12 +20,12 @@ def table(tmp_path, header, *columns):
     return path
 
 
-def read(path, **given):
-    return read_pressure(RecordedPressure(file=str(path), **given), PERIOD).curve
+def read(path, **options):
+    return read_pressure(RecordedPressure(file=str(path), **options), PERIOD).curve
 
 
 @pytest.mark.parametrize(
-    ("header", "time", "pressure", "given"),
+    ("header", "time", "pressure", "options"),
     [
         ("time_s,lv_pressure_kpa", 1.0, 1e3, {}),
         ("time_ms,lv_pressure_mmhg", 1e-3, MMHG, {}),
@@ -34,8 +34,8 @@ def read(path, **given):
         ("time_s,PLV", 1.0, 1e3, {"unit": "kPa", "column": "PLV"}),
     ],
 )
-def test_every_unit_comes_to_the_same(tmp_path, header, time, pressure, given):
-    curve = read(table(tmp_path, header, TIMES / time, PASCALS / pressure), **given)
+def test_every_unit_comes_to_the_same(tmp_path, header, time, pressure, options):
+    curve = read(table(tmp_path, header, TIMES / time, PASCALS / pressure), **options)
     assert curve.values == pytest.approx(PASCALS, abs=0.5)
     assert curve.times == pytest.approx(TIMES, abs=1e-9)
 
@@ -59,7 +59,7 @@ def test_the_left_ventricle_is_told_from_others_by_its_name_or_by_the_user(tmp_p
 
 
 @pytest.mark.parametrize(
-    ("header", "given", "message"),
+    ("header", "options", "message"),
     [
         ("time_s,lv_pressure", {}, "column lv_pressure has no unit; expected lv_pressure_mmhg or"),
         ("time_s,lv_pressure_kpa", {"unit": "mmHg"}, "and the stated unit mmHg disagree"),
@@ -69,10 +69,10 @@ def test_the_left_ventricle_is_told_from_others_by_its_name_or_by_the_user(tmp_p
         ("time_ms,lv_pressure_kpa", {}, "is the unit of time right|the beats are"),
     ],
 )
-def test_what_is_not_said_is_refused(tmp_path, header, given, message):
+def test_what_is_not_said_is_refused(tmp_path, header, options, message):
     path = table(tmp_path, header, TIMES, PASCALS / 1e3)
     with pytest.raises(InputError, match=message) as refused:
-        read(path, **given)
+        read(path, **options)
     assert str(refused.value).startswith(str(path))
     assert "\n" not in str(refused.value)
 

@@ -30,9 +30,9 @@ def rows(beat: Beat) -> np.ndarray:
     """Times in ms, pressures in mmHg with the line's zero 3 mmHg off, and an ECG, over eight beats."""
     times, pressures, ecg, start = [], [], [], 0.0
     for number, stretch in enumerate(STRETCHES):
-        here, seen, _ = Catheter(rate=500.0 / stretch, noise=60.0, offset=0.0).record(beat, number)
+        here, pressure, _ = Catheter(rate=500.0 / stretch, noise=60.0, offset=0.0).record(beat, number)
         times.append(start + here * stretch)
-        pressures.append(seen * (0.5 if number == EARLY else 1.0) / MMHG + 3.0)
+        pressures.append(pressure * (0.5 if number == EARLY else 1.0) / MMHG + 3.0)
         ecg.append(np.exp(-((here / 0.008) ** 2)))
         start += beat.period * stretch
     return np.column_stack([1e3 * np.concatenate(times), np.concatenate(pressures), np.concatenate(ecg)])
@@ -46,11 +46,11 @@ def test_what_was_recorded_is_what_was_simulated(tmp_path, beat, rows, way):
         way = {"upstroke": float(rate.times[rate.values.argmax()])}
     file = tmp_path / "pressure.csv"
     np.savetxt(file, rows, "%.4f", ",", header="time_ms,lv_pressure_mmhg,ecg", comments="")
-    given = RecordedPressure(file=str(file), column="lv_pressure_mmhg", zero=3.0, **way)
-    averaged = read_pressure(given, beat.period)
+    source = RecordedPressure(file=str(file), column="lv_pressure_mmhg", zero=3.0, **way)
+    averaged = read_pressure(source, beat.period)
     assert averaged.kept.sum() >= 4
     assert averaged.kept.sum() <= len(averaged.kept) - 2, "the early beat and the pause after it"
     features = PressureFeatures()
-    found, expected = features(averaged.curve), features(true)
+    observed, expected = features(averaged.curve), features(true)
     for name, value in expected.items():
-        assert found[name] == pytest.approx(value, rel=0.03), name
+        assert observed[name] == pytest.approx(value, rel=0.03), name

@@ -52,11 +52,11 @@ def beat() -> Beat:
 
 def test_posterior_there_and_back(tmp_path: Path) -> None:
     write_posterior(tmp_path / "p.json", posterior(), "abc")
-    found = read_posterior(tmp_path / "p.json")
-    assert found.estimate.physical() == pytest.approx(posterior().estimate.physical(), rel=1e-14)
-    assert found.gain == pytest.approx(posterior().gain, rel=1e-14)
-    assert found.observations == ("V_min",)
-    assert found.observed == pytest.approx(posterior().observed, rel=1e-14)
+    restored = read_posterior(tmp_path / "p.json")
+    assert restored.estimate.physical() == pytest.approx(posterior().estimate.physical(), rel=1e-14)
+    assert restored.gain == pytest.approx(posterior().gain, rel=1e-14)
+    assert restored.observations == ("V_min",)
+    assert restored.observed == pytest.approx(posterior().observed, rel=1e-14)
     assert read_fingerprint(tmp_path / "p.json") == "abc"
     assert read_result(tmp_path / "p.json")["summary"]["estimate"] == posterior().estimate.physical()
 
@@ -64,10 +64,10 @@ def test_posterior_there_and_back(tmp_path: Path) -> None:
 def test_sigma_points_there_and_back(tmp_path: Path) -> None:
     points = sigma_points(PRIOR)
     write_sigma_points(tmp_path / "p.json", PRIOR, points, "abc")
-    prior, found = read_sigma_points(tmp_path / "p.json")
+    prior, restored = read_sigma_points(tmp_path / "p.json")
     assert prior.names == PRIOR.names
-    assert [point.label for point in found] == [point.label for point in points]
-    assert found[3].parameters == points[3].parameters
+    assert [point.label for point in restored] == [point.label for point in points]
+    assert restored[3].parameters == points[3].parameters
 
 
 def test_observations_there_and_back(tmp_path: Path) -> None:
@@ -77,30 +77,30 @@ def test_observations_there_and_back(tmp_path: Path) -> None:
     ]
     measurement = Measurement(observations, np.array([[1.69e-12, -1e-11], [-1e-11, 9e-10]]) / 3.0)
     write_observations(tmp_path / "o.json", measurement, "abc")
-    found = read_observations(tmp_path / "o.json")
-    assert found.observations == observations
-    assert np.array_equal(found.covariance, measurement.covariance)
+    restored = read_observations(tmp_path / "o.json")
+    assert restored.observations == observations
+    assert np.array_equal(restored.covariance, measurement.covariance)
 
 
 def test_beat_there_and_back(tmp_path: Path) -> None:
     write_beat(tmp_path / "3.json", beat(), "abc")
-    found = read_beat(tmp_path / "3.json")
-    assert found.completed
-    assert found.trigger == 0.18
-    assert found.diagnostics == {"drift": 1e-7, "beats": 3.0}
+    restored = read_beat(tmp_path / "3.json")
+    assert restored.completed
+    assert restored.trigger == 0.18
+    assert restored.diagnostics == {"drift": 1e-7, "beats": 3.0}
     for group in ("volume", "pressure", "flow"):
         expected = getattr(beat(), group)
-        assert getattr(found, group).keys() == expected.keys()
+        assert getattr(restored, group).keys() == expected.keys()
         for name, values in expected.items():
-            assert getattr(found, group)[name] == pytest.approx(values, rel=1e-10)
+            assert getattr(restored, group)[name] == pytest.approx(values, rel=1e-10)
 
 
 def test_a_failed_beat_keeps_its_reason(tmp_path: Path) -> None:
     write_beat(tmp_path / "3.json", failed_beat("element 7 inverted", 0.8, 0.18, {"beats": 1.0}), "abc")
-    found = read_beat(tmp_path / "3.json")
-    assert not found.completed
-    assert found.reason == "element 7 inverted"
-    assert found.time.size == 0
+    restored = read_beat(tmp_path / "3.json")
+    assert not restored.completed
+    assert restored.reason == "element 7 inverted"
+    assert restored.time.size == 0
 
 
 def test_an_interrupted_write_leaves_the_old_file(tmp_path: Path) -> None:
@@ -142,7 +142,7 @@ def test_a_case_there_and_back(tmp_path: Path) -> None:
         notes=("long step",),
     )
     write_case(tmp_path / "c.json", record)
-    found = read_case(tmp_path / "c.json")
-    assert found.errors() == record.errors()
-    assert np.isnan(found.shift)
-    assert list(found.notes) == ["long step"]
+    restored = read_case(tmp_path / "c.json")
+    assert restored.errors() == record.errors()
+    assert np.isnan(restored.shift)
+    assert list(restored.notes) == ["long step"]

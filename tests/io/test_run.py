@@ -64,8 +64,8 @@ def test_a_run_beside_another_touches_nothing(results, state):
 def test_an_altered_file_is_set_aside_once_and_kept(results, state):
     write_text(results / "mine" / "beat.json", "{}")
     (results / "mine" / "beat.json").write_text("by hand")
-    (said,) = put_in_order(results, state)
-    assert str(results / "mine" / "beat.json") in said
+    (line,) = put_in_order(results, state)
+    assert str(results / "mine" / "beat.json") in line
     assert not (results / "mine" / "beat.json").exists()
     assert (results / "mine" / "beat.json.altered").read_text() == "by hand"
     assert put_in_order(results, state) == []
@@ -86,8 +86,8 @@ def test_kernels_that_are_cut_off_are_dropped_and_whole_ones_kept(results, state
     for name, content in {"a.nbi": whole, "b.nbc": whole[:-1], "c.nbc": whole[:30], "d.nbi": b""}.items():
         (tmp_path / name).write_bytes(content)
     with closing(Run(results, state, kernels=tmp_path)) as run:
-        (said,) = run.put_in_order()
-    assert numbers_in(said)[0] == 3.0
+        (line,) = run.put_in_order()
+    assert numbers_in(line)[0] == 3.0
     assert [file.name for file in tmp_path.glob("*.nb*")] == ["a.nbi"]
 
 
@@ -95,9 +95,9 @@ def test_a_file_from_the_future_is_dated_now_and_an_old_one_keeps_its_date(resul
     for name, hours in (("ahead", 1), ("old", -1)):
         write_text(results / name, name)
         os.utime(results / name, (time.time() + 3600 * hours,) * 2)
-    (said,) = put_in_order(results, state)
-    assert numbers_in(said)[0] == 1.0
-    assert str(results / "ahead") in said
+    (line,) = put_in_order(results, state)
+    assert numbers_in(line)[0] == 1.0
+    assert str(results / "ahead") in line
     assert (results / "ahead").stat().st_mtime <= time.time()
     assert (results / "old").stat().st_mtime < time.time() - 3000
 

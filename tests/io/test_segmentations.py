@@ -28,9 +28,9 @@ def test_what_is_written_is_read(
 ) -> None:
     file = tmp_path / f"labels{suffix}"
     write_segmentation(file, frames[:count], LABELS)
-    found = read_segmentation(file, LABELS)
-    assert len(found) == count
-    for one, other in zip(found, frames, strict=False):
+    restored = read_segmentation(file, LABELS)
+    assert len(restored) == count
+    for one, other in zip(restored, frames, strict=False):
         np.testing.assert_allclose(one.grid.points(np.ones(3)), other.grid.points(np.ones(3)), atol=1e-9)
         for name in LABELS:
             assert np.array_equal(one.parts[name], other.parts[name])

@@ -51,13 +51,13 @@ def test_numbers_of_shards_are_joined_the_reference_once(tmp_path):
         numbers(tmp_path / "0", heart3="5.5", heart0="4.0"),
         numbers(tmp_path / "1", heart3="5.5", heart1="2"),
     ]
-    found = merge_shards(read_shards(shards))
-    assert dict(zip(found["case"], found["value"], strict=True)) == {
+    merged = merge_shards(read_shards(shards))
+    assert dict(zip(merged["case"], merged["value"], strict=True)) == {
         "heart3": "5.5",
         "heart0": "4.0",
         "heart1": "2",
     }
-    row = summarise_cohort(found).iloc[0]
+    row = summarise_cohort(merged).iloc[0]
     assert (row["cases"], row["least"], row["largest"]) == (3, 2.0, 5.5)
     assert row["mean"] == pytest.approx(11.5 / 3)
 
@@ -102,13 +102,13 @@ def test_ratios_are_to_the_healthy_of_all_shards(tmp_path):
         shard("0", {"volunteer1": (10.0, "1"), "volunteer2": (20.0, "2")}, 15.0, {"heart1": (40.0, "")}),
         shard("1", {"volunteer1": (10.0, "1"), "volunteer3": (30.0, "3")}, 20.0, {}),
     ]
-    found = merge_shards(read_shards(shards)).set_index(["case", "quantity"])["value"]
+    merged = merge_shards(read_shards(shards)).set_index(["case", "quantity"])["value"]
     expected = {"volunteer1": 0.5, "volunteer2": 1.0, "volunteer3": 1.5, "heart1": 2.0}
-    assert {case: found[case, "mu over mean"] for case in expected} == expected
-    assert found["lbbb1", "mu over healthy mean"] == 0.5
-    assert float(found["volunteer 1", "mu over mean"]) == 0.7
-    assert found.index.is_unique
-    assert not {("mean of 2", "V_min"), ("prior", "mu over mean")} & {*found.index}
+    assert {case: merged[case, "mu over mean"] for case in expected} == expected
+    assert merged["lbbb1", "mu over healthy mean"] == 0.5
+    assert float(merged["volunteer 1", "mu over mean"]) == 0.7
+    assert merged.index.is_unique
+    assert not {("mean of 2", "V_min"), ("prior", "mu over mean")} & {*merged.index}
 
 
 def test_shards_that_disagree_on_the_reference_are_refused(tmp_path):

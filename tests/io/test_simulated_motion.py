@@ -21,10 +21,10 @@ def test_the_nodes_are_those_of_the_frames_after_the_trigger(tmp_path: Path) -> 
     time = np.linspace(0.0, PERIOD, STEPS + 1)
     beat = Beat(time, {}, {}, {}, PERIOD, TRIGGER, positions=place(time))
     write_simulated_motion(tmp_path / "motion.npz", beat, FRAMES)
-    found = read_simulated_motion(tmp_path / "motion.npz")
-    assert found is not None
-    assert found.times == pytest.approx(FRAMES)
-    assert found.positions == pytest.approx(place(FRAMES + TRIGGER), abs=1e-12)
+    restored = read_simulated_motion(tmp_path / "motion.npz")
+    assert restored is not None
+    assert restored.times == pytest.approx(FRAMES)
+    assert restored.positions == pytest.approx(place(FRAMES + TRIGGER), abs=1e-12)
 
 
 def test_a_failed_beat_is_a_motion_without_phases(tmp_path: Path) -> None:

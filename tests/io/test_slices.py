@@ -18,11 +18,11 @@ def test_what_is_written_is_read_back_to_single_precision(tmp_path: Path) -> Non
     motion = SliceMotion(grid, (4, 5), rng.normal(0.0, 3.0, (8, 2, 9, 11, 2)))
     first, second = tmp_path / "first.npz", tmp_path / "second.npz"
     write_slice_motion(first, motion)
-    found = read_slice_motion(first)
-    write_slice_motion(second, found)
+    restored = read_slice_motion(first)
+    write_slice_motion(second, restored)
     assert first.read_bytes() == second.read_bytes()
-    assert found.displacement == pytest.approx(motion.displacement, abs=1e-6)
+    assert restored.displacement == pytest.approx(motion.displacement, abs=1e-6)
     points = grid.points(rng.uniform(0.0, 1.0, (7, 3)) * [9.0, 7.0, 0.0] + [4.0, 5.0, 1.0])
-    assert found.carry(points) == pytest.approx(motion.carry(points), abs=1e-8)
+    assert restored.carry(points) == pytest.approx(motion.carry(points), abs=1e-8)
     with pytest.raises(InputError, match="no such file"):
         read_slice_motion(tmp_path / "nothing.npz")

@@ -31,8 +31,8 @@ def segmented(tmp_path: Path) -> Source:
     codes = np.random.default_rng(1).integers(0, 4, (FRAMES, *GRID.shape))
     frames = [Segmentation(GRID, {name: code == n for name, n in LABELS.items()}) for code in codes]
     write_segmentation(tmp_path / "labels.nrrd", frames, LABELS)
-    given = {"segmentation": str(tmp_path / "labels.nrrd"), "images": str(tmp_path / "cine.nrrd")}
-    return Source.model_validate(given | {"labels": LABELS, "end_diastole": 3})
+    files = {"segmentation": str(tmp_path / "labels.nrrd"), "images": str(tmp_path / "cine.nrrd")}
+    return Source.model_validate(files | {"labels": LABELS, "end_diastole": 3})
 
 
 def test_end_diastole_is_first_and_at_time_zero(segmented: Source) -> None:

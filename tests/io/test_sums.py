@@ -72,5 +72,5 @@ def test_a_full_disk_is_one_line_in_the_log(tmp_path):
     )
     assert record.__module__ in failing
     assert subprocess.run([sys.executable, "-c", failing], check=False).returncode == 1
-    said = (tmp_path / "job.log").read_text()
-    assert said == "results/beat.json: No space left on device; make room and run again\n"
+    log = (tmp_path / "job.log").read_text()
+    assert log == "results/beat.json: No space left on device; make room and run again\n"

@@ -91,9 +91,11 @@ def test_an_epicardium_that_reaches_the_valves_gives_its_rim_to_the_base(
         for phase in range(PHASES):
             (tmp_path / file.name.replace("000", f"{phase:03d}")).symlink_to(file)
     write_notes(tmp_path)
-    found, fitted = read_surfaces(tmp_path).surface, read_measured_heart(measured_heart_folder).surface
-    assert found.volume() == pytest.approx(fitted.volume(), rel=1e-6)
-    assert [len(part) for part in found.surfaces.values()] == [len(part) for part in fitted.surfaces.values()]
+    surface, fitted = read_surfaces(tmp_path).surface, read_measured_heart(measured_heart_folder).surface
+    assert surface.volume() == pytest.approx(fitted.volume(), rel=1e-6)
+    assert [len(part) for part in surface.surfaces.values()] == [
+        len(part) for part in fitted.surfaces.values()
+    ]
 
 
 def file_of(folder: Path, phase: int) -> Path:

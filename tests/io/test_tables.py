@@ -35,8 +35,8 @@ def test_the_suffix_decides(tmp_path: Path, suffix: str, content: str) -> None:
 @pytest.mark.parametrize(("suffix", "line"), [("csv", 0), ("md", -1), ("tex", 0)])
 def test_every_table_says_what_it_was_made_by(tmp_path: Path, suffix: str, line: int) -> None:
     write_table(tmp_path / f"table.{suffix}", render_table(TABLE))
-    said = (tmp_path / f"table.{suffix}").read_text().splitlines()[line]
-    assert re.match(r"(# |<!-- |% )made by heartfit \S+, Python \d.*, code [0-9a-f]{16}", said)
+    header = (tmp_path / f"table.{suffix}").read_text().splitlines()[line]
+    assert re.match(r"(# |<!-- |% )made by heartfit \S+, Python \d.*, code [0-9a-f]{16}", header)
 
 
 def test_what_is_written_as_csv_is_read_without_that_line(tmp_path: Path) -> None:

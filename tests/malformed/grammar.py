@@ -113,7 +113,7 @@ DECLARED = [
 @st.composite
 def of_another_name(draw: st.DrawFn) -> tuple[str, str]:
     """A misspelt key, and a configuration with it."""
-    place = draw(st.sampled_from([each for each in DECLARED if len(each[-1]) > 2]))
+    place = draw(st.sampled_from([keys for keys in DECLARED if len(keys[-1]) > 2]))
     key = misspelt(draw, place[-1])
     return key, over((*place[:-1], key), value_at(place))
 

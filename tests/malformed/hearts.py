@@ -32,7 +32,7 @@ def edited(change: Callable[[str], str]) -> Content:
     return edit
 
 
-def gone(path: Path) -> None:
+def remove(path: Path) -> None:
     shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
@@ -69,13 +69,13 @@ def timing(**acquisition: Any) -> str:
 POINTS = len(control_points())
 
 MALFORMED = [
-    heart("no control points", "heart/control_points", gone, "control_points: missing"),
-    heart("no template", "heart/template", gone, "template: missing"),
-    heart("no triangles", TRIANGLES, gone, "no such file"),
+    heart("no control points", "heart/control_points", remove, "control_points: missing"),
+    heart("no template", "heart/template", remove, "template: missing"),
+    heart("no triangles", TRIANGLES, remove, "no such file"),
     heart("triangles in a folder", TRIANGLES, folder, "is a folder"),
-    heart("no matrix", MATRIX, gone, "no such file"),
-    heart("no timing", TIMING, gone, "no such file"),
-    heart("seven phases", "heart/control_points/frame_003.txt", gone, "at least 8"),
+    heart("no matrix", MATRIX, remove, "no such file"),
+    heart("no timing", TIMING, remove, "no such file"),
+    heart("seven phases", "heart/control_points/frame_003.txt", remove, "at least 8"),
     heart("a phase that is a folder", PHASE, folder, "is a folder"),
     heart("a phase that is empty", PHASE, "", "0 control points"),
     heart("a phase of bytes", PHASE, bytes(range(256)), "not UTF-8"),

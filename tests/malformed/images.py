@@ -20,7 +20,7 @@ def images(name: str, file: str, content: Content, says: str, **others: Content)
     """A source whose images are `file`."""
     source = f"sources: {{mine: {{fit: heart, images: {file}}}}}\n"
     files = {"imaged.yaml": source, file: content} | {
-        key.replace("_", "."): each for key, each in others.items()
+        key.replace("_", "."): value for key, value in others.items()
     }
     return Malformed(f"images: {name}", CHECK, says, files)
 
@@ -137,7 +137,7 @@ def copied(source: str, target: str) -> Callable[[Path], object]:
     return lambda path: shutil.copyfile(path / source, path / target)
 
 
-def gone(name: str) -> Callable[[Path], object]:
+def remove(name: str) -> Callable[[Path], object]:
     return lambda path: (path / name).unlink()
 
 
@@ -219,7 +219,7 @@ MALFORMED = [
     images("voxels that are not there", "x.mhd", detached("none.raw"), "voxels of"),
     images("voxels of an NRRD in a device", "x.nhdr", detached("/dev/zero", "nhdr"), "voxels of"),
     images("voxels of an NRRD in a pipe", "x.nhdr", detached("data.raw", "nhdr"), "voxels of", data_raw=pipe),
-    images("a frame that is missing", "f", frames(gone("f4.mha")), "but 4 missing"),
+    images("a frame that is missing", "f", frames(remove("f4.mha")), "but 4 missing"),
     images("a frame twice", "f", frames(copied("f4.mha", "f04.mha")), "the number of frame"),
     images("frames of two series", "f", frames(copied("f4.mha", "g4.mha")), "two series in one folder"),
     images("a frame without a number", "f", frames(copied("f4.mha", "mask.mha")), "no number in its name"),
@@ -234,7 +234,7 @@ MALFORMED = [
     images(
         "pictures of two series mixed", "d", slices(copied("1_3.dcm", "again.dcm")), "same place and time"
     ),
-    images("a picture that is missing", "d", slices(gone("1_3.dcm")), "missing|frames"),
+    images("a picture that is missing", "d", slices(remove("1_3.dcm")), "missing|frames"),
     images(
         "a slice that is missing", "d", slices(lambda path: [file.unlink() for file in path.glob("1_*")]), "d"
     ),

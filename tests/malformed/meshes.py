@@ -54,7 +54,7 @@ def scaled(factor: float) -> Content:
     return changed(lambda stored: setattr(stored, "points", factor * stored.points))
 
 
-def moved(value: float) -> Content:
+def shifted(value: float) -> Content:
     def move(stored: meshio.Mesh) -> None:
         stored.points = np.array(stored.points)
         stored.points[7] = value
@@ -109,7 +109,7 @@ def surfaces(change: Callable[[np.ndarray], np.ndarray]) -> Content:
     """Other numbers of the surfaces."""
 
     def apply(stored: meshio.Mesh) -> None:
-        stored.cell_data["surface"] = [change(each) for each in stored.cell_data["surface"]]
+        stored.cell_data["surface"] = [change(labels) for labels in stored.cell_data["surface"]]
 
     return changed(apply)
 
@@ -181,9 +181,9 @@ MALFORMED = [
         placed(1, 1, 0),
         "inverted or flat",
     ),
-    mesh("a point at NaN", moved(np.nan), "coordinates in m"),
-    mesh("a point at infinity", moved(np.inf), "coordinates in m"),
-    mesh("a point beyond all", moved(1e300), "coordinates in m"),
+    mesh("a point at NaN", shifted(np.nan), "coordinates in m"),
+    mesh("a point at infinity", shifted(np.inf), "coordinates in m"),
+    mesh("a point beyond all", shifted(1e300), "coordinates in m"),
     mesh("a tetrahedron of a point that is not there", cells(0, far), "refers to point"),
     mesh("a tetrahedron of point minus one", cells(0, negative), "refers to point|cannot be read"),
     mesh("a triangle of a point that is not there", cells(1, far), "refers to point"),
@@ -195,7 +195,7 @@ MALFORMED = [
         "all of one surface",
         changed(
             lambda stored: stored.cell_data.update(
-                surface=[np.zeros(len(each), int) for each in stored.cell_data["surface"]]
+                surface=[np.zeros(len(labels), int) for labels in stored.cell_data["surface"]]
             )
         ),
         "has no triangle",
@@ -204,7 +204,7 @@ MALFORMED = [
         "surfaces that nobody knows",
         changed(
             lambda stored: stored.cell_data.update(
-                surface=[each + 40 for each in stored.cell_data["surface"]]
+                surface=[labels + 40 for labels in stored.cell_data["surface"]]
             )
         ),
         "has no triangle",

@@ -9,8 +9,8 @@ CHECK = "check|--no-picture|--config|sound.yaml|own.yaml"
 FILE = {"file": "p.csv", "trigger": "marker"}
 
 
-def recorded(name: str, content: Content, says: str, **given: object) -> Malformed:
-    source = {"mine": {"fit": "heart", "pressure": FILE | given}}
+def recorded(name: str, content: Content, says: str, **options: object) -> Malformed:
+    source = {"mine": {"fit": "heart", "pressure": FILE | options}}
     files = {"own.yaml": yaml.safe_dump({"sources": source}), "p.csv": content}
     return Malformed(f"pressure: {name}", CHECK, says, files)
 

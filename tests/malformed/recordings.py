@@ -19,7 +19,7 @@ def with_(name: str, old: str, new: str, says: str) -> Malformed:
     return curves(name, SOUND.replace(old, new, 1), says)
 
 
-def given(name: str, command: str, says: str, **files: Content) -> Malformed:
+def refused(name: str, command: str, says: str, **files: Content) -> Malformed:
     return Malformed(f"recording: {name}", command, says, files)
 
 
@@ -45,7 +45,7 @@ MALFORMED = [
     curves("UTF-16", SOUND.encode("utf-16"), "not UTF-8"),
     curves("NULs", SOUND.replace("110", "1\x0010", 1) + "\0\0", "bad.csv"),
     curves("an image", b"\x89PNG\r\n\x1a\n" + bytes(100), "not UTF-8"),
-    given(
+    refused(
         "compressed",
         "diagnose|bad.csv.gz",
         "not UTF-8",
@@ -114,26 +114,26 @@ MALFORMED = [
         + "".join(f"{0.03 * k},{100 if k == 3 else ''},{k}\n" for k in range(30)),
         "lv_volume",
     ),
-    given("a period that is not one", "diagnose|sound.csv|--rr|nan", "period"),
-    given("a period of nothing given", "diagnose|sound.csv|--rr|0", "period"),
-    given("a period of minutes", "diagnose|sound.csv|--rr|70", "period"),
-    given("a period that is a word", "diagnose|sound.csv|--rr|fast", "--rr"),
-    given("a condition without a name", "diagnose|sound.csv|--condition|sound.csv", "NAME=CSV"),
-    given(
+    refused("a period that is not one", "diagnose|sound.csv|--rr|nan", "period"),
+    refused("a period of nothing given", "diagnose|sound.csv|--rr|0", "period"),
+    refused("a period of minutes", "diagnose|sound.csv|--rr|70", "period"),
+    refused("a period that is a word", "diagnose|sound.csv|--rr|fast", "--rr"),
+    refused("a condition without a name", "diagnose|sound.csv|--condition|sound.csv", "NAME=CSV"),
+    refused(
         "a condition that is missing",
         "diagnose|sound.csv|--condition|legs=none.csv",
         "none.csv: no such file",
     ),
-    given("a condition twice", "diagnose|sound.csv|--condition|a=sound.csv|a=sound.csv", "differ"),
-    given("a condition that is a folder", "diagnose|sound.csv|--condition|legs=heart", "is a folder"),
-    given("a result where a file is", "diagnose|sound.csv|-o|sound.yaml", "sound.yaml"),
-    given("a result below a file", "diagnose|sound.csv|-o|sound.yaml/cause", "sound.yaml"),
-    given("a name with a line's end", "diagnose|no\nwhere.csv", "no such file"),
-    given("a name of a thousand letters", f"diagnose|{'x' * 300}.csv", "too long|no such file"),
-    given("a name with a NUL", "diagnose|x\0.csv", "no such file|NUL|null"),
-    given("a name with half a character", "diagnose|x\udcff.csv", "no such file"),
-    given("no file", "diagnose", "required"),
-    given("an option that is none", "diagnose|sound.csv|--fast", "--fast"),
-    given("a command that is none", "diagnoze|sound.csv", "diagnoze"),
-    given("no command", "", "command"),
+    refused("a condition twice", "diagnose|sound.csv|--condition|a=sound.csv|a=sound.csv", "differ"),
+    refused("a condition that is a folder", "diagnose|sound.csv|--condition|legs=heart", "is a folder"),
+    refused("a result where a file is", "diagnose|sound.csv|-o|sound.yaml", "sound.yaml"),
+    refused("a result below a file", "diagnose|sound.csv|-o|sound.yaml/cause", "sound.yaml"),
+    refused("a name with a line's end", "diagnose|no\nwhere.csv", "no such file"),
+    refused("a name of a thousand letters", f"diagnose|{'x' * 300}.csv", "too long|no such file"),
+    refused("a name with a NUL", "diagnose|x\0.csv", "no such file|NUL|null"),
+    refused("a name with half a character", "diagnose|x\udcff.csv", "no such file"),
+    refused("no file", "diagnose", "required"),
+    refused("an option that is none", "diagnose|sound.csv|--fast", "--fast"),
+    refused("a command that is none", "diagnoze|sound.csv", "diagnoze"),
+    refused("no command", "", "command"),
 ]

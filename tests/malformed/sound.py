@@ -65,9 +65,9 @@ def write_heart(folder: Path) -> None:
         (folder / part).mkdir(parents=True)
     for number in range(PHASES):
         (folder / "control_points" / f"frame_{number:03}.txt").write_text(phase(points))
-    given = {surface: label for label, surface in reversed(SURFACE_OF_LABEL.items())}
+    labels_of_surfaces = {surface: label for label, surface in reversed(SURFACE_OF_LABEL.items())}
     np.savetxt(folder / "template" / "ETIndicesSorted.txt", triangles + 1, "%d")
-    rows = [f"{index} {given[label]}\n" for index, label in enumerate(labels, start=1)]
+    rows = [f"{index} {labels_of_surfaces[label]}\n" for index, label in enumerate(labels, start=1)]
     (folder / "template" / "ETIndicesMaterials.txt").write_text("".join(rows))
     savemat(folder / "template" / "subdivision_matrix_sparse.mat", {"S": eye(len(points), format="csc")})
     acquisition = {"nominal_interval_ms": 800.0, "description": "cine_trufi_retro"}

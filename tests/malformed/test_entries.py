@@ -35,11 +35,11 @@ def test_the_program_refuses_in_one_line(name: str, tmp_path: Path) -> None:
     text, says = BAD[name]
     (tmp_path / "bad.yaml").write_text(text)
     command = [sys.executable, "-c", "import sys; from heartfit.cli.main import main; sys.exit(main())"]
-    given = ["check", "--no-picture", "--config", str(ROOT / "config" / "config.yaml"), "bad.yaml"]
-    done = run([*command, *given], tmp_path)
-    assert done.returncode == 2
-    assert any(says in line for line in done.stderr.splitlines())
-    assert all(line.startswith("heartfit: ") for line in done.stderr.splitlines())
+    arguments = ["check", "--no-picture", "--config", str(ROOT / "config" / "config.yaml"), "bad.yaml"]
+    completed = run([*command, *arguments], tmp_path)
+    assert completed.returncode == 2
+    assert any(says in line for line in completed.stderr.splitlines())
+    assert all(line.startswith("heartfit: ") for line in completed.stderr.splitlines())
     assert {file.name for file in tmp_path.iterdir()} == {"bad.yaml"}
 
 
@@ -49,11 +49,11 @@ def test_snakemake_refuses_before_any_job(name: str, tmp_path: Path) -> None:
     text, says = BAD[name]
     (tmp_path / "bad.yaml").write_text(text)
     command = [sys.executable, "-m", "snakemake", "-n", "--workflow-profile", "none", "--nolock"]
-    done = run([*command, "--configfile", str(tmp_path / "bad.yaml")], ROOT)
-    said = done.stdout + done.stderr  # a dry run puts its errors on the standard output
+    completed = run([*command, "--configfile", str(tmp_path / "bad.yaml")], ROOT)
+    output = completed.stdout + completed.stderr  # a dry run puts its errors on the standard output
     expected = SNAKEMAKE if name == "a Python object" else says  # it reads the file first
-    assert done.returncode == 1
-    assert "Traceback" not in said
-    assert sum(expected in line for line in said.splitlines()) == 1
-    assert "Job stats" not in said
+    assert completed.returncode == 1
+    assert "Traceback" not in output
+    assert sum(expected in line for line in output.splitlines()) == 1
+    assert "Job stats" not in output
     assert not (ROOT / "hacked").exists()

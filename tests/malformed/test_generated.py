@@ -12,7 +12,7 @@ from tests.malformed.grammar import RECORDINGS, TABLES_OF_CASES, of_another_kind
 from tests.malformed.test_malformed import LONGEST
 
 CHECK = "check|--no-picture|--config|sound.yaml"
-FEW, MANY = 3, 20
+FEW_EXAMPLES, MANY_EXAMPLES = 3, 20
 PARTS = ("heart/template/subdivision_matrix_sparse.mat", "cine.nrrd", "cine.nii.gz", "cine.mha")
 Refused = Callable[[str], list[str]]
 
@@ -40,12 +40,12 @@ def refused(here: Path, capsys: pytest.CaptureFixture[str]) -> Refused:
     return run
 
 
-def each(wanted: int) -> Iterator[object]:
+def numbers_of_examples(wanted: int) -> Iterator[object]:
     """Few examples always, many when asked for."""
-    return pytest.param(FEW, id="few"), pytest.param(wanted, id="many", marks=pytest.mark.long)
+    return pytest.param(FEW_EXAMPLES, id="few"), pytest.param(wanted, id="many", marks=pytest.mark.long)
 
 
-@pytest.mark.parametrize("wanted", each(3 * MANY))
+@pytest.mark.parametrize("wanted", numbers_of_examples(3 * MANY_EXAMPLES))
 @pytest.mark.parametrize("spoilt", [of_another_kind(), of_another_name()], ids=["kind", "name"])
 def test_a_configuration_of_another_kind_or_name(
     wanted: int, spoilt: st.SearchStrategy[tuple[str, str]], here: Path, refused: Refused
@@ -61,7 +61,7 @@ def test_a_configuration_of_another_kind_or_name(
     check()
 
 
-@pytest.mark.parametrize("wanted", each(2 * MANY))
+@pytest.mark.parametrize("wanted", numbers_of_examples(2 * MANY_EXAMPLES))
 def test_a_table_of_cases(wanted: int, here: Path, refused: Refused) -> None:
     @examples(wanted)
     @given(TABLES_OF_CASES)
@@ -72,7 +72,7 @@ def test_a_table_of_cases(wanted: int, here: Path, refused: Refused) -> None:
     check()
 
 
-@pytest.mark.parametrize("wanted", each(2 * MANY))
+@pytest.mark.parametrize("wanted", numbers_of_examples(2 * MANY_EXAMPLES))
 def test_a_recording(wanted: int, here: Path, refused: Refused) -> None:
     @examples(wanted)
     @given(RECORDINGS)
@@ -85,7 +85,7 @@ def test_a_recording(wanted: int, here: Path, refused: Refused) -> None:
     check()
 
 
-@pytest.mark.parametrize("wanted", each(MANY // 2))
+@pytest.mark.parametrize("wanted", numbers_of_examples(MANY_EXAMPLES // 2))
 @pytest.mark.parametrize("name", ["sound.vtu", *PARTS])
 def test_a_binary_file_that_is_cut_off(wanted: int, name: str, here: Path, refused: Refused) -> None:
     whole = (here / name).read_bytes()
@@ -109,17 +109,17 @@ def test_a_binary_file_with_bytes_turned_over_is_refused_or_read(
 ) -> None:
     whole = (here / name).read_bytes()
 
-    @examples(MANY // 2)
+    @examples(MANY_EXAMPLES // 2)
     @given(st.lists(st.tuples(st.floats(0.0, 0.999), st.integers(1, 255)), min_size=1, max_size=20))
     def check(changes: list[tuple[float, int]]) -> None:
         content = bytearray(whole)
         for share, change in changes:
             content[int(share * len(content))] ^= change
         (here / name).write_bytes(content)
-        code, said = exit_code(f"{CHECK}|bad.yaml"), capsys.readouterr().err
+        code, errors = exit_code(f"{CHECK}|bad.yaml"), capsys.readouterr().err
         assert code in (0, 2)
-        assert all(line.startswith("heartfit: ") for line in said.splitlines())
-        assert bool(said) == (code == 2)
+        assert all(line.startswith("heartfit: ") for line in errors.splitlines())
+        assert bool(errors) == (code == 2)
 
     images = f", images: {name}" if name.startswith("cine") else ""
     (here / "bad.yaml").write_text(f"sources: {{mine: {{fit: heart{images}}}}}\n")

@@ -18,7 +18,7 @@ from tests.malformed import (
 from tests.malformed.case import Malformed, exit_code, files_in
 
 LISTS = (configurations, case_tables, hearts, images, pressures, own_walls, recordings, meshes)
-MALFORMED = [each for module in LISTS for each in module.MALFORMED]
+MALFORMED = [entry for module in LISTS for entry in module.MALFORMED]
 EVERY = 6
 """One of so many is tried whenever the tests are, all of them by `python3 study.py malformed`."""
 
@@ -29,8 +29,8 @@ LONGEST = 600
 def each_but_most_when_asked_for() -> list[ParameterSet]:
     long = pytest.mark.long
     return [
-        pytest.param(given, id=given.name, marks=[long] if number % EVERY else [])
-        for number, given in enumerate(MALFORMED)
+        pytest.param(entry, id=entry.name, marks=[long] if number % EVERY else [])
+        for number, entry in enumerate(MALFORMED)
     ]
 
 
@@ -40,21 +40,21 @@ def test_sound_input_is_read(source: str, here: Path, capsys: pytest.CaptureFixt
     assert capsys.readouterr().err == ""
 
 
-@pytest.mark.parametrize("given", each_but_most_when_asked_for())
+@pytest.mark.parametrize("entry", each_but_most_when_asked_for())
 def test_it_is_refused_in_one_clear_line(
-    given: Malformed, here: Path, capsys: pytest.CaptureFixture[str]
+    entry: Malformed, here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    given.lay(here)
+    entry.lay(here)
     before = files_in(here)
-    assert exit_code(given.command) == 2
-    said = capsys.readouterr()
-    lines = said.err.splitlines()
+    assert exit_code(entry.command) == 2
+    printed = capsys.readouterr()
+    lines = printed.err.splitlines()
     assert all(line.startswith("heartfit: ") and len(line) < LONGEST for line in lines)
-    assert given.refused_by(lines)
-    assert not said.out
+    assert entry.refused_by(lines)
+    assert not printed.out
     assert files_in(here) == before
 
 
 def test_there_are_enough_and_none_is_there_twice() -> None:
-    names = [given.name for given in MALFORMED]
+    names = [entry.name for entry in MALFORMED]
     assert len(names) == len(set(names)) >= 150

@@ -18,8 +18,8 @@ def beat(samples: int, late: float = 0.0) -> Curve:
 
 @given(late=some.floats(-0.39, 0.39))
 def test_planted_shift_is_found(late: float) -> None:
-    found = fit_shift(beat(25), beat(800, late))
-    assert found == pytest.approx(late, abs=2e-4)
+    shift = fit_shift(beat(25), beat(800, late))
+    assert shift == pytest.approx(late, abs=2e-4)
 
 
 def test_the_limit_holds() -> None:

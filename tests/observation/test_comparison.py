@@ -25,10 +25,10 @@ def affine(mesh: VentricularMesh, matrix: np.ndarray, shift: np.ndarray | None =
     axes = LeftVentricularAxes.from_mesh(mesh)
     frame = np.array([axes.septal, axes.anterior, axes.axis])
     local = (mesh.points - axes.apex) @ frame.T
-    moved = [local + share * (local @ (matrix - np.eye(3)).T) for share in SHARE]
+    displaced = [local + share * (local @ (matrix - np.eye(3)).T) for share in SHARE]
     offset = np.zeros(3) if shift is None else shift
     return Motion(
-        TIMES, PERIOD, np.array([(x + s * offset) @ frame for x, s in zip(moved, SHARE, strict=True)])
+        TIMES, PERIOD, np.array([(x + s * offset) @ frame for x, s in zip(displaced, SHARE, strict=True)])
     )
 
 
@@ -43,12 +43,12 @@ def compared(ventricle: VentricularMesh) -> Callable[[Motion, Motion], Compariso
 
 def test_a_motion_is_itself(ventricle: VentricularMesh, compared: Callable) -> None:
     motion = contraction(ventricle, 0.8, 0.85)
-    found = compared(motion, motion)
-    assert found.observation_errors() == dict.fromkeys(("V_min", "q_max", "q_min"), 0.0)
-    assert not found.point_error.any()
-    assert not found.strain_error_of_beat().any()
-    assert not found.folded.any()
-    assert found.end_systole == 6
+    comparison = compared(motion, motion)
+    assert comparison.observation_errors() == dict.fromkeys(("V_min", "q_max", "q_min"), 0.0)
+    assert not comparison.point_error.any()
+    assert not comparison.strain_error_of_beat().any()
+    assert not comparison.folded.any()
+    assert comparison.end_systole == 6
 
 
 def test_a_rigid_shift_is_a_point_error_of_its_length_and_nothing_else(
@@ -56,11 +56,11 @@ def test_a_rigid_shift_is_a_point_error_of_its_length_and_nothing_else(
 ) -> None:
     matrix = np.diag([0.8, 0.8, 0.85])
     shift = np.array([2e-3, -1e-3, 2e-3])  # 3 mm long
-    found = compared(affine(ventricle, matrix), affine(ventricle, matrix, shift))
-    assert found.point_error == pytest.approx(np.outer(3e-3 * SHARE, [1.0, 1.0]), abs=1e-15)
-    assert found.point_error_of_beat[0] == pytest.approx(3e-3 * SHARE[1:].mean())
-    assert found.strain_error_of_beat() == pytest.approx(np.zeros((3, 16)), abs=1e-13)
-    assert list(found.observation_errors().values()) == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
+    comparison = compared(affine(ventricle, matrix), affine(ventricle, matrix, shift))
+    assert comparison.point_error == pytest.approx(np.outer(3e-3 * SHARE, [1.0, 1.0]), abs=1e-15)
+    assert comparison.point_error_of_beat[0] == pytest.approx(3e-3 * SHARE[1:].mean())
+    assert comparison.strain_error_of_beat() == pytest.approx(np.zeros((3, 16)), abs=1e-13)
+    assert list(comparison.observation_errors().values()) == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
 
 
 def test_a_rigid_turn_strains_nothing(ventricle: VentricularMesh) -> None:
@@ -74,13 +74,15 @@ def test_a_rigid_turn_strains_nothing(ventricle: VentricularMesh) -> None:
 def test_an_even_dilation_gives_the_strain_and_volume_of_its_scale(
     ventricle: VentricularMesh, compared: Callable
 ) -> None:
-    found = compared(contraction(ventricle, 0.8, 0.8), contraction(ventricle, 0.9, 0.9))
-    assert found.true_strain[6] == pytest.approx(np.full((3, 16), 0.5 * (0.8**2 - 1.0)))
-    assert found.registered_strain[6] == pytest.approx(np.full((3, 16), 0.5 * (0.9**2 - 1.0)))
-    assert found.strain_error_at_end_systole() == pytest.approx(np.full((3, 16), 0.5 * (0.9**2 - 0.8**2)))
-    assert found.observation_errors()["V_min"] == pytest.approx((0.9 / 0.8) ** 3 - 1.0)
+    comparison = compared(contraction(ventricle, 0.8, 0.8), contraction(ventricle, 0.9, 0.9))
+    assert comparison.true_strain[6] == pytest.approx(np.full((3, 16), 0.5 * (0.8**2 - 1.0)))
+    assert comparison.registered_strain[6] == pytest.approx(np.full((3, 16), 0.5 * (0.9**2 - 1.0)))
+    assert comparison.strain_error_at_end_systole() == pytest.approx(
+        np.full((3, 16), 0.5 * (0.9**2 - 0.8**2))
+    )
+    assert comparison.observation_errors()["V_min"] == pytest.approx((0.9 / 0.8) ** 3 - 1.0)
     expected = 0.5 * ((1.0 - 0.1 * SHARE) ** 2 - (1.0 - 0.2 * SHARE) ** 2)
-    assert found.strain_error_of_beat() == pytest.approx(np.full((3, 16), np.sqrt((expected**2).mean())))
+    assert comparison.strain_error_of_beat() == pytest.approx(np.full((3, 16), np.sqrt((expected**2).mean())))
 
 
 def test_each_direction_sees_its_own_stretch(ventricle: VentricularMesh) -> None:
@@ -115,14 +117,14 @@ def test_a_segment_is_the_mean_over_its_volume(ventricle: VentricularMesh) -> No
     """Of a motion that no formula gives, tetrahedron by tetrahedron: F from the edges, E = (F'F - 1)/2."""
     random, start = np.random.default_rng(1), ventricle.points
     positions = np.array([start + share * 2e-4 * random.standard_normal(start.shape) for share in SHARE])
-    found = segment_strain(ventricle, Motion(TIMES, PERIOD, positions))
+    strain = segment_strain(ventricle, Motion(TIMES, PERIOD, positions))
     inside = ventricle.tets[ventricle.segments == 14]
     before, after = ((x[inside[:, 1:]] - x[inside[:, :1]]).swapaxes(1, 2) for x in (start, positions[5]))
     F = after @ np.linalg.inv(before)
     E = 0.5 * (F.swapaxes(1, 2) @ F - np.eye(3))
     axis = LeftVentricularAxes.from_mesh(ventricle).axis
     expected = np.average(axis @ E @ axis, weights=np.linalg.det(before))
-    assert found[5, DIRECTIONS.index("longitudinal"), 13] == pytest.approx(expected)
+    assert strain[5, DIRECTIONS.index("longitudinal"), 13] == pytest.approx(expected)
 
 
 def test_a_fold_is_counted_where_it_is(ventricle: VentricularMesh, compared: Callable) -> None:
@@ -130,9 +132,9 @@ def test_a_fold_is_counted_where_it_is(ventricle: VentricularMesh, compared: Cal
     positions = true.positions.copy()
     a, b, c, d = positions[3, ventricle.tets[100]]
     positions[3, ventricle.tets[100][0]] += 2.0 * ((b + c + d) / 3.0 - a)
-    found = compared(true, replace(true, positions=positions))
-    assert found.folded[3] >= 1
-    assert not np.delete(found.folded, 3).any()
+    comparison = compared(true, replace(true, positions=positions))
+    assert comparison.folded[3] >= 1
+    assert not np.delete(comparison.folded, 3).any()
 
 
 def test_a_catheter_adds_the_observations_of_pressure(ventricle: VentricularMesh) -> None:
@@ -142,8 +144,8 @@ def test_a_catheter_adds_the_observations_of_pressure(ventricle: VentricularMesh
     recorded = replace(true, values=1.1 * true.values)
     features = FEATURES | {"lv_pressure": PressureFeatures()}
     errors = compare_motions(ventricle, motion, motion, features, (true, recorded)).observation_errors()
-    found = [errors[name] for name in ("P_max", "dPdt_max", "dPdt_min")]
-    assert found == pytest.approx([0.1, 0.1, 0.1])
+    pressure_errors = [errors[name] for name in ("P_max", "dPdt_max", "dPdt_min")]
+    assert pressure_errors == pytest.approx([0.1, 0.1, 0.1])
     assert errors["V_min"] == 0.0
 
 

@@ -18,10 +18,10 @@ def left_volume(measured_heart_folder: Path) -> dict[str, Curve]:
 
 @pytest.mark.measured
 def test_the_default_operator_is_the_raw_one(left_volume: dict[str, Curve]) -> None:
-    found = observe_measured(left_volume, operators(left_volume)).observations
-    values = [1e6 * observation.value for observation in found]
+    observations = observe_measured(left_volume, operators(left_volume)).observations
+    values = [1e6 * observation.value for observation in observations]
     assert values == pytest.approx([72.0, 473.6, -520.2], abs=0.5)
-    noise = [observation.noise / abs(observation.value) for observation in found]
+    noise = [observation.noise / abs(observation.value) for observation in observations]
     assert noise == pytest.approx([0.027, 0.085, 0.08], abs=0.01)
 
 

@@ -18,26 +18,28 @@ def test_a_band_limited_curve_has_no_noise() -> None:
 
 def test_planted_noise_is_found() -> None:
     random = np.random.default_rng(3)
-    found = [
+    deviations = [
         frame_noise(Curve(TIMES, SMOOTH + 1.3e-6 * random.standard_normal(25), PERIOD)) for _ in range(200)
     ]
-    assert np.sqrt(np.mean(np.square(found))) == pytest.approx(1.3e-6, rel=0.05)
+    assert np.sqrt(np.mean(np.square(deviations))) == pytest.approx(1.3e-6, rel=0.05)
 
 
 def test_observations_carry_the_noise_of_a_central_difference() -> None:
     """One steep step has its peak slope in one frame, where theory is exact."""
     step = SMOOTH + 40e-6 * (TIMES[20] < TIMES)
-    found = {o.name: o for o in measure(VolumeFeatures(), Curve(TIMES, step, PERIOD), noise=1e-7, draws=4000)}
+    observations = {
+        o.name: o for o in measure(VolumeFeatures(), Curve(TIMES, step, PERIOD), noise=1e-7, draws=4000)
+    }
     rate_noise = 1e-7 * np.sqrt(2) / (2 * PERIOD / 25)
-    expected = np.hypot(rate_noise, 0.05 * abs(found["q_min"].value))
-    assert found["q_min"].noise == pytest.approx(expected, rel=0.05)
-    assert found["V_min"].unit == "m^3"
+    expected = np.hypot(rate_noise, 0.05 * abs(observations["q_min"].value))
+    assert observations["q_min"].noise == pytest.approx(expected, rel=0.05)
+    assert observations["V_min"].unit == "m^3"
 
 
 def test_period_uncertainty_scales_rates_and_leaves_volumes() -> None:
-    found = {o.name: o for o in measure(VolumeFeatures(), Curve(TIMES, SMOOTH, PERIOD), noise=0.0)}
-    assert found["V_min"].noise == pytest.approx(0, abs=1e-12)
-    assert found["q_max"].noise / found["q_max"].value == pytest.approx(0.05, rel=0.1)
+    observations = {o.name: o for o in measure(VolumeFeatures(), Curve(TIMES, SMOOTH, PERIOD), noise=0.0)}
+    assert observations["V_min"].noise == pytest.approx(0, abs=1e-12)
+    assert observations["q_max"].noise / observations["q_max"].value == pytest.approx(0.05, rel=0.1)
 
 
 def test_the_same_seed_gives_the_same_noise() -> None:

@@ -39,8 +39,8 @@ def volume(logarithms: np.ndarray) -> Curve:
 def imaged(beat: Curve, rng: np.random.Generator) -> Pair:
     """V'(t) = V_0 - (1 - s)(V_0 - V) + noise: s = 15 (4) %, noise 0.7 mL."""
     true = beat.resampled(25)
-    seen = true.values[0] - (0.85 - 0.04 * rng.standard_normal()) * (true.values[0] - true.values)
-    measured = Curve(true.times, seen + 0.7e-6 * rng.standard_normal(25), true.period)
+    shrunken = true.values[0] - (0.85 - 0.04 * rng.standard_normal()) * (true.values[0] - true.values)
+    measured = Curve(true.times, shrunken + 0.7e-6 * rng.standard_normal(25), true.period)
     return Pair(*(Reading.from_curves({"lv_volume": curve}, FEATURES) for curve in (true, measured)))
 
 
@@ -56,13 +56,13 @@ def errors() -> Callable[[bool], tuple[np.ndarray, np.ndarray]]:
     def posterior(pair: Pair, known: bool) -> Posterior:
         if not known:
             return calibrate(PRIOR, outcomes, pair.measured.observations)
-        seen = observe_measured(pair.measured.curves, FEATURES, 0.0, model)
-        return calibrate(PRIOR, outcomes, seen.corrected, seen.covariance)
+        measurement = observe_measured(pair.measured.curves, FEATURES, 0.0, model)
+        return calibrate(PRIOR, outcomes, measurement.corrected, measurement.covariance)
 
     def tried(known: bool) -> tuple[np.ndarray, np.ndarray]:
-        found = [posterior(pair, known).estimate for pair in pairs[MADE_OF:]]
-        error = np.array([each.mean for each in found]) - truths[MADE_OF:]
-        return error / PRIOR.sd, error / np.array([each.sd for each in found])
+        estimates = [posterior(pair, known).estimate for pair in pairs[MADE_OF:]]
+        error = np.array([estimate.mean for estimate in estimates]) - truths[MADE_OF:]
+        return error / PRIOR.sd, error / np.array([estimate.sd for estimate in estimates])
 
     return tried
 

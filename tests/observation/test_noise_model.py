@@ -38,9 +38,9 @@ def pair(seed: int) -> Pair:
     times = 0.8 / FRAMES * np.arange(FRAMES)
     values = (120.0 + 35.0 * stroke * np.cos(2.0 * np.pi * times / 0.8)) * 1e-6
     observed = dict(zip(NAMES, size * np.array([60e-6, 350e-6, -400e-6]), strict=True))
-    seen = Reading({"lv_volume": Curve(times, values, 0.8)}, observed)
+    measured = Reading({"lv_volume": Curve(times, values, 0.8)}, observed)
     behind = {"lv_volume": Curve(times, values - np.ptp(values) * planted_curve(rng), 0.8)}
-    return Pair(Reading(behind, truth(seen, rng.multivariate_normal(BIAS, SPREAD))), seen)
+    return Pair(Reading(behind, truth(measured, rng.multivariate_normal(BIAS, SPREAD))), measured)
 
 
 def model(sequences: int, first: int = 0) -> NoiseModel:
@@ -48,16 +48,16 @@ def model(sequences: int, first: int = 0) -> NoiseModel:
 
 
 def test_planted_bias_and_covariance_are_found_within_their_sampling_error() -> None:
-    found = model(1000)
+    estimated = model(1000)
     variance = np.diag(SPREAD)
-    assert (np.abs(found.observations.mean - BIAS) < 3.0 * np.sqrt(variance / 1000)).all()
+    assert (np.abs(estimated.observations.mean - BIAS) < 3.0 * np.sqrt(variance / 1000)).all()
     error = np.sqrt((SPREAD**2 + np.outer(variance, variance)) / 1000)
-    assert (np.abs(found.observations.covariance - SPREAD) < 3.0 * error).all()
+    assert (np.abs(estimated.observations.covariance - SPREAD) < 3.0 * error).all()
     wave = np.sin(np.pi * np.arange(FRAMES) / FRAMES)
     sd = wave * np.hypot(0.02, 0.005)
-    assert (np.abs(found.curve.mean - 0.03 * wave) <= 3.0 * sd / np.sqrt(1000) + 1e-15).all()
-    assert found.curve.sd == pytest.approx(sd, rel=3.0 / np.sqrt(2000), abs=1e-15)
-    together = found.curve.covariance[3, 6] / (found.curve.sd[3] * found.curve.sd[6])
+    assert (np.abs(estimated.curve.mean - 0.03 * wave) <= 3.0 * sd / np.sqrt(1000) + 1e-15).all()
+    assert estimated.curve.sd == pytest.approx(sd, rel=3.0 / np.sqrt(2000), abs=1e-15)
+    together = estimated.curve.covariance[3, 6] / (estimated.curve.sd[3] * estimated.curve.sd[6])
     assert together == pytest.approx(0.02**2 / (0.02**2 + 0.005**2), abs=0.01)
 
 
@@ -66,16 +66,20 @@ def test_what_is_known_of_the_error_is_taken_off_exactly() -> None:
     share = 0.1 * np.sin(np.pi * np.arange(FRAMES) / FRAMES)
 
     def alike(seed: int) -> Pair:
-        each = pair(seed)
-        seen = each.measured.curves["lv_volume"]
-        volume = {"lv_volume": replace(seen, values=seen.values - np.ptp(seen.values) * share)}
-        return Pair(Reading(volume, truth(each.measured, BIAS)), each.measured)
+        drawn = pair(seed)
+        volume_curve = drawn.measured.curves["lv_volume"]
+        volume = {
+            "lv_volume": replace(
+                volume_curve, values=volume_curve.values - np.ptp(volume_curve.values) * share
+            )
+        }
+        return Pair(Reading(volume, truth(drawn.measured, BIAS)), drawn.measured)
 
     known = NoiseModel.from_pairs([alike(seed) for seed in range(20)], PROTOCOL, FRAMES)
     fresh = alike(77)
     assert known.corrected(fresh.measured) == pytest.approx(fresh.true.observations)
-    found = known.corrected_curve(fresh.measured.curves["lv_volume"])
-    assert found.values == pytest.approx(fresh.true.curves["lv_volume"].values)
+    corrected = known.corrected_curve(fresh.measured.curves["lv_volume"])
+    assert corrected.values == pytest.approx(fresh.true.curves["lv_volume"].values)
     for name, (low, high) in known.interval(fresh.measured).items():
         assert low == pytest.approx(fresh.true.observations[name])
         assert high == pytest.approx(fresh.true.observations[name])
@@ -87,42 +91,42 @@ def test_a_shrunken_motion_has_one_error_whatever_the_heart() -> None:
 
     def shrunken(seed: int) -> Pair:
         true = pair(seed).true.curves["lv_volume"]
-        seen = replace(true, values=true.values[0] - (1.0 - s) * (true.values[0] - true.values))
-        return Pair(*(Reading.from_curves({"lv_volume": curve}, features) for curve in (true, seen)))
+        smaller = replace(true, values=true.values[0] - (1.0 - s) * (true.values[0] - true.values))
+        return Pair(*(Reading.from_curves({"lv_volume": curve}, features) for curve in (true, smaller)))
 
-    found = NoiseModel.from_pairs([shrunken(seed) for seed in range(20)], PROTOCOL, FRAMES)
+    estimated = NoiseModel.from_pairs([shrunken(seed) for seed in range(20)], PROTOCOL, FRAMES)
     strokes = [np.ptp(pair(seed).true.curves["lv_volume"].values) for seed in range(20)]
     assert max(strokes) > 1.5 * min(strokes)
-    assert found.observations.mean == pytest.approx(
+    assert estimated.observations.mean == pytest.approx(
         [s / (1.0 - s), np.log(1.0 - s), np.log(1.0 - s)], rel=0.03
     )
-    assert found.observations.sd == pytest.approx(np.zeros(3), abs=0.02)
+    assert estimated.observations.sd == pytest.approx(np.zeros(3), abs=0.02)
 
 
 def test_the_covariance_is_that_of_the_truth_and_in_the_order_asked_for() -> None:
-    known, seen = model(1000), pair(3).measured
-    asked = replace(seen, observations={"q_min": -300e-6, "V_min": 70e-6})
-    found, stroke = known.covariance(asked), np.ptp(seen.curves["lv_volume"].values)
+    known, reading = model(1000), pair(3).measured
+    reordered = replace(reading, observations={"q_min": -300e-6, "V_min": 70e-6})
+    covariance, stroke = known.covariance(reordered), np.ptp(reading.curves["lv_volume"].values)
     rng = np.random.default_rng(5)
     errors = rng.multivariate_normal(BIAS, SPREAD, 20000)
     truths = np.array([-300e-6 * np.exp(-errors[:, 2]), 70e-6 - stroke * errors[:, 0]])
-    assert np.sqrt(np.diag(found)) == pytest.approx(truths.std(axis=1), rel=0.08)
-    size = np.outer(np.sqrt(np.diag(found)), np.sqrt(np.diag(found)))
-    assert found / size == pytest.approx(np.corrcoef(truths), abs=0.08)
-    assert list(known.corrected(asked).values()) == pytest.approx(np.median(truths, axis=1), rel=0.01)
+    assert np.sqrt(np.diag(covariance)) == pytest.approx(truths.std(axis=1), rel=0.08)
+    size = np.outer(np.sqrt(np.diag(covariance)), np.sqrt(np.diag(covariance)))
+    assert covariance / size == pytest.approx(np.corrcoef(truths), abs=0.08)
+    assert list(known.corrected(reordered).values()) == pytest.approx(np.median(truths, axis=1), rel=0.01)
 
 
 def test_few_sequences_widen_everything_as_their_number_says() -> None:
-    few, seen = model(20), pair(99).measured
-    volume = seen.curves["lv_volume"]
+    few, reading = model(20), pair(99).measured
+    volume = reading.curves["lv_volume"]
     stroke, scatter = np.ptp(volume.values), few.observations
     plain = stroke**2 * scatter.covariance[0, 0]
-    assert few.covariance(seen)[0, 0] == pytest.approx(plain * 21 / 20, rel=1e-12, abs=0.0)
-    low, high = few.interval(seen)["q_min"]
-    assert low < few.corrected(seen)["q_min"] < high < 0.0
+    assert few.covariance(reading)[0, 0] == pytest.approx(plain * 21 / 20, rel=1e-12, abs=0.0)
+    low, high = few.interval(reading)["q_min"]
+    assert low < few.corrected(reading)["q_min"] < high < 0.0
     assert np.log(low / high) == pytest.approx(2.0 * scatter.half_width()[2])
-    low, high = few.interval(seen)["V_min"]
-    assert (low + high) / 2.0 == pytest.approx(few.corrected(seen)["V_min"])
+    low, high = few.interval(reading)["V_min"]
+    assert (low + high) / 2.0 == pytest.approx(few.corrected(reading)["V_min"])
     assert high - low == pytest.approx(2.0 * stroke * scatter.half_width()[0], rel=1e-12, abs=0.0)
     low_curve, high_curve = few.curve_interval(volume)
     assert high_curve - low_curve == pytest.approx(2.0 * stroke * few.curve.half_width(), abs=1e-12)
@@ -131,13 +135,13 @@ def test_few_sequences_widen_everything_as_their_number_says() -> None:
 
 def test_a_peak_pressure_is_compared_with_the_range_of_the_pressure() -> None:
     def recorded(seed: int) -> Pair:
-        each, times = pair(seed), 0.8 / 200 * np.arange(200)
+        drawn, times = pair(seed), 0.8 / 200 * np.arange(200)
         wave = Curve(times, (8e3 + 50.0 * seed) * (1.0 - np.cos(2.0 * np.pi * times / 0.8)), 0.8)
         range_ = np.ptp(wave.values)
-        observed = each.measured.observations | {"P_max": wave.values.max()}
-        true = each.true.observations | {"P_max": wave.values.max() - 0.03 * range_}
-        curves = each.measured.curves | {"lv_pressure": wave}
-        return Pair(replace(each.true, observations=true), Reading(curves, observed))
+        observed = drawn.measured.observations | {"P_max": wave.values.max()}
+        true = drawn.true.observations | {"P_max": wave.values.max() - 0.03 * range_}
+        curves = drawn.measured.curves | {"lv_pressure": wave}
+        return Pair(replace(drawn.true, observations=true), Reading(curves, observed))
 
     known = NoiseModel.from_pairs([recorded(seed) for seed in range(20)], PROTOCOL, FRAMES)
     assert known.observations.mean[3] == pytest.approx(0.03)
@@ -149,15 +153,15 @@ def test_intervals_hold_the_truth_of_fresh_sequences_as_often_as_they_say() -> N
     """300 models of 20 sequences with one fresh one each: within the binomial's 99 % of 95 %."""
     held = [coverage(model(20, 1000 * trial), [pair(1000 * trial + 999)]) for trial in range(300)]
     for name in (*NAMES, "lv_volume"):
-        share = np.mean([each[name].covered for each in held])
+        share = np.mean([intervals[name].covered for intervals in held])
         assert abs(share - 0.95) < 2.58 * np.sqrt(0.95 * 0.05 / 300), name
 
 
 def test_coverage_of_a_good_model_holds_95_percent_and_sees_a_model_that_boasts() -> None:
     known, fresh = model(1000), [pair(5000 + seed) for seed in range(400)]
-    found = coverage(known, fresh)
-    assert set(found) == {*NAMES, "lv_volume"}
-    for share in found.values():
+    shares = coverage(known, fresh)
+    assert set(shares) == {*NAMES, "lv_volume"}
+    for share in shares.values():
         assert share.sequences == 400
         assert share.low <= 0.95 <= share.high
     boasting = replace(known, observations=replace(known.observations, covariance=0.25 * SPREAD))
@@ -166,18 +170,18 @@ def test_coverage_of_a_good_model_holds_95_percent_and_sees_a_model_that_boasts(
 
 def test_phases_without_error_do_not_count_as_covered() -> None:
     """A truth far off in every phase but the first, which the model knows to the last bit."""
-    each = pair(0)
-    true, seen = each.true.curves["lv_volume"], each.measured.curves["lv_volume"]
-    far = replace(true, values=np.r_[seen.values[0], seen.values[1:] - 1e-4])
-    lost = replace(each, true=replace(each.true, curves={"lv_volume": far}))
+    drawn = pair(0)
+    true, volume = drawn.true.curves["lv_volume"], drawn.measured.curves["lv_volume"]
+    far = replace(true, values=np.r_[volume.values[0], volume.values[1:] - 1e-4])
+    lost = replace(drawn, true=replace(drawn.true, curves={"lv_volume": far}))
     assert coverage(model(20), [lost])["lv_volume"].covered == 0.0
 
 
 @pytest.mark.parametrize("covered", [0, 1, 12, 23, 24])
 def test_the_interval_of_a_share_is_clopper_and_pearsons(covered: int) -> None:
     exact = binomtest(covered, 24).proportion_ci(0.95, "exact")
-    found = Share.from_count(covered, 24)
-    assert (found.low, found.high) == pytest.approx((exact.low, exact.high))
+    share = Share.from_count(covered, 24)
+    assert (share.low, share.high) == pytest.approx((exact.low, exact.high))
 
 
 def test_what_the_model_cannot_know_is_refused() -> None:

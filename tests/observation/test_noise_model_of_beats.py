@@ -33,8 +33,8 @@ def imaged(volume: Curve, rng: np.random.Generator) -> Pair:
     shrinkage, delay = 0.15 + 0.04 * rng.standard_normal(), 0.005 + 0.004 * rng.standard_normal()
     true, late = volume.resampled(25), volume.shifted(-delay).resampled(25)
     values = true.values[0] - (1.0 - shrinkage) * (true.values[0] - late.values)
-    seen = Curve(true.times, values + 0.7e-6 * rng.standard_normal(25), true.period)
-    return Pair(*(Reading.from_curves({"lv_volume": curve}, FEATURES) for curve in (true, seen)))
+    measured = Curve(true.times, values + 0.7e-6 * rng.standard_normal(25), true.period)
+    return Pair(*(Reading.from_curves({"lv_volume": curve}, FEATURES) for curve in (true, measured)))
 
 
 def test_intervals_hold_the_truth_of_90_to_99_percent_of_fresh_beats(volumes: list[Curve]) -> None:
@@ -45,8 +45,8 @@ def test_intervals_hold_the_truth_of_90_to_99_percent_of_fresh_beats(volumes: li
         pairs = [imaged(volumes[number], rng) for number in rng.permutation(48)]
         for name, share in coverage(NoiseModel.from_pairs(pairs[:24], {}), pairs[24:]).items():
             shares.setdefault(name, []).append(share.covered)
-    for name, found in shares.items():
-        assert 0.90 < np.mean(found) < 0.99, name
+    for name, covered in shares.items():
+        assert 0.90 < np.mean(covered) < 0.99, name
 
 
 def test_the_bias_taken_off_brings_fresh_beats_nearer_to_the_truth(volumes: list[Curve]) -> None:
@@ -61,18 +61,18 @@ def test_the_bias_taken_off_brings_fresh_beats_nearer_to_the_truth(volumes: list
             lambda pair: model.corrected(pair.measured),
         )
     )
-    before, after = (np.sqrt(np.mean((found / true - 1.0) ** 2, axis=0)) for found in (raw, left))
+    before, after = (np.sqrt(np.mean((estimates / true - 1.0) ** 2, axis=0)) for estimates in (raw, left))
     assert (after < 0.6 * before).all()
 
 
 def test_the_sensors_of_the_images_are_found_with_their_scatter(volumes: list[Curve]) -> None:
     rng = np.random.default_rng(2)
-    found = sensor_scatter([imaged(volume, rng) for volume in volumes])
-    assert (found.names, found.count) == (("shrinkage", "smoothing", "delay"), 48)
-    shrinkage, smoothing, delay = found.mean
+    scatter = sensor_scatter([imaged(volume, rng) for volume in volumes])
+    assert (scatter.names, scatter.count) == (("shrinkage", "smoothing", "delay"), 48)
+    shrinkage, smoothing, delay = scatter.mean
     assert shrinkage == pytest.approx(0.15, abs=3.0 * 0.04 / np.sqrt(48))
     assert delay == pytest.approx(0.005, abs=3.0 * 0.004 / np.sqrt(48))
     assert smoothing < 0.01  # none was planted
-    assert found.sd[[0, 2]] == pytest.approx([0.04, 0.004], rel=3.0 / np.sqrt(2 * 48))
+    assert scatter.sd[[0, 2]] == pytest.approx([0.04, 0.004], rel=3.0 / np.sqrt(2 * 48))
     with pytest.raises(InputError, match=r"\b1 sequences"):
         sensor_scatter([imaged(volumes[0], rng)])

@@ -22,10 +22,10 @@ def test_extrema_of_a_cosine_converge_with_second_order() -> None:
     exact = np.array([MEAN - AMPLITUDE, AMPLITUDE * OMEGA, -AMPLITUDE * OMEGA])
     errors = []
     for frames in (24, 48, 96):
-        found = VolumeFeatures(frames=frames)(cosine(frames))
-        errors.append(abs(found["q_max"] - exact[1]) / exact[1])
-        assert found["V_min"] == pytest.approx(exact[0], rel=1e-12)
-        assert found["q_min"] == pytest.approx(-found["q_max"], rel=1e-9)
+        observations = VolumeFeatures(frames=frames)(cosine(frames))
+        errors.append(abs(observations["q_max"] - exact[1]) / exact[1])
+        assert observations["V_min"] == pytest.approx(exact[0], rel=1e-12)
+        assert observations["q_min"] == pytest.approx(-observations["q_max"], rel=1e-9)
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(2, abs=0.05)
 
 
@@ -33,8 +33,8 @@ def test_window_three_is_the_raw_central_difference() -> None:
     times = np.arange(25) * PERIOD / 25
     values = np.random.default_rng(1).uniform(80e-6, 180e-6, 25)
     slope = (np.roll(values, -1) - np.roll(values, 1)) / (2 * PERIOD / 25)
-    found = VolumeFeatures(frames=25)(Curve(times, values, PERIOD))
-    assert list(found.values()) == pytest.approx([values.min(), slope.max(), slope.min()], rel=1e-9)
+    observations = VolumeFeatures(frames=25)(Curve(times, values, PERIOD))
+    assert list(observations.values()) == pytest.approx([values.min(), slope.max(), slope.min()], rel=1e-9)
 
 
 @given(turn=some.integers(0, 24), seed=some.integers(0, 100))
@@ -60,10 +60,10 @@ def test_a_dense_curve_is_seen_through_the_measured_frames() -> None:
 def test_pressure_observations_have_their_signs_and_units() -> None:
     times = np.arange(400) * PERIOD / 400
     values = 1e3 + 15e3 * np.sin(np.pi * times / PERIOD) ** 2
-    found = PressureFeatures()(Curve.of_pressure(times, values, PERIOD))
-    assert found["P_max"] == pytest.approx(16e3, rel=1e-3)
-    assert found["dPdt_max"] == pytest.approx(15e3 * np.pi / PERIOD, rel=5e-3)
-    assert found["dPdt_min"] == pytest.approx(-15e3 * np.pi / PERIOD, rel=5e-3)
+    observations = PressureFeatures()(Curve.of_pressure(times, values, PERIOD))
+    assert observations["P_max"] == pytest.approx(16e3, rel=1e-3)
+    assert observations["dPdt_max"] == pytest.approx(15e3 * np.pi / PERIOD, rel=5e-3)
+    assert observations["dPdt_min"] == pytest.approx(-15e3 * np.pi / PERIOD, rel=5e-3)
     assert PressureFeatures().units == ("Pa", "Pa/s", "Pa/s")
 
 

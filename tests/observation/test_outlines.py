@@ -39,7 +39,7 @@ def motion() -> SliceMotion:
     return SliceMotion(GRID, (0, 0), np.einsum("p,jic->pjic", SHARE, steps)[:, None].repeat(6, axis=1))
 
 
-def moved(surface: LabelledSurface, sinking: float = 0.0) -> np.ndarray:
+def displaced(surface: LabelledSurface, sinking: float = 0.0) -> np.ndarray:
     """The surface squeezed in the plane and sunk towards the apex."""
     index = GRID.index(surface.points)
     steps = np.zeros((FRAMES, len(index), 3))
@@ -50,9 +50,9 @@ def moved(surface: LabelledSurface, sinking: float = 0.0) -> np.ndarray:
 def test_a_registration_that_is_right_leaves_nothing_between_the_outlines(
     surface: LabelledSurface, motion: SliceMotion
 ) -> None:
-    found = outlines(surface, moved(surface), motion)
-    assert {outline.surface for outline in found} == {"lv_endo", "rv_endo", "epi"}
-    for outline in found:
+    compared = outlines(surface, displaced(surface), motion)
+    assert {outline.surface for outline in compared} == {"lv_endo", "rv_endo", "epi"}
+    for outline in compared:
         mean, far = outline.distance()
         assert max(mean.max(), far.max()) < 1e-9
         assert outline.carried_area == pytest.approx(outline.measured_area)
@@ -93,8 +93,8 @@ def test_outlines_are_compared_while_the_plane_meets_no_valve_ring(
     surface: LabelledSurface, motion: SliceMotion
 ) -> None:
     """The rings start 2 mm on the basal side of slice 0 and pass it once they have sunk further."""
-    found = outlines(surface, moved(surface, SINKING), motion)
-    first = next(outline for outline in found if outline.surface == "lv_endo" and outline.slice == 0)
+    compared = outlines(surface, displaced(surface, SINKING), motion)
+    first = next(outline for outline in compared if outline.surface == "lv_endo" and outline.slice == 0)
     assert first.frames.tolist() == np.flatnonzero(SINKING * SHARE < 2e-3).tolist()
     assert np.isnan(first.measured_area[-1])
     assert np.isnan(first.distance()[0][-1])
@@ -103,12 +103,12 @@ def test_outlines_are_compared_while_the_plane_meets_no_valve_ring(
 def test_points_of_the_wall_are_followed_but_for_what_leaves_the_plane(
     surface: LabelledSurface, motion: SliceMotion
 ) -> None:
-    right = wall_points(surface, moved(surface, SINKING), motion, 2)
+    right = wall_points(surface, displaced(surface, SINKING), motion, 2)
     assert right.carried.shape == (FRAMES, 24, 3)
     assert right.in_plane().max() < 1e-6
     assert right.through_plane() == pytest.approx(np.tile(SINKING * SHARE, (24, 1)).T, abs=1e-9)
     still = SliceMotion(GRID, (0, 0), np.zeros_like(motion.displacement))
-    wrong = wall_points(surface, moved(surface, SINKING), still, 2)
+    wrong = wall_points(surface, displaced(surface, SINKING), still, 2)
     expected = SHARE[:, None] * np.linalg.norm(
         GRID.vectors(np.pad((GRID.index(right.carried[0])[:, :2] - 50.0) @ SQUEEZE.T, ((0, 0), (0, 1)))),
         axis=1,
@@ -122,7 +122,7 @@ def test_a_point_of_the_free_wall_lies_at_its_share_of_the_thickness(
     surface: LabelledSurface, motion: SliceMotion, depth: float
 ) -> None:
     """Away from the right ventricle, which is towards +x, the wall is 10 mm thick along the ellipsoid's normal."""
-    points = wall_points(surface, moved(surface), motion, 2, depth).carried[0]
+    points = wall_points(surface, displaced(surface), motion, 2, depth).carried[0]
     opposite = points[points[:, 0].argmin()]
     near = []
     for name in ("lv_endo", "epi"):
@@ -146,29 +146,29 @@ def test_simpsons_rule_is_exact_for_half_an_ellipsoid_but_for_the_trapezia() -> 
 
 def test_volumes_from_slices_are_those_of_the_surface(surface: LabelledSurface, motion: SliceMotion) -> None:
     """The base lies at k = 0 here, so slices run against the axis; 9 mm apart they miss about a per cent."""
-    positions = moved(surface)
-    found = left_ventricular_volumes(surface, positions, GRID, outlines(surface, positions, motion))
+    positions = displaced(surface)
+    volumes = left_ventricular_volumes(surface, positions, GRID, outlines(surface, positions, motion))
     true = [Cavity.from_endocardium(surface, "lv_endo").volume(points) for points in positions]
-    assert found["surface"] == pytest.approx(true)
-    assert found["cut"] == pytest.approx(true, rel=0.02)
+    assert volumes["surface"] == pytest.approx(true)
+    assert volumes["cut"] == pytest.approx(true, rel=0.02)
     for name in ("registered", "registered, ends at rest"):
-        assert found[name] == pytest.approx(found["cut"], rel=1e-9)
+        assert volumes[name] == pytest.approx(volumes["cut"], rel=1e-9)
 
 
 def test_ends_at_rest_miss_the_descent_of_the_base(surface: LabelledSurface, motion: SliceMotion) -> None:
     sunk = 1.9e-3
-    positions = moved(surface, sunk)
-    every = outlines(surface, positions, motion)
-    found = left_ventricular_volumes(surface, positions, GRID, every)
-    areas = [outline.carried_area[-1] for outline in every if outline.surface == "lv_endo"]
-    gained = found["registered, ends at rest"][-1] - found["registered"][-1]
+    positions = displaced(surface, sunk)
+    all_outlines = outlines(surface, positions, motion)
+    volumes = left_ventricular_volumes(surface, positions, GRID, all_outlines)
+    areas = [outline.carried_area[-1] for outline in all_outlines if outline.surface == "lv_endo"]
+    gained = volumes["registered, ends at rest"][-1] - volumes["registered"][-1]
     assert gained == pytest.approx(sunk * areas[0] - 2.0 / 3.0 * sunk * areas[-1], rel=1e-6)
 
 
 def test_a_comparison_holds_every_slice_and_refuses_what_does_not_belong_together(
     surface: LabelledSurface, motion: SliceMotion
 ) -> None:
-    positions, times = moved(surface), 0.1 * np.arange(FRAMES)
+    positions, times = displaced(surface), 0.1 * np.arange(FRAMES)
     cine = compare_cine(surface, positions, times, 0.8, motion)
     left = [outline.slice for outline in cine.outlines if outline.surface == "lv_endo"]
     assert [wall.slice for wall in cine.walls] == left

@@ -50,7 +50,10 @@ def test_averaging_lowers_the_noise():
         average_beats(trace(np.full(count, PERIOD), noise=300.0, with_ecg=False), PERIOD, UPSTROKE)
         for count in (2, 20)
     )
-    noise = [np.std(np.diff(each.curve.values - wave(each.curve.times / PERIOD))) for each in (alone, many)]
+    noise = [
+        np.std(np.diff(averaged.curve.values - wave(averaged.curve.times / PERIOD)))
+        for averaged in (alone, many)
+    ]
     assert noise[1] < 0.5 * noise[0]
 
 

@@ -55,9 +55,9 @@ def test_the_volume_falls_in_ejection_only_and_rises_in_filling(beat: dict[str, 
 
 
 def test_a_beat_leaves_nothing_of_itself(beat: dict[str, Curve], measured: dict[str, Curve]) -> None:
-    found = residuals(measured, {"same": beat}, [])
-    assert [each.curve for each in found] == ["lv_volume", "lv_pressure"]
-    assert max(np.abs(each.difference("same")).max() for each in found) < 1e-12
+    left = residuals(measured, {"same": beat}, [])
+    assert [residual.curve for residual in left] == ["lv_volume", "lv_pressure"]
+    assert max(np.abs(residual.difference("same")).max() for residual in left) < 1e-12
 
 
 def test_the_worst_is_named_with_its_sign(beat: dict[str, Curve], measured: dict[str, Curve]) -> None:
@@ -83,9 +83,9 @@ def test_the_noise_model_gives_bias_and_deviation_of_each_phase(measured: dict[s
 
 
 def test_a_failed_beat_leaves_no_residual(measured: dict[str, Curve]) -> None:
-    found = case_residual(measured, {"after one step": {}}, [])
-    assert found.curves == ()
-    assert found.misfits() == []
+    residual = case_residual(measured, {"after one step": {}}, [])
+    assert residual.curves == ()
+    assert residual.misfits() == []
 
 
 def shrunk(mesh: VentricularMesh, most: float) -> Motion:
@@ -103,22 +103,22 @@ def compared(ventricle: VentricularMesh) -> list[Comparison]:
 def test_strain_is_compared_at_end_systole_and_in_the_noise_of_registration(
     ventricle: VentricularMesh, compared: list[Comparison]
 ) -> None:
-    found = strain_residual(ventricle, shrunk(ventricle, 0.10), shrunk(ventricle, 0.12), compared)
-    assert found is not None
-    assert found.noise is not None
+    residual = strain_residual(ventricle, shrunk(ventricle, 0.10), shrunk(ventricle, 0.12), compared)
+    assert residual is not None
+    assert residual.noise is not None
     strain = {most: 0.5 * ((1.0 - most) ** 2 - 1.0) for most in (0.07, 0.09, 0.10, 0.12)}
     bias = 0.5 * (strain[0.07] + strain[0.09]) - strain[0.10]
     noise = abs(strain[0.07] - strain[0.09]) / np.sqrt(2.0)
-    assert found.time == pytest.approx(0.4)
-    assert found.difference == pytest.approx(
+    assert residual.time == pytest.approx(0.4)
+    assert residual.difference == pytest.approx(
         np.full((len(DIRECTIONS), 16), strain[0.12] - strain[0.10] + bias)
     )
-    assert found.score() == pytest.approx(found.difference / noise)
+    assert residual.score() == pytest.approx(residual.difference / noise)
 
 
 def test_a_strain_whose_noise_nobody_knows_is_in_percent(ventricle: VentricularMesh) -> None:
-    found = strain_residual(ventricle, shrunk(ventricle, 0.10), shrunk(ventricle, 0.12), [])
-    assert found is not None
-    assert found.noise is None
-    assert found.score() == pytest.approx(100.0 * found.difference)
+    residual = strain_residual(ventricle, shrunk(ventricle, 0.10), shrunk(ventricle, 0.12), [])
+    assert residual is not None
+    assert residual.noise is None
+    assert residual.score() == pytest.approx(100.0 * residual.difference)
     assert strain_residual(ventricle, shrunk(ventricle, 0.10), None, []) is None

@@ -19,11 +19,11 @@ def walks(count: int, steps: int = 25) -> np.ndarray:
 
 
 def test_mean_and_covariance_are_found_within_their_sampling_error() -> None:
-    found = Scatter.from_sample("abc", draw(4000, 0))
-    assert np.abs(found.mean - 0.3).max() < 3.0 * np.sqrt(2.0 / 4000)
+    scatter = Scatter.from_sample("abc", draw(4000, 0))
+    assert np.abs(scatter.mean - 0.3).max() < 3.0 * np.sqrt(2.0 / 4000)
     variance = np.diag(SPREAD)
     error = np.sqrt((SPREAD**2 + np.outer(variance, variance)) / 4000)  # of a Wishart matrix
-    assert (np.abs(found.covariance - SPREAD) < 3.0 * error).all()
+    assert (np.abs(scatter.covariance - SPREAD) < 3.0 * error).all()
 
 
 def test_the_next_vector_is_where_it_is_said_to_be() -> None:
@@ -32,15 +32,15 @@ def test_the_next_vector_is_where_it_is_said_to_be() -> None:
     for level in (0.95, 0.68):
         held = np.zeros(3)
         for sample in samples:
-            found = Scatter.from_sample("abc", sample[:-1])
-            held += np.abs(sample[-1] - found.mean) <= found.half_width(level)
+            scatter = Scatter.from_sample("abc", sample[:-1])
+            held += np.abs(sample[-1] - scatter.mean) <= scatter.half_width(level)
         assert np.abs(held / 2000 - level).max() < 2.58 * np.sqrt(level * (1.0 - level) / 2000)
 
 
 def test_the_reach_is_students() -> None:
-    found = Scatter(("a",), 24, np.zeros(1), np.array([[4.0]]))
-    assert found.half_width(0.9) == pytest.approx([2.0 * student.ppf(0.95, 23) * np.sqrt(25.0 / 24.0)])
-    assert found.predictive == pytest.approx(np.array([[4.0 * 25.0 / 24.0]]))
+    scatter = Scatter(("a",), 24, np.zeros(1), np.array([[4.0]]))
+    assert scatter.half_width(0.9) == pytest.approx([2.0 * student.ppf(0.95, 23) * np.sqrt(25.0 / 24.0)])
+    assert scatter.predictive == pytest.approx(np.array([[4.0 * 25.0 / 24.0]]))
 
 
 def test_a_shrunken_covariance_is_positive_and_keeps_its_variances() -> None:
@@ -75,7 +75,7 @@ def test_shrinkage_is_the_published_sum() -> None:
 def test_a_component_that_never_varies_has_no_scatter() -> None:
     sample = walks(24)
     sample[:, 0] = 0.5
-    found = Scatter.from_sample(range(25), sample, shrunk=True)
-    assert not found.covariance[0].any()
-    assert found.mean[0] == 0.5
-    assert np.linalg.eigvalsh(found.covariance[1:, 1:]).min() > 0.0
+    scatter = Scatter.from_sample(range(25), sample, shrunk=True)
+    assert not scatter.covariance[0].any()
+    assert scatter.mean[0] == 0.5
+    assert np.linalg.eigvalsh(scatter.covariance[1:, 1:]).min() > 0.0

@@ -41,15 +41,15 @@ def planted(curve: Curve, parameters: dict[str, float]) -> Curve:
 
 
 def test_a_sensor_acts_on_the_curves_it_measures_and_on_no_other() -> None:
-    plain, seen = beat_curves(beat()), beat_curves(beat(), [ImageShrinkage(0.2)])
-    changed = {name for name in plain if not (plain[name].values == seen[name].values).all()}
+    plain, distorted = beat_curves(beat()), beat_curves(beat(), [ImageShrinkage(0.2)])
+    changed = {name for name in plain if not (plain[name].values == distorted[name].values).all()}
     assert changed == {"lv_volume", "rv_volume"}
-    assert np.ptp(seen["lv_volume"].values) == pytest.approx(0.8 * np.ptp(plain["lv_volume"].values))
+    assert np.ptp(distorted["lv_volume"].values) == pytest.approx(0.8 * np.ptp(plain["lv_volume"].values))
 
 
 def test_time_zero_of_a_sensor_is_the_trigger() -> None:
-    seen = beat_curves(beat(), [ImageShrinkage(0.2)])["lv_volume"]
-    assert seen(0.0) == pytest.approx(volume(np.zeros(1))[0], rel=1e-9)
+    distorted = beat_curves(beat(), [ImageShrinkage(0.2)])["lv_volume"]
+    assert distorted(0.0) == pytest.approx(volume(np.zeros(1))[0], rel=1e-9)
 
 
 def test_sensors_act_one_after_the_other() -> None:
@@ -87,8 +87,8 @@ def test_planted_sensors_are_found(true: Curve, parameters: dict[str, float]) ->
 
 
 def test_without_distortion_nothing_is_found() -> None:
-    found = fit_sensors(TRUE, TRUE)
-    assert found == pytest.approx({"shrinkage": 0.0, "smoothing": 0.0, "delay": 0.0}, abs=1e-3)
+    sensors = fit_sensors(TRUE, TRUE)
+    assert sensors == pytest.approx({"shrinkage": 0.0, "smoothing": 0.0, "delay": 0.0}, abs=1e-3)
 
 
 def test_noise_scatters_what_is_found_about_the_truth() -> None:
@@ -100,9 +100,9 @@ def test_noise_scatters_what_is_found_about_the_truth() -> None:
         for _ in range(60)
     ]
     for name, value in parameters.items():
-        found = np.array([fit[name] for fit in fits])
-        assert abs(found.mean() - value) < 3.0 * found.std() / np.sqrt(len(fits)), name
-        assert found.std() < 0.1 * max(value, 0.1), name
+        estimates = np.array([fit[name] for fit in fits])
+        assert abs(estimates.mean() - value) < 3.0 * estimates.std() / np.sqrt(len(fits)), name
+        assert estimates.std() < 0.1 * max(value, 0.1), name
 
 
 def test_curves_of_different_periods_have_no_common_sensor() -> None:

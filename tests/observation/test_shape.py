@@ -20,24 +20,24 @@ def _turned(x: np.ndarray, angle: np.ndarray) -> np.ndarray:
 
 
 @pytest.fixture
-def seen(ventricle: VentricularMesh) -> Callable[[Callable], Shape]:
+def shape_of(ventricle: VentricularMesh) -> Callable[[Callable], Shape]:
     """The shape of a motion given, at a share (0 to 1) of its end, in coordinates along the ventricle's axes."""
     axes = LeftVentricularAxes.from_mesh(ventricle)
     frame = np.array([axes.septal, axes.anterior, axes.axis])
     local = (ventricle.points - axes.apex) @ frame.T
 
-    def look(moved: Callable[[np.ndarray, float], np.ndarray]) -> Shape:
-        positions = np.array([axes.apex + moved(local, share) @ frame for share in SHARE])
+    def look(move: Callable[[np.ndarray, float], np.ndarray]) -> Shape:
+        positions = np.array([axes.apex + move(local, share) @ frame for share in SHARE])
         return motion_shape(ventricle, Motion(0.1 * SHARE, 0.8, positions))
 
     return look
 
 
-def test_a_heart_that_only_moves_and_turns_has_no_shape_to_see(seen: Callable) -> None:
-    def moved(x: np.ndarray, share: float) -> np.ndarray:
+def test_a_heart_that_only_moves_and_turns_has_no_shape_to_see(shape_of: Callable) -> None:
+    def move(x: np.ndarray, share: float) -> np.ndarray:
         return _turned(x + np.array([0.0, 0.0, 0.01 * share]), np.full(len(x), 0.3 * share))
 
-    shape = seen(moved)
+    shape = shape_of(move)
     for quantity in (shape.shortening, shape.thickening, shape.twist):
         assert quantity == pytest.approx(np.zeros(8), abs=1e-9)
     assert shape.volume == pytest.approx(np.ones((8, 3)))
@@ -45,8 +45,8 @@ def test_a_heart_that_only_moves_and_turns_has_no_shape_to_see(seen: Callable) -
     assert shape.descent == pytest.approx(-0.01 * SHARE)
 
 
-def test_a_stretch_along_the_axis_is_shortening_and_descent(seen: Callable) -> None:
-    shape = seen(lambda x, share: x * [1.0, 1.0, 1.0 - 0.15 * share])
+def test_a_stretch_along_the_axis_is_shortening_and_descent(shape_of: Callable) -> None:
+    shape = shape_of(lambda x, share: x * [1.0, 1.0, 1.0 - 0.15 * share])
     assert shape.shortening == pytest.approx(0.15 * SHARE, rel=0.03)
     assert shape.volume == pytest.approx(np.tile(1.0 - 0.15 * SHARE, (3, 1)).T)
     assert shape.inward == pytest.approx(np.zeros(8), abs=1e-9)
@@ -54,9 +54,9 @@ def test_a_stretch_along_the_axis_is_shortening_and_descent(seen: Callable) -> N
 
 
 def test_a_heart_that_shrinks_evenly_does_so_in_every_quantity(
-    seen: Callable, ventricle: VentricularMesh
+    shape_of: Callable, ventricle: VentricularMesh
 ) -> None:
-    shape = seen(lambda x, share: x * (1.0 - 0.1 * share))
+    shape = shape_of(lambda x, share: x * (1.0 - 0.1 * share))
     assert shape.shortening == pytest.approx(0.1 * SHARE)
     assert shape.thickening == pytest.approx(-0.1 * SHARE)
     assert shape.volume == pytest.approx(np.tile((1.0 - 0.1 * SHARE) ** 3, (3, 1)).T)
@@ -68,14 +68,14 @@ def test_a_heart_that_shrinks_evenly_does_so_in_every_quantity(
 
 
 def test_a_torsion_is_twist_positive_counter_clockwise_seen_from_the_apex(
-    seen: Callable, ventricle: VentricularMesh
+    shape_of: Callable, ventricle: VentricularMesh
 ) -> None:
     length = LeftVentricularAxes.from_mesh(ventricle).length
 
-    def moved(x: np.ndarray, share: float) -> np.ndarray:
+    def move(x: np.ndarray, share: float) -> np.ndarray:
         return _turned(x, 0.4 * share * (x[:, 2] / length - 1.0))
 
-    shape = seen(moved)
+    shape = shape_of(move)
     assert shape.twist == pytest.approx(0.4 * 0.5 * SHARE, rel=0.15)
     assert shape.shortening == pytest.approx(np.zeros(8), abs=0.005)
 

@@ -38,32 +38,32 @@ def measured(frames: int = 25) -> dict[str, Curve]:
 def test_a_beat_and_its_own_frames_are_observed_alike() -> None:
     features = operators(measured())
     assert features["lv_volume"].frames == 25
-    found = observe(beat_curves(beat()), features)
-    assert found == pytest.approx(observe(measured(), features), rel=1e-3)
+    observed = observe(beat_curves(beat()), features)
+    assert observed == pytest.approx(observe(measured(), features), rel=1e-3)
 
 
 def test_pressure_is_observed_where_it_was_measured() -> None:
     curves = measured() | {"lv_pressure": beat_curves(beat())["lv_pressure"]}
-    found = observe(curves, operators(curves))
-    assert list(found) == ["V_min", "q_max", "q_min", "P_max", "dPdt_max", "dPdt_min"]
+    observed = observe(curves, operators(curves))
+    assert list(observed) == ["V_min", "q_max", "q_min", "P_max", "dPdt_max", "dPdt_min"]
     noisy = observe_measured(curves, operators(curves))
     assert [o.unit for o in noisy.observations] == ["m^3", "m^3/s", "m^3/s", "Pa", "Pa/s", "Pa/s"]
-    assert noisy.values == noisy.corrected == found
+    assert noisy.values == noisy.corrected == observed
     assert np.array_equal(noisy.covariance, np.diag([o.noise**2 for o in noisy.observations]))
 
 
 def test_a_noise_model_gives_bias_and_covariance() -> None:
     features = operators(measured())
-    found = observe_measured(measured(), features, 0.0, MODEL)
-    assert found.values == observe(measured(), features)
+    observed = observe_measured(measured(), features, 0.0, MODEL)
+    assert observed.values == observe(measured(), features)
     stroke = np.ptp(measured()["lv_volume"].values)
-    v_min, q_max, q_min = found.values.values()
+    v_min, q_max, q_min = observed.values.values()
     truths = [v_min - stroke * BIAS[0], q_max * np.exp(-BIAS[1]), q_min * np.exp(-BIAS[2])]
-    assert list(found.corrected.values()) == pytest.approx(truths)
+    assert list(observed.corrected.values()) == pytest.approx(truths)
     sizes = np.array([stroke, *truths[1:]])
-    assert found.covariance == pytest.approx(np.outer(sizes, sizes) * SPREAD * 25 / 24, rel=1e-12, abs=0.0)
-    assert [o.noise**2 for o in found.observations] == pytest.approx(
-        np.diag(found.covariance), rel=1e-12, abs=0.0
+    assert observed.covariance == pytest.approx(np.outer(sizes, sizes) * SPREAD * 25 / 24, rel=1e-12, abs=0.0)
+    assert [o.noise**2 for o in observed.observations] == pytest.approx(
+        np.diag(observed.covariance), rel=1e-12, abs=0.0
     )
 
 
@@ -72,8 +72,8 @@ def test_an_uncertain_period_adds_what_a_stretched_curve_shows() -> None:
     plain, uncertain = (observe_measured(measured(), features, p, MODEL) for p in (0.0, 0.05))
     curve = measured()["lv_volume"]
     longer, shorter = (
-        np.array(list(observe({"lv_volume": each}, features).values()))
-        for each in (replace(curve, times=curve.times * s, period=PERIOD * s) for s in (1.0001, 0.9999))
+        np.array(list(observe({"lv_volume": stretched}, features).values()))
+        for stretched in (replace(curve, times=curve.times * s, period=PERIOD * s) for s in (1.0001, 0.9999))
     )
     slope = np.exp(-BIAS) * (longer - shorter) / 2e-4
     added = uncertain.covariance - plain.covariance

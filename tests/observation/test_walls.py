@@ -55,8 +55,8 @@ def test_a_stop_in_late_ejection_is_no_flash() -> None:
 
 
 def test_a_heart_that_also_moves_as_a_whole_flashes_by_as_much() -> None:
-    moved = replace(walls(FLASHING), septal=curve(FLASHING) + 0.01)
-    flash = septal_flash(moved)
+    shifted = replace(walls(FLASHING), septal=curve(FLASHING) + 0.01)
+    flash = septal_flash(shifted)
     assert flash is not None
     assert flash.size == pytest.approx(4e-3)
 
@@ -67,9 +67,9 @@ def test_stretch_and_delay_are_those_of_the_curves() -> None:
 
 
 def test_the_beat_is_seen_starting_before_trigger_in_order() -> None:
-    seen = walls(FLASHING).starting_before_trigger()
-    assert seen.times == pytest.approx(TIMES - PRE_TRIGGER)
-    assert seen.septal[30:] == pytest.approx(curve(FLASHING)[:130])
+    motion = walls(FLASHING).starting_before_trigger()
+    assert motion.times == pytest.approx(TIMES - PRE_TRIGGER)
+    assert motion.septal[30:] == pytest.approx(curve(FLASHING)[:130])
 
 
 @pytest.mark.parametrize("shift", [0.002, -0.003])
@@ -78,18 +78,18 @@ def test_what_moves_to_the_left_moves_the_septum_inward_and_the_lateral_wall_out
 ) -> None:
     axes, share = LeftVentricularAxes.from_mesh(ventricle), np.linspace(0.0, 1.0, 10)
     positions = ventricle.points - shift * share[:, None, None] * axes.septal
-    seen = wall_motion(ventricle, Motion(0.08 * np.arange(10), PERIOD, positions))
-    assert seen.septal == pytest.approx(shift * share)
-    assert seen.lateral == pytest.approx(-shift * share)
-    assert seen.septal_strain == pytest.approx(np.zeros(10), abs=1e-12)
+    motion = wall_motion(ventricle, Motion(0.08 * np.arange(10), PERIOD, positions))
+    assert motion.septal == pytest.approx(shift * share)
+    assert motion.lateral == pytest.approx(-shift * share)
+    assert motion.septal_strain == pytest.approx(np.zeros(10), abs=1e-12)
 
 
 def test_what_shrinks_about_the_axis_shortens_both_walls_as_much(ventricle: VentricularMesh) -> None:
     axes, shares = LeftVentricularAxes.from_mesh(ventricle), np.linspace(0.0, 1.0, 10)
     away = axes.away(ventricle.points)
     positions = np.array([ventricle.points - 0.2 * share * away for share in shares])
-    seen = wall_motion(ventricle, Motion(0.08 * np.arange(10), PERIOD, positions))
+    motion = wall_motion(ventricle, Motion(0.08 * np.arange(10), PERIOD, positions))
     strain = 0.5 * ((1.0 - 0.2 * shares) ** 2 - 1.0)
-    for found in (seen.septal_strain, seen.lateral_strain):
-        assert found == pytest.approx(strain, abs=1e-9)
-    assert min(seen.septal[-1], seen.lateral[-1]) > 2e-3
+    for measured in (motion.septal_strain, motion.lateral_strain):
+        assert measured == pytest.approx(strain, abs=1e-9)
+    assert min(motion.septal[-1], motion.lateral[-1]) > 2e-3

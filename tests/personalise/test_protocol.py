@@ -39,11 +39,13 @@ def test_a_sigma_point_is_seen_through_the_sensors_of_its_own_parameters(smoothi
     operator = Operator(frames=FRAMES, window=3, order=2, period_uncertainty=0.0)
     measured = {"lv_volume": beat_curves(beat(), [ImageSmoothing(smoothing)])["lv_volume"].resampled(FRAMES)}
     noiseless = observe_measured(measured, operator.features(measured), 0.0).observations
-    exact = Measurement.independent([replace(each, noise=1e-4 * abs(each.value)) for each in noiseless])
+    exact = Measurement.independent(
+        [replace(observation, noise=1e-4 * abs(observation.value)) for observation in noiseless]
+    )
     points, beats = sigma_points(setting.gaussian()), [beat()] * 3
-    given = (setting.gaussian(), points, beats, measured, exact, operator, Transform(noise=True))
-    found = estimate(setting, *given).estimate.physical()["smoothing"]
-    assert found == pytest.approx(smoothing, rel=0.01)  # by one linear step from 15 ms
+    arguments = (setting.gaussian(), points, beats, measured, exact, operator, Transform(noise=True))
+    estimated_smoothing = estimate(setting, *arguments).estimate.physical()["smoothing"]
+    assert estimated_smoothing == pytest.approx(smoothing, rel=0.01)  # by one linear step from 15 ms
 
 
 def estimated(measurement: Measurement, noise: bool, slopes: Slopes | None = None) -> Posterior:
@@ -58,9 +60,9 @@ def estimated(measurement: Measurement, noise: bool, slopes: Slopes | None = Non
     operator = Operator(frames=FRAMES, window=3, order=2, period_uncertainty=0.0)
     measured = {"lv_volume": beat_curves(beat())["lv_volume"].resampled(FRAMES)}
     points = sigma_points(setting.gaussian())
-    given = points, [beat()] * len(points), measured, measurement, operator
+    arguments = points, [beat()] * len(points), measured, measurement, operator
     transform = Transform().with_noise() if noise else Transform()
-    return estimate(setting, setting.gaussian(), *given, transform, slopes)
+    return estimate(setting, setting.gaussian(), *arguments, transform, slopes)
 
 
 OBSERVATIONS = [
@@ -72,18 +74,20 @@ OBSERVATIONS = [
 
 def test_noise_takes_off_the_bias_and_weighs_by_the_whole_covariance_and_the_paper_does_neither() -> None:
     independent = Measurement.independent(OBSERVATIONS)
-    sd = np.array([each.noise for each in OBSERVATIONS])
+    sd = np.array([observation.noise for observation in OBSERVATIONS])
     correlation = np.array([[1.0, -0.3, 0.2], [-0.3, 1.0, -0.8], [0.2, -0.8, 1.0]])
     together = Measurement(OBSERVATIONS, correlation * np.outer(sd, sd))
     paper = estimated(independent, noise=False)
     assert paper.observed.tolist() == [6.0e-5, 4.5e-4, -4.2e-4]
     assert np.array_equal(estimated(together, noise=False).estimate.mean, paper.estimate.mean)
-    found = estimated(together, noise=True)
-    assert found.observed == pytest.approx([5.7e-5, 4.9e-4, -4.4e-4])
-    total = found.cov_zz + together.covariance
-    expected = found.cov_xz @ np.linalg.solve(total, found.observed - found.predicted)
-    assert found.estimate.mean - found.prior.mean == pytest.approx(expected)
-    assert estimated(independent, noise=True).estimate.mean != pytest.approx(found.estimate.mean, rel=1e-3)
+    posterior = estimated(together, noise=True)
+    assert posterior.observed == pytest.approx([5.7e-5, 4.9e-4, -4.4e-4])
+    total = posterior.cov_zz + together.covariance
+    expected = posterior.cov_xz @ np.linalg.solve(total, posterior.observed - posterior.predicted)
+    assert posterior.estimate.mean - posterior.prior.mean == pytest.approx(expected)
+    assert estimated(independent, noise=True).estimate.mean != pytest.approx(
+        posterior.estimate.mean, rel=1e-3
+    )
 
 
 def test_what_is_held_fixed_is_noise_where_noise_is_known_and_nothing_where_numbers_are_met() -> None:
@@ -91,11 +95,11 @@ def test_what_is_held_fixed_is_noise_where_noise_is_known_and_nothing_where_numb
     slopes = Slopes(
         ("sigma_0", "delay"), ("V_min", "q_max", "q_min"), np.array([[0.5, 0.2, -0.3], [9.0, 9.0, 9.0]])
     )
-    found = estimated(independent, True, slopes)
-    moved = 0.1 * np.array([0.5, 0.2, -0.3]) * found.observed
-    total = found.cov_zz + independent.covariance + np.outer(moved, moved)
-    expected = found.cov_xz @ np.linalg.solve(total, found.observed - found.predicted)
-    assert found.estimate.mean - found.prior.mean == pytest.approx(expected), (
+    posterior = estimated(independent, True, slopes)
+    offset = 0.1 * np.array([0.5, 0.2, -0.3]) * posterior.observed
+    total = posterior.cov_zz + independent.covariance + np.outer(offset, offset)
+    expected = posterior.cov_xz @ np.linalg.solve(total, posterior.observed - posterior.predicted)
+    assert posterior.estimate.mean - posterior.prior.mean == pytest.approx(expected), (
         "delay is estimated, so not fixed"
     )
     met, plain = estimated(independent, False, slopes), estimated(independent, False)

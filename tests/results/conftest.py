@@ -35,16 +35,16 @@ GROUPS = Groups(("volunteer1", "volunteer2", "volunteer3", "volunteer4"), ("real
 
 
 def _posterior(
-    prior: Gaussian, truth: Mapping[str, float], seen: Sequence[str], noise: np.ndarray | None
+    prior: Gaussian, truth: Mapping[str, float], observed: Sequence[str], noise: np.ndarray | None
 ) -> Posterior:
-    slopes = np.array([SLOPES[name] for name in prior.names])[:, : len(seen)]
+    slopes = np.array([SLOPES[name] for name in prior.names])[:, : len(observed)]
     observe = {
-        point.label: dict(zip(seen, np.exp((point.z - prior.mean) @ slopes), strict=True))
+        point.label: dict(zip(observed, np.exp((point.z - prior.mean) @ slopes), strict=True))
         for point in sigma_points(prior)
     }
     true = np.log([truth[name] for name in prior.names]) - prior.mean
     return calibrate(
-        prior, list(observe.values()), dict(zip(seen, np.exp(true @ slopes), strict=True)), noise
+        prior, list(observe.values()), dict(zip(observed, np.exp(true @ slopes), strict=True)), noise
     )
 
 
@@ -52,12 +52,15 @@ def card(case: str, setting: str = "physical") -> Card:
     """Four parameters from three observations of a volunteer, seven from six of a patient."""
     sick = case in GROUPS.patients
     names = list(SLOPES)[: 7 if sick else 4]
-    seen = OBSERVATIONS[: 6 if sick else 3]
+    observed = OBSERVATIONS[: 6 if sick else 3]
     prior = Gaussian.from_relative({name: MEANS[name] for name in names}, dict.fromkeys(names, 0.25))
     ratios = dict(zip(SLOPES, (*TRUTHS.get(case, (1.0,) * 4), 1.0, 1.0, 1.0), strict=True))
     truth = {name: 0.9 * MEANS[name] * ratio for name, ratio in ratios.items()}
-    noise = np.diag(np.square(NOISE[: len(seen)]))
-    noise_free, noise_aware = _posterior(prior, truth, seen, None), _posterior(prior, truth, seen, noise)
+    noise = np.diag(np.square(NOISE[: len(observed)]))
+    noise_free, noise_aware = (
+        _posterior(prior, truth, observed, None),
+        _posterior(prior, truth, observed, noise),
+    )
     return Card(case, setting, noise_free, noise_aware, truth if case in TRUTHS else {})
 
 

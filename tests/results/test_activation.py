@@ -22,7 +22,7 @@ def square(depth: float, normal: float) -> np.ndarray:
 
 
 def texts(figure: Figure) -> list[str]:
-    return [text.get_text() for text in figure.findobj(lambda each: hasattr(each, "get_text"))]
+    return [text.get_text() for text in figure.findobj(lambda artist: hasattr(artist, "get_text"))]
 
 
 def test_uniform_times_stay_uniform(ventricle: VentricularMesh) -> None:
@@ -44,8 +44,11 @@ def test_near_polygons_are_painted_last_and_those_that_face_away_not_at_all() ->
 def test_a_half_lies_behind_its_cut_and_is_closed(ventricle: VentricularMesh) -> None:
     times, normal, origin = nodal_means(ventricle), np.array([0.0, 1.0, 0.0]), ventricle.points.mean(axis=0)
     polygons = cut_surface(ventricle, times, origin, normal)
-    assert max(((each[:, :3] - origin) @ normal).max() for each in polygons) < 1e-12
-    assert np.abs(sum(area_vector(each[:, :3], each[:, 4:7].mean(axis=0)) for each in polygons)).max() < 1e-12
+    assert max(((polygon[:, :3] - origin) @ normal).max() for polygon in polygons) < 1e-12
+    assert (
+        np.abs(sum(area_vector(polygon[:, :3], polygon[:, 4:7].mean(axis=0)) for polygon in polygons)).max()
+        < 1e-12
+    )
     assert len(polygons) < len(wall_polygons(ventricle, times))
 
 

@@ -39,7 +39,7 @@ def test_the_best_predictor_of_the_left_volume_comes_first() -> None:
 def test_the_figure_has_a_panel_for_each_judge_and_colours_what_surely_helps() -> None:
     volume, *panels = plot_attempts(ATTEMPTS, "patient1").axes
     assert len(panels) == 3
-    assert [each.get_text() for each in panels[0].get_yticklabels()] == [
+    assert [label.get_text() for label in panels[0].get_yticklabels()] == [
         "atrial surge",
         "septal load",
         "base descent",
@@ -52,10 +52,10 @@ def test_the_figure_has_a_panel_for_each_judge_and_colours_what_surely_helps() -
 def test_an_attempt_is_read_as_it_was_written(tmp_path: Path) -> None:
     path = tmp_path / "trial.json"
     write_attempt(path, ATTEMPTS[1], "0123")
-    found = read_attempt(path)
-    assert found.gain == ATTEMPTS[1].gain
-    assert found.refitted.extension[0].interval == (0.2e3, 0.8e3)
-    assert np.isnan(found.refitted.extension[0].ln_bayes_factor)
-    assert found.traces[0].times == pytest.approx(TIMES)
+    restored = read_attempt(path)
+    assert restored.gain == ATTEMPTS[1].gain
+    assert restored.refitted.extension[0].interval == (0.2e3, 0.8e3)
+    assert np.isnan(restored.refitted.extension[0].ln_bayes_factor)
+    assert restored.traces[0].times == pytest.approx(TIMES)
     with pytest.raises(InputError, match="absent"):
         read_attempt(tmp_path / "absent.json")

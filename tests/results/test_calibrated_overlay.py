@@ -15,7 +15,7 @@ from tests.results.imaged_beat import SYSTOLE, beating, images
 GLIDE = np.array([0.0, 0.0, 2e-3])
 
 
-def moved(motion: Motion) -> Motion:
+def shifted(motion: Motion) -> Motion:
     """Half of the glide, all of it at end systole."""
     share = np.full(len(motion.times), 0.5)
     share[SYSTOLE] = 1.0
@@ -23,7 +23,7 @@ def moved(motion: Motion) -> Motion:
 
 
 def test_each_motion_is_drawn_in_its_colour_and_phase(ventricle: VentricularMesh) -> None:
-    motions = {REGISTERED: beating(ventricle), CALIBRATED: moved(beating(ventricle))}
+    motions = {REGISTERED: beating(ventricle), CALIBRATED: shifted(beating(ventricle))}
     figure = plot_overlay(images(ventricle), ventricle, *motions.values(), "a heart")
     views = Overlay(images(ventricle), ventricle, motions[REGISTERED]).views.values()
     panels = [(view, phase) for phase in (0, SYSTOLE) for view in views]
@@ -40,7 +40,7 @@ def test_the_title_says_how_far_apart_they_are(ventricle: VentricularMesh) -> No
     motion = beating(ventricle)
     same = plot_overlay(images(ventricle), ventricle, motion, motion, "a heart")
     assert numbers_in(same.get_suptitle()) == [0.0, 0.0]
-    other = plot_overlay(images(ventricle), ventricle, motion, moved(motion), "a heart").get_suptitle()
+    other = plot_overlay(images(ventricle), ventricle, motion, shifted(motion), "a heart").get_suptitle()
     mean, most = numbers_in(other)
     assert 0.3 < mean < 1.5 < most <= 2.0
 

@@ -45,16 +45,16 @@ def test_coverage_counts_hearts_with_a_truth(cohort):
         replace(card, truth={name: 1e3 * value for name, value in card.truth.items()}) for card in cohort[:2]
     ]
     table = coverage_table([*wrong, *cohort[2:]]).set_index(["posterior", "parameter"])
-    found = table.loc[("noise and fixed", POOLED)]
-    assert found["hearts"] == 6, "the measured heart has no truth"
-    assert found["covered (%)"] == pytest.approx(100 * 4 / 6, abs=0.1)
-    assert found["from (%)"] < found["covered (%)"] < found["to (%)"]
+    row = table.loc[("noise and fixed", POOLED)]
+    assert row["hearts"] == 6, "the measured heart has no truth"
+    assert row["covered (%)"] == pytest.approx(100 * 4 / 6, abs=0.1)
+    assert row["from (%)"] < row["covered (%)"] < row["to (%)"]
     assert table.loc[("noise and fixed", "tau"), "hearts"] == 2
 
 
 def test_no_estimate_is_held_against_a_true_K():
-    made = cards([("v", "paper")], [None], [None], {"v": {"K": 1.0, "mu": 2.0}})  # type: ignore[list-item]
-    assert made[0].truth == {"mu": 2.0}
+    table = cards([("v", "paper")], [None], [None], {"v": {"K": 1.0, "mu": 2.0}})  # type: ignore[list-item]
+    assert table[0].truth == {"mu": 2.0}
 
 
 def test_the_figure_shows_each_parameter_and_direction(cohort):

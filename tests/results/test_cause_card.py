@@ -87,7 +87,7 @@ def test_a_curve_that_departs_and_was_not_searched_is_excepted():
     searched = replace(departing, unsearched={})
     assert CURVES["rv_volume"] in verdict_sentence(departing)
     assert CURVES["rv_volume"] not in verdict_sentence(searched)
-    titles = [plot_cause(found).axes[1].get_title() for found in (departing, searched)]
+    titles = [plot_cause(cause).axes[1].get_title() for cause in (departing, searched)]
     assert titles[0] != titles[1]
     assert [numbers_in(title) for title in titles] == [[4.7], [4.7]]
 

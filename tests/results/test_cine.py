@@ -41,7 +41,7 @@ def cine() -> CineComparison:
     at_rest = np.zeros((FRAMES, 4, 3))
     wall = WallPoints(1, NORMAL, at_rest, at_rest + steps, np.tile([1.0, 0.0, 0.0], (4, 1)))
     values = {"surface": TRUE * 5e-3, "cut": TRUE * 5e-3 + 2e-6, "registered": FOUND * 5e-3}
-    volumes = {name: Curve.of_volume(0.1 * np.arange(FRAMES), each, 0.8) for name, each in values.items()}
+    volumes = {name: Curve.of_volume(0.1 * np.arange(FRAMES), volume, 0.8) for name, volume in values.items()}
     outlines = [outline("lv_endo", np.ones(FRAMES, bool)), outline("rv_endo", inside)]
     return CineComparison(outlines, [wall], volumes, ES)
 

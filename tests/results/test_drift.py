@@ -27,10 +27,10 @@ def tolerances(*rows: tuple[str, str, float, float]) -> pd.DataFrame:
 
 
 def test_what_is_within_its_tolerance_passes():
-    found = require_no_drift(
+    drift = require_no_drift(
         NUMBERS, tolerances(("mean of 7", "V_min", 1.5, 0.21), ("v1", "V_min", 0.4, 0.0))
     )
-    assert found["measured"].tolist() == [1.3, 0.4]
+    assert drift["measured"].tolist() == [1.3, 0.4]
 
 
 def test_all_that_drifted_or_is_missing_is_listed_with_advice():
@@ -52,10 +52,10 @@ def test_a_number_that_is_none_drifted():
 
 
 def test_renewing_keeps_rows_tolerances_and_what_is_not_there():
-    found = renew_tolerances(NUMBERS, tolerances(("v1", "V_min", 9.0, 0.1), ("v9", "V_min", 1.0, 0.2)))
-    assert list(found.columns) == TOLERANCE_COLUMNS
-    assert found["expected"].tolist() == [0.4, 1.0]
-    assert found["tolerance"].tolist() == [0.1, 0.2]
+    renewed = renew_tolerances(NUMBERS, tolerances(("v1", "V_min", 9.0, 0.1), ("v9", "V_min", 1.0, 0.2)))
+    assert list(renewed.columns) == TOLERANCE_COLUMNS
+    assert renewed["expected"].tolist() == [0.4, 1.0]
+    assert renewed["tolerance"].tolist() == [0.1, 0.2]
 
 
 @pytest.mark.parametrize("table", [tolerances(), tolerances(("v1", "V_min", 1.0, 0.1)).drop(columns="why")])

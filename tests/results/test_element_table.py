@@ -14,12 +14,12 @@ PRESSURE = Curve(TIMES, 8e3 - 7e3 * np.cos(2.0 * np.pi * TIMES / 0.8), 0.8)
 CURVES = {"lv_volume": VOLUME, "lv_pressure": PRESSURE}
 
 
-def rival(name, evidence, contractility, gains=()):
+def comparison(name, evidence, contractility, gains=()):
     return CompetingModel(name, evidence, 80.0, 57, 23, {"sigma_0": contractility}, CURVES, gains)
 
 
 GAIN = Gain("lv_volume", "frames", 2e-6, 1e-6, 0.5, (0.4, 0.7))
-RIVALS = [rival("p1", -60.0, 330e3), rival("mixed", -40.0, 255e3, (GAIN,))]
+RIVALS = [comparison("p1", -60.0, 330e3), comparison("mixed", -40.0, 255e3, (GAIN,))]
 
 
 def test_what_a_rival_gains_is_told_beside_none():

@@ -7,27 +7,27 @@ from heartfit.results.specificity import permutation_test
 
 
 def test_two_patients_below_seven_volunteers_are_one_of_thirty_six():
-    found = permutation_test([-2.0, -1.5], [0.1, 0.2, -0.3, 0.0, 0.4, -0.1, 0.3])
-    assert found.labelings == 36
-    assert found.p == found.less == pytest.approx(1 / 36)
-    assert found.greater == 1.0
-    assert found.difference == pytest.approx(-1.75 - 0.6 / 7)
+    test = permutation_test([-2.0, -1.5], [0.1, 0.2, -0.3, 0.0, 0.4, -0.1, 0.3])
+    assert test.labelings == 36
+    assert test.p == test.less == pytest.approx(1 / 36)
+    assert test.greater == 1.0
+    assert test.difference == pytest.approx(-1.75 - 0.6 / 7)
 
 
 def test_labelings_that_are_as_extreme_count():
-    found = permutation_test([1.0], [2.0, 3.0, 4.0])
-    assert (found.less, found.greater, found.p) == (0.25, 1.0, 0.5), "4 is as far above as 1 is below"
+    test = permutation_test([1.0], [2.0, 3.0, 4.0])
+    assert (test.less, test.greater, test.p) == (0.25, 1.0, 0.5), "4 is as far above as 1 is below"
 
 
 def test_equal_members_say_nothing():
-    found = permutation_test([0.1, 0.1], [0.1] * 5)
-    assert (found.p, found.less, found.greater) == (1.0, 1.0, 1.0)
+    test = permutation_test([0.1, 0.1], [0.1] * 5)
+    assert (test.p, test.less, test.greater) == (1.0, 1.0, 1.0)
 
 
 def test_p_of_labels_at_random_is_uniform_enough():
     random = np.random.default_rng(5)
-    found = [permutation_test(x[:2], x[2:]).p for x in random.standard_normal((300, 6))]
-    assert np.mean(np.array(found) <= 0.2) == pytest.approx(0.2, abs=0.07)
+    p_values = [permutation_test(x[:2], x[2:]).p for x in random.standard_normal((300, 6))]
+    assert np.mean(np.array(p_values) <= 0.2) == pytest.approx(0.2, abs=0.07)
 
 
 def test_an_empty_group_is_refused():

@@ -24,9 +24,9 @@ from heartfit.synthetic.trial import CONDITION, VOLUME, ScoredDiagnosis
 from tests.printed import numbers_in, outside_tables
 
 
-def scored(seed, kind, planted, verdict, said=(), size=1e-5):
+def scored(seed, kind, planted, verdict, names=(), size=1e-5):
     effects = tuple(Effect(name, 2.0 * size, 0.0, "m^2", 2.0) for name in planted)
-    named = tuple(Cause(name, 9.0, 1.8 * size, "m^2", (1.5 * size, 2.5 * size)) for name in said)
+    named = tuple(Cause(name, 9.0, 1.8 * size, "m^2", (1.5 * size, 2.5 * size)) for name in names)
     ranking = {"Leak": 9.0, "unknown": 2.0}
     gain = {"lv_pressure": 0.5} if named else {}
     return Scored(
@@ -106,9 +106,9 @@ def test_claims_that_the_counts_allow_are_held():
 
 def test_refuted_claims_are_told_one_a_line():
     many = [scored(seed, "none", (), "unknown") for seed in range(6)]
-    with pytest.raises(ClaimError, match=r"false alarms of nulls.* 6 of 6.* at most 0\.06") as told:
+    with pytest.raises(ClaimError, match=r"false alarms of nulls.* 6 of 6.* at most 0\.06") as error:
         require_claims(many, claims(("false alarms of nulls", 0.06, "at most")))
-    assert len(str(told.value).splitlines()) == 2
+    assert len(str(error.value).splitlines()) == 2
 
 
 @pytest.mark.parametrize("row", [("no rate", 0.1, "at most"), ("false alarms of nulls", 0.1, "about")])

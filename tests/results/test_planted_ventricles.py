@@ -11,9 +11,9 @@ from heartfit.synthetic.trial import ScoredDiagnosis
 from tests.printed import numbers_in, outside_tables
 
 
-def scored(seed, planted, verdict, said=()):
+def scored(seed, planted, verdict, names=()):
     effects = tuple(Effect(name, 2e-5, 0.0, "m^2", 2.5) for name in planted)
-    named = tuple(Cause(name, 90.0, 1.5e-5, "m^2", (1e-5, 3e-5)) for name in said)
+    named = tuple(Cause(name, 90.0, 1.5e-5, "m^2", (1e-5, 3e-5)) for name in names)
     answer = Answer(seed, "single" if planted else "none", effects, {}, {}, 0.02)
     return Scored(answer, ScoredDiagnosis(verdict, named, {"Leak": 90.0 if planted else 1.0}, {}, 3000, 20.0))
 
@@ -37,8 +37,8 @@ def test_the_page_tells_cases_seeds_and_amplitudes():
 
 def test_only_effects_above_their_limit_count_against_the_target():
     below = DetectableSizes({("Leak", 1.0): 3.0})
-    said = ventricles_rates(CASES, LEAST).set_index("rate")
-    assert said.loc["singles above their limit, named right", "count"] == "1 of 2"
+    rates = ventricles_rates(CASES, LEAST).set_index("rate")
+    assert rates.loc["singles above their limit, named right", "count"] == "1 of 2"
     assert "singles above their limit, named right" not in set(ventricles_rates(CASES, below)["rate"])
     assert "| 2.0 " in ventricles_page(CASES, 26, LEAST)
 

@@ -33,17 +33,17 @@ N, M = len(PAPER_PARAMETERS), len(OBSERVED)
 def sensitivity() -> Sensitivity:
     """The paper's four drive one observation each, the rest next to nothing; c_1 repeats sigma_0."""
     prior = Gaussian.from_relative(dict.fromkeys(PAPER_PARAMETERS, 1e3), dict.fromkeys(PAPER_PARAMETERS, 0.2))
-    moved = 0.01 * np.random.default_rng(0).standard_normal((N, M))
+    slopes = 0.01 * np.random.default_rng(0).standard_normal((N, M))
     for column, name in enumerate(("sigma_0", "mu", "R_p", "k_RS", "k_ATP", "alpha")):
-        moved[PAPER_PARAMETERS.index(name), column] = 1.0
-    moved[PAPER_PARAMETERS.index("c_1")] = 0.9 * moved[PAPER_PARAMETERS.index("sigma_0")]
-    scale = np.linalg.norm(moved, axis=0)
-    return Sensitivity(prior, OBSERVED, np.ones(M), moved / scale, moved / 0.2)
+        slopes[PAPER_PARAMETERS.index(name), column] = 1.0
+    slopes[PAPER_PARAMETERS.index("c_1")] = 0.9 * slopes[PAPER_PARAMETERS.index("sigma_0")]
+    scale = np.linalg.norm(slopes, axis=0)
+    return Sensitivity(prior, OBSERVED, np.ones(M), slopes / scale, slopes / 0.2)
 
 
 def ranges() -> Plausible:
-    each = [PlausibleRange(name, 1e3, End(0.5, "EF"), End(2.0, "cap")) for name in PAPER_PARAMETERS]
-    return Plausible(tuple(each), ("dPdt_min",))
+    intervals = [PlausibleRange(name, 1e3, End(0.5, "EF"), End(2.0, "cap")) for name in PAPER_PARAMETERS]
+    return Plausible(tuple(intervals), ("dPdt_min",))
 
 
 def indices() -> SobolIndices:
@@ -70,8 +70,8 @@ def test_what_the_bulk_modulus_does_stands_in_per_cent_of_a_per_cent() -> None:
 
 
 def test_the_rule_prefers_what_is_independent_and_sets_are_ranked() -> None:
-    found, plausible = {"physical": sensitivity()}, {"physical": ranges()}
-    table = selection_table(found, plausible, {"physical": (FOUR, SEVEN)})
+    sensitivities, plausible = {"physical": sensitivity()}, {"physical": ranges()}
+    table = selection_table(sensitivities, plausible, {"physical": (FOUR, SEVEN)})
     rule = table[table["chosen by"] == "rule"]
     assert rule["parameters"].iloc[0] == "R_p, mu, sigma_0, c_1"
     assert set(rule["parameters"].iloc[1].split(", ")) >= {"k_RS", "k_ATP", "alpha"}
@@ -114,11 +114,11 @@ def test_indices_say_that_a_sphere_has_no_bulk_modulus_and_what_was_lost() -> No
 
 
 def test_figures_are_drawn(tmp_path: Path) -> None:
-    found = sensitivity()
-    heat = plot_sensitivities(found, "volunteer1, physical setting")
+    example = sensitivity()
+    heat = plot_sensitivities(example, "volunteer1, physical setting")
     assert len(heat.axes[1].patches) == 4
     assert len(heat.axes[2].patches) == 7
-    bars = plot_sobol(indices(), {"paper": found, "physical": found})
+    bars = plot_sobol(indices(), {"paper": example, "physical": example})
     write_figure(tmp_path / "heat.png", heat)
     write_figure(tmp_path / "sobol.pdf", bars)
 

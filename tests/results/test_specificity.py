@@ -61,8 +61,8 @@ def test_a_difference_that_the_data_do_not_see_is_warned_of(cohort, groups):
     assert table["seen"].dropna().tolist() == pytest.approx([0.0] * 19, abs=1e-9), (
         "nothing is left of what was unshrunk"
     )
-    seen = specificity_table(compare_groups(cohort, groups))
-    assert (seen["warning"] == "").all()
+    informed = specificity_table(compare_groups(cohort, groups))
+    assert (informed["warning"] == "").all()
 
 
 def test_both_claims_hold_in_truth_and_one_does_not_where_the_prior_pulls(compared):
@@ -84,11 +84,11 @@ def test_K_is_held_against_the_true_stiffness(cohort, groups):
         )
         return replace(card, noise_free=noise_free, noise_aware=noise_aware)
 
-    found = compare_groups([renamed(card) for card in cohort], groups)[0]
-    assert found.ratios("truth", "K") == pytest.approx(
+    comparison = compare_groups([renamed(card) for card in cohort], groups)[0]
+    assert comparison.ratios("truth", "K") == pytest.approx(
         compare_groups(cohort, groups)[0].ratios("truth", "c_1")
     )
-    assert "K of lbbb2 above" in claims_table([found])["claim"].tolist()
+    assert "K of lbbb2 above" in claims_table([comparison])["claim"].tolist()
 
 
 def test_one_patient_and_one_volunteer_are_compared_as_well(cohort, groups):

@@ -164,26 +164,26 @@ def record(calibrated: dict[str, Curve]) -> CaseResult:
 
 
 def test_a_record_takes_everything_from_the_posterior_and_the_curves() -> None:
-    found = record(wave(late=0.02))
-    assert found.shift == pytest.approx(0.02, abs=1e-3)
-    assert found.root_mean_square["lv_volume"] < 0.1e-6
-    assert found.reference_root_mean_square["lv_volume"] == pytest.approx(10e-6 / np.sqrt(2), rel=1e-2)
-    assert (found.failed_points, found.sigma_points) == (1, 7)
-    assert found.prior == pytest.approx({"sigma_0": 240e3, "mu": 7e3, "R_p": 1.14e8})
-    assert "R_p-" in found.notes[0]
-    assert found.reference_errors()["q_max"] == pytest.approx(-20, abs=0.1)
-    assert abs(found.errors()["V_min"]) < 1
-    assert found.guards["wall_volume_loss"] == 0.02
-    assert found.guards["lv_EDV_error_percent"] == pytest.approx(0.0, abs=0.05), "a late beat is as large"
+    row = record(wave(late=0.02))
+    assert row.shift == pytest.approx(0.02, abs=1e-3)
+    assert row.root_mean_square["lv_volume"] < 0.1e-6
+    assert row.reference_root_mean_square["lv_volume"] == pytest.approx(10e-6 / np.sqrt(2), rel=1e-2)
+    assert (row.failed_points, row.sigma_points) == (1, 7)
+    assert row.prior == pytest.approx({"sigma_0": 240e3, "mu": 7e3, "R_p": 1.14e8})
+    assert "R_p-" in row.notes[0]
+    assert row.reference_errors()["q_max"] == pytest.approx(-20, abs=0.1)
+    assert abs(row.errors()["V_min"]) < 1
+    assert row.guards["wall_volume_loss"] == 0.02
+    assert row.guards["lv_EDV_error_percent"] == pytest.approx(0.0, abs=0.05), "a late beat is as large"
     smaller = record(wave(size=40e-6)).guards
     assert smaller["lv_EDV_error_percent"] == pytest.approx(-100 * 10 / 170, rel=0.01)
     assert smaller["lv_ESV_error_percent"] == pytest.approx(100 * 10 / 70, rel=0.01)
 
 
 def test_a_failed_verification_is_a_row_without_errors() -> None:
-    found = record({})
-    assert np.isnan(list(found.errors().values())).all()
-    assert "nan" not in to_markdown(error_table([found], PAPER_ERRORS, HEALTHY))
+    row = record({})
+    assert np.isnan(list(row.errors().values())).all()
+    assert "nan" not in to_markdown(error_table([row], PAPER_ERRORS, HEALTHY))
 
 
 def test_plausibility_prints_what_the_record_holds():

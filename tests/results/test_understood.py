@@ -33,9 +33,9 @@ def test_all_that_was_read_is_drawn(ventricle: VentricularMesh) -> None:
     pressure = AveragedPressure(curve, np.tile(curve.values, (3, 1)), np.array([True, False, True]))
     heart = ImportedCase("mine", "healthy", ventricle, beating(ventricle), images(ventricle), pressure)
     figure = plot_imported_case(heart)
-    said = texts(figure)
-    assert [text for text in said if 300.0 in numbers_in(text)], "end systole is at 300 ms"
-    assert [text for text in said if numbers_in(text) == [2.0, 3.0]], "two of three beats are kept"
+    labels = texts(figure)
+    assert [text for text in labels if 300.0 in numbers_in(text)], "end systole is at 300 ms"
+    assert [text for text in labels if numbers_in(text) == [2.0, 3.0]], "two of three beats are kept"
     drawn = figure.axes[3].collections
     assert all(isinstance(part, LineCollection) and part.get_segments() for part in drawn)
 

@@ -21,10 +21,10 @@ def walls(septal: np.ndarray) -> WallMotion:
     return WallMotion(TIMES, septal, 5e-3 * WAVE, -0.2 * WAVE, -0.1 * WAVE, (150.0 - 70.0 * EJECTED) * 1e-6)
 
 
-def shape(each: WallMotion) -> pd.DataFrame:
+def shape(motion: WallMotion) -> pd.DataFrame:
     """The columns of a calibrated shape that its walls need."""
-    rest = pd.DataFrame({"time (s)": each.times, "LV volume (mL)": 1e6 * each.cavity})
-    return rest.join(walls_table(each))
+    rest = pd.DataFrame({"time (s)": motion.times, "LV volume (mL)": 1e6 * motion.cavity})
+    return rest.join(walls_table(motion))
 
 
 def test_a_calibrated_flash_is_that_of_the_file(tmp_path: Path) -> None:
@@ -33,10 +33,10 @@ def test_a_calibrated_flash_is_that_of_the_file(tmp_path: Path) -> None:
     (motions,) = walls_by_case(["lbbb1"], ["physical"], [walls(FLASH)], [walls(WAVE)], calibrated).values()
     assert list(motions) == ["true", "registered", "physical"]
     assert motions["physical"].lateral_strain == pytest.approx(motions["true"].lateral_strain, abs=1e-6)
-    found, true = septal_flash(motions["physical"]), septal_flash(motions["true"])
-    assert found is not None
+    fitted, true = septal_flash(motions["physical"]), septal_flash(motions["true"])
+    assert fitted is not None
     assert true is not None
-    assert found.size == pytest.approx(true.size, rel=1e-4)
+    assert fitted.size == pytest.approx(true.size, rel=1e-4)
     assert "LV volume (mL)" in COLUMNS
 
 

@@ -11,7 +11,7 @@ mathml, navigation, prose = map(import_module, ("mathml", "navigation", "prose")
 
 
 @pytest.mark.parametrize(
-    ("said", "kept"),
+    ("text", "kept"),
     [
         ("a rate |u|_+ of n * m", r"a rate \|u\|_+ of n \* m"),
         ("the stress u_ at the end", r"the stress u\_ at the end"),
@@ -19,8 +19,8 @@ mathml, navigation, prose = map(import_module, ("mathml", "navigation", "prose")
         ("k_RS and k_0", "k_RS and k_0"),
     ],
 )
-def test_marks_of_prose_are_kept_and_those_of_roles_left(said, kept):
-    assert prose.plain(said) == kept
+def test_marks_of_prose_are_kept_and_those_of_roles_left(text, kept):
+    assert prose.plain(text) == kept
 
 
 def test_a_formula_of_a_docstring_is_left():

@@ -161,9 +161,9 @@ class Lab:
             "log-file": "log",
         }
         options = [f"--{option}={munge / name}" for option, name in files.items()]
-        with (self.folder / "munged.log").open("wb") as said:  # what it tells in the foreground
+        with (self.folder / "munged.log").open("wb") as log:  # what it tells in the foreground
             command = ["munged", "--foreground", *options]
-            self.munged = subprocess.Popen(command, user="munge", group="munge", stderr=said)
+            self.munged = subprocess.Popen(command, user="munge", group="munge", stderr=log)
         await_that((munge / "socket").exists, "munge's socket")
 
 

@@ -57,8 +57,8 @@ class Study:
 
     def share(self) -> int:
         """How much of it is done, %."""
-        done = [int(found[1]) for line in self.lines if (found := DONE.search(line))]
-        return done[-1] if done else 0
+        shares = [int(match[1]) for line in self.lines if (match := DONE.search(line))]
+        return shares[-1] if shares else 0
 
     def restarts(self) -> int:
         """How many jobs Snakemake tried again."""
@@ -69,14 +69,14 @@ def main(arguments: list[str]) -> int:
     """Say what was lost and what came of it; 0 if all of it ran again, the study is complete and its tables right."""
     parser = argparse.ArgumentParser(prog="python -m tests.slurm", description=__doc__)
     parser.add_argument("--cpus", type=int, default=len(os.sched_getaffinity(0)), help="of the node")
-    given, rest = parser.parse_known_args(arguments)
+    options, rest = parser.parse_known_args(arguments)
     if not rest:
         shutil.rmtree(RESULTS, ignore_errors=True)
     try:
         install()
-        with lab(given.cpus) as slurm:
+        with lab(options.cpus) as slurm:
             trial(slurm, rest or list(TINY))
-        return len(differing(given.cpus)) if not rest else 0
+        return len(differing(options.cpus)) if not rest else 0
     except LabError as problem:
         say(str(problem))
         return 1

@@ -118,8 +118,8 @@ def test_the_sensors_of_a_setting_have_the_parameters_of_the_beat_they_look_at(c
         "heart": {"shrinkage": -0.05},
     }
     setting = validate(Study, content, "config.yaml").setting("physical")
-    seen = setting.sensors({"smoothing": 0.04, "sigma_0": 2e5})
-    assert seen == (ImageSmoothing(0.04), ImageShrinkage(-0.05))
+    sensors = setting.sensors({"smoothing": 0.04, "sigma_0": 2e5})
+    assert sensors == (ImageSmoothing(0.04), ImageShrinkage(-0.05))
 
 
 def test_the_prior_of_a_setting_stands_over_the_study_s_over_the_declared_one(content):
@@ -256,13 +256,13 @@ def test_the_schema_is_in_step():
 
 def test_hearts_of_the_sphere_study_are_seen_by_volume_or_by_both(content):
     study = validate(Study, content, "config.yaml")
-    twins = study.known_hearts()
-    assert {name: len(each.prior.names) for name, each in twins.items()} == {
+    hearts = study.known_hearts()
+    assert {name: len(heart.prior.names) for name, heart in hearts.items()} == {
         "volume": 4,
         "volume and pressure": 7,
     }
-    assert [len(each.noise) for each in twins.values()] == [3, 6]
-    assert twins["volume"].model.cavity == study.sphere_study.cavity
+    assert [len(heart.noise) for heart in hearts.values()] == [3, 6]
+    assert hearts["volume"].model.cavity == study.sphere_study.cavity
 
 
 def test_a_sphere_study_tells_the_noise_of_every_observation(content):

@@ -22,7 +22,7 @@ def content():
 
 
 @pytest.mark.parametrize(
-    ("table", "made", "kind"),
+    ("table", "record", "kind"),
     [
         (Acquisition(), Acquisition().scanner(), Scanner),
         (PressureLine(), PressureLine().catheter(), Catheter),
@@ -30,8 +30,8 @@ def content():
         (ImageContrast(), Contrast(**ImageContrast().model_dump()), Contrast),
     ],
 )
-def test_every_knob_is_in_the_configuration_with_its_own_default(table, made, kind):
-    assert made == kind()
+def test_every_knob_is_in_the_configuration_with_its_own_default(table, record, kind):
+    assert record == kind()
     assert {field.name for field in fields(kind)} <= set(type(table).model_fields)
 
 
@@ -46,7 +46,7 @@ def test_other_acquisitions_differ_from_the_cohort_s_in_one_setting():
 
 
 @pytest.mark.parametrize(
-    ("table", "change", "said"),
+    ("table", "change", "message"),
     [
         (
             "registration_error",
@@ -59,8 +59,8 @@ def test_other_acquisitions_differ_from_the_cohort_s_in_one_setting():
         ("registration", {"knot": 1.0}, r"registration\.knot\b.*knots"),
     ],
 )
-def test_what_cannot_be_is_refused_in_one_line(content, table, change, said):
-    with pytest.raises(InputError, match=said) as refused:
+def test_what_cannot_be_is_refused_in_one_line(content, table, change, message):
+    with pytest.raises(InputError, match=message) as refused:
         validate(Study, content | {table: content[table] | change}, "config")
     assert "\n" not in str(refused.value)
 

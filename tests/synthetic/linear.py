@@ -27,17 +27,17 @@ class Linear:
         self._scale = np.array([1.0] * len(ESTIMATED) + [unseen] * len(OTHERS))
 
     def observe_all(self, parameters: Sequence[Mapping[str, float]]) -> list[Outcome]:
-        return [self._seen(each) for each in parameters]
+        return [self._seen(vector) for vector in parameters]
 
     def observe(self, heart: Heart) -> Outcome:
         values = heart.parameters()
         return self._seen({name: values[path] for name, path in PATHS.items()})
 
     def _seen(self, values: Mapping[str, float]) -> Outcome:
-        moved = np.array(
+        point = np.array(
             [np.log(values.get(name, standard) / standard) for name, standard in STANDARD.items()]
         )
-        return dict(zip(OBSERVED, (LEVEL + (moved * self._scale) @ SLOPES).tolist(), strict=True))
+        return dict(zip(OBSERVED, (LEVEL + (point * self._scale) @ SLOPES).tolist(), strict=True))
 
     def slopes(self, names: Sequence[str], observations: Sequence[str], step: float) -> np.ndarray:
         return (self._scale[:, None] * SLOPES)[[[*STANDARD].index(name) for name in names]]

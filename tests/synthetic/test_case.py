@@ -85,20 +85,22 @@ def test_the_kick_that_every_heart_has_is_not_planted():
     assert "AtrialKick" not in plantable()
 
 
-@pytest.mark.parametrize("outsider", OUT_OF_LIBRARY, ids=lambda cls: cls.__name__)
-def test_an_outsider_is_not_in_the_library_and_is_seen(outsider):
-    assert outsider.__name__ not in registered()
+@pytest.mark.parametrize("effect", OUT_OF_LIBRARY, ids=lambda cls: cls.__name__)
+def test_an_outsider_is_not_in_the_library_and_is_seen(effect):
+    assert effect.__name__ not in registered()
     without = plant(PlantedPlan(3, "none"))
-    planted = plant(PlantedPlan(3, "outside", (outsider.__name__,), 2.5))
-    moved = max(np.ptp(values(planted, c)) / np.ptp(values(without, c)) for c in ("lv_volume", "lv_pressure"))
-    assert planted.answer.effects[0].name == outsider.__name__
-    assert np.isfinite(moved)
+    planted = plant(PlantedPlan(3, "outside", (effect.__name__,), 2.5))
+    change = max(
+        np.ptp(values(planted, c)) / np.ptp(values(without, c)) for c in ("lv_volume", "lv_pressure")
+    )
+    assert planted.answer.effects[0].name == effect.__name__
+    assert np.isfinite(change)
 
 
-@pytest.mark.parametrize("outsider", OUT_OF_LIBRARY, ids=lambda cls: cls.__name__)
-def test_an_outsider_that_is_off_changes_no_bit_of_a_heart(outsider):
+@pytest.mark.parametrize("effect", OUT_OF_LIBRARY, ids=lambda cls: cls.__name__)
+def test_an_outsider_that_is_off_changes_no_bit_of_a_heart(effect):
     hidden = draw_hidden(np.random.default_rng(2))
-    off = outsider().turned_off()
+    off = effect().turned_off()
     beat = hidden.with_effects([off]).beat()
     assert np.allclose(beat.volume["lv"], hidden.beat().volume["lv"], rtol=1e-9)
     if "lv_volume" in getattr(off, "measures", ()):
@@ -116,8 +118,8 @@ def test_a_second_twitch_is_a_second_share_of_the_depolarisation():
 def test_what_no_patient_resembles_is_counted_and_drawn_anew(monkeypatch):
     monkeypatch.setattr(cases, "EJECTION_FRACTION", (0.55, 0.8))
     planted = [plant(PlantedPlan(seed, "none")) for seed in range(6)]
-    assert sum(each.answer.rejected.get("ejection fraction", 0) for each in planted) > 0
-    fractions = [1.0 - values(each).min() / values(each).max() for each in planted]
+    assert sum(case.answer.rejected.get("ejection fraction", 0) for case in planted) > 0
+    fractions = [1.0 - values(case).min() / values(case).max() for case in planted]
     assert min(fractions) > 0.5
 
 

@@ -141,12 +141,12 @@ def test_a_slice_is_displaced_in_its_plane_as_a_whole_and_each_by_its_own_breath
         image_beat(ventricle, still, replace(scanner, breath_hold_shift=amount), 0) for amount in (0.0, 4e-3)
     )
     heart = straight.voxels[0].sum(axis=(1, 2)) > 20.0
-    moved = centres(shifted)[:, heart] - centres(straight)[:, heart]
+    shift = centres(shifted)[:, heart] - centres(straight)[:, heart]
     draws = 2 * heart.sum()
     assert draws > 30
-    assert np.ptp(moved, axis=0).max() == 0.0, "a still heart is displaced alike in every frame"
-    assert np.sqrt((moved**2).mean()) == pytest.approx(4e-3, rel=3.0 / np.sqrt(2.0 * draws))
-    assert np.corrcoef(moved[0, :-1].ravel(), moved[0, 1:].ravel())[0, 1] < 3.0 / np.sqrt(draws)
+    assert np.ptp(shift, axis=0).max() == 0.0, "a still heart is displaced alike in every frame"
+    assert np.sqrt((shift**2).mean()) == pytest.approx(4e-3, rel=3.0 / np.sqrt(2.0 * draws))
+    assert np.corrcoef(shift[0, :-1].ravel(), shift[0, 1:].ravel())[0, 1] < 3.0 / np.sqrt(draws)
 
 
 def centres(sequence: ImageSequence) -> np.ndarray:
@@ -163,12 +163,12 @@ def test_the_bright_voxels_of_the_left_ventricle_have_its_volume(
 
     The leaflets are black here: thinner than a voxel, they would not keep the atrium apart otherwise.
     """
-    seen = image_beat(ventricle, still, replace(CLEAN, contrast=replace(BLACK_LUNG, leaflets=0.0)), 0)
-    bright = label(seen.voxels[0] > 0.7)[0]
+    images = image_beat(ventricle, still, replace(CLEAN, contrast=replace(BLACK_LUNG, leaflets=0.0)), 0)
+    bright = label(images.voxels[0] > 0.7)[0]
     middle = ventricle.points[np.unique(ventricle.surfaces["lv_endo"])].mean(axis=0)
-    i, j, k = np.rint(seen.grid.index(middle)).astype(int)
-    found = (bright == bright[k, j, i]).sum() * seen.grid.spacing.prod()
-    assert found == pytest.approx(
+    i, j, k = np.rint(images.grid.index(middle)).astype(int)
+    volume = (bright == bright[k, j, i]).sum() * images.grid.spacing.prod()
+    assert volume == pytest.approx(
         Cavity.from_endocardium(ventricle, "lv_endo").volume(ventricle.points), rel=0.05
     )
 

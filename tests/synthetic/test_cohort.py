@@ -79,9 +79,9 @@ def test_the_motion_begins_at_the_trigger_and_goes_on_between_the_steps(beat: Be
 def test_drawn_anatomies_are_those_of_healthy_adults_and_fit_together() -> None:
     drawn = [draw_anatomy(seed) for seed in range(60)]
     assert draw_anatomy(3) == drawn[3] != drawn[4]
-    volumes = 1e6 * np.array([each.shape.edv for each in drawn])
+    volumes = 1e6 * np.array([volunteer.shape.edv for volunteer in drawn])
     assert volumes.mean() == pytest.approx(148.0, abs=3.0 * 24.0 / np.sqrt(60))
     assert ((volumes >= 100.0) & (volumes <= 196.0)).all()
-    assert np.std([each.period for each in drawn]) == pytest.approx(0.07, rel=0.35)
-    for each in drawn[:2]:
-        each.shape.surface()  # the right cavity fits beside the left one
+    assert np.std([volunteer.period for volunteer in drawn]) == pytest.approx(0.07, rel=0.35)
+    for volunteer in drawn[:2]:
+        volunteer.shape.surface()  # the right cavity fits beside the left one

@@ -12,8 +12,8 @@ HEARTS = 150
 
 @pytest.fixture(scope="module")
 def pooled():
-    found = sphere_coverage(linear_twins(noise=0.003, unseen=1.5), HEARTS)
-    return {(each.world, each.noise): each.pooled() for each in found}
+    coverages = sphere_coverage(linear_twins(noise=0.003, unseen=1.5), HEARTS)
+    return {(coverage.world, coverage.noise): coverage.pooled() for coverage in coverages}
 
 
 def test_the_noise_suffices_where_nothing_else_is_unknown(pooled) -> None:
@@ -22,9 +22,9 @@ def test_the_noise_suffices_where_nothing_else_is_unknown(pooled) -> None:
 
 
 def test_what_is_fixed_must_be_told_where_it_scatters(pooled) -> None:
-    without, told = (pooled["parameters", way] for way in ("R of the measurement", "R and R_fixed"))
+    without, stated = (pooled["parameters", way] for way in ("R of the measurement", "R and R_fixed"))
     assert without.high < 0.9
-    assert told.low < 0.95 < told.high
+    assert stated.low < 0.95 < stated.high
 
 
 def test_a_second_step_changes_nothing_on_a_linear_map(pooled) -> None:

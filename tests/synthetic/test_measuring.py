@@ -33,19 +33,19 @@ def test_roughness_has_variance_one_its_length_and_the_period():
 
 def test_a_study_draws_frames_and_noise_within_their_bounds():
     studies = [RecordingProtocol.draw(np.random.default_rng(seed)) for seed in range(100)]
-    assert {each.frames for each in studies} == set(range(25, 31))
-    assert all(0.01 <= each.noise <= 0.03 for each in studies)
+    assert {study.frames for study in studies} == set(range(25, 31))
+    assert all(0.01 <= study.noise <= 0.03 for study in studies)
 
 
 def test_curves_are_the_beat_with_errors_of_the_stated_size(monkeypatch):
     study, rng = RecordingProtocol(28, 0.02), np.random.default_rng(0)
-    seen = [measure_beat(BEAT, (), study, rng) for _ in range(60)]
+    measured = [measure_beat(BEAT, (), study, rng) for _ in range(60)]
     monkeypatch.setattr(measuring, "PRESSURE_NOISE", 0.0)
     monkeypatch.setattr(measuring, "VOLUME_ROUGHNESS", 0.0)
     monkeypatch.setattr(measuring, "PRESSURE_ROUGHNESS", 0.0)
     true = measure_beat(BEAT, (), RecordingProtocol(28, 0.0), rng)
-    volume = np.array([each["lv_volume"].values for each in seen]) - true["lv_volume"].values
-    pressure = np.array([each["lv_pressure"].values for each in seen]) - true["lv_pressure"].values
+    volume = np.array([curves["lv_volume"].values for curves in measured]) - true["lv_volume"].values
+    pressure = np.array([curves["lv_pressure"].values for curves in measured]) - true["lv_pressure"].values
     expected = np.hypot(0.02 * BEAT.volume["lv"].max(), 0.6e-6)
     assert len(true["lv_volume"].values) == 28
     assert volume.std() == pytest.approx(expected, rel=0.1)

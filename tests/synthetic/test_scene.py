@@ -26,7 +26,7 @@ def scene_of(mesh: VentricularMesh, contrast: Contrast, shift: Floats | None = N
     return Scene.of(mesh, axes.axis, grid, contrast, still if shift is None else shift, rng)
 
 
-def seen(scene: Scene, image: Floats, place: Floats) -> float:
+def sampled(scene: Scene, image: Floats, place: Floats) -> float:
     i, j, k = np.rint(scene.grid.index(place)).astype(int)
     return float(image[k, j, i])
 
@@ -79,11 +79,11 @@ def test_blood_goes_on_beyond_the_leaflets(ventricle: VentricularMesh, descent: 
     ring = ventricle.points[rim_loops(ventricle.surfaces["lv_endo"])[0]].mean(axis=0)
     valve = ring - descent * scene.up
     image = scene.at(ventricle.points - descent * scene.up)
-    assert seen(scene, image, valve - 15e-3 * scene.up) == PLAIN.blood
-    assert seen(scene, image, valve + 0.5 * LEAFLET * scene.up) == PLAIN.leaflets
-    assert seen(scene, image, valve + (LEAFLET + 3e-3) * scene.up) == PLAIN.blood
-    assert seen(scene, image, ring + (ATRIUM - 3e-3) * scene.up) == PLAIN.blood
-    assert seen(scene, image, ring + (ATRIUM + 3e-3) * scene.up) == PLAIN.lung
+    assert sampled(scene, image, valve - 15e-3 * scene.up) == PLAIN.blood
+    assert sampled(scene, image, valve + 0.5 * LEAFLET * scene.up) == PLAIN.leaflets
+    assert sampled(scene, image, valve + (LEAFLET + 3e-3) * scene.up) == PLAIN.blood
+    assert sampled(scene, image, ring + (ATRIUM - 3e-3) * scene.up) == PLAIN.blood
+    assert sampled(scene, image, ring + (ATRIUM + 3e-3) * scene.up) == PLAIN.lung
 
 
 def test_fat_lies_on_the_muscle_of_the_base(ventricle: VentricularMesh) -> None:
@@ -92,7 +92,7 @@ def test_fat_lies_on_the_muscle_of_the_base(ventricle: VentricularMesh) -> None:
     image = scene.at(ventricle.points)
     groove = ventricle.points[ventricle.surfaces["base"]].mean(axis=1)
     for height, brightness in ((0.5 * FAT, PLAIN.fat), (FAT + 3e-3, PLAIN.lung)):
-        shown = np.array([seen(scene, image, place + height * scene.up) for place in groove])
+        shown = np.array([sampled(scene, image, place + height * scene.up) for place in groove])
         assert (shown == brightness).mean() > 0.7
 
 
@@ -104,18 +104,18 @@ def test_the_blood_in_the_cavities_has_their_volume(ventricle: VentricularMesh) 
     pools = label(scene.at(ventricle.points) == PLAIN.blood)[0]
     k, j, i = np.nonzero(pools)
     low = scene.grid.points(np.column_stack([i, j, k]).astype(float)) @ scene.up < valves - 15e-3
-    found = np.isin(pools, np.unique(pools[k, j, i][low])).sum() * scene.grid.spacing.prod()
-    assert found == pytest.approx(sum(cavity.volume(ventricle.points) for cavity in cavities), rel=0.01)
+    volume = np.isin(pools, np.unique(pools[k, j, i][low])).sum() * scene.grid.spacing.prod()
+    assert volume == pytest.approx(sum(cavity.volume(ventricle.points) for cavity in cavities), rel=0.01)
 
 
 def test_texture_goes_where_the_tissue_goes(ventricle: VentricularMesh) -> None:
     scene = scene_of(ventricle, Contrast())
     steps = np.array([2.0, -1.0, 3.0])
-    moved = ventricle.with_points(ventricle.points + scene.grid.vectors(steps))
+    displaced = ventricle.with_points(ventricle.points + scene.grid.vectors(steps))
     wall = wall_voxels(scene.grid, ventricle)
     carried = np.roll(wall, (3, -1, 2), (0, 1, 2))
     expected = np.roll(scene.muscle, (3, -1, 2), (0, 1, 2))
-    assert scene.at(moved.points)[carried] == pytest.approx(expected[carried], rel=1e-9)
+    assert scene.at(displaced.points)[carried] == pytest.approx(expected[carried], rel=1e-9)
 
 
 def test_a_displaced_slice_shows_the_heart_displaced_and_no_other_slice_does(
@@ -125,12 +125,12 @@ def test_a_displaced_slice_shows_the_heart_displaced_and_no_other_slice_does(
     still = scene_of(ventricle, contrast)
     shift = np.zeros((still.grid.size[2], 2))
     slice_, shift[40] = 40, (3.0, -2.0)
-    moved = scene_of(ventricle, contrast, shift).at(ventricle.points)
+    displaced = scene_of(ventricle, contrast, shift).at(ventricle.points)
     image = still.at(ventricle.points)
-    assert moved[slice_] == pytest.approx(np.roll(image[slice_], (2, -3), (0, 1)), rel=1e-9)
-    assert not np.array_equal(moved[slice_], image[slice_])
+    assert displaced[slice_] == pytest.approx(np.roll(image[slice_], (2, -3), (0, 1)), rel=1e-9)
+    assert not np.array_equal(displaced[slice_], image[slice_])
     others = np.arange(len(image)) != slice_
-    np.testing.assert_array_equal(moved[others], image[others])
+    np.testing.assert_array_equal(displaced[others], image[others])
 
 
 def test_the_grid_s_axes_are_the_ventricle_s(ventricle: VentricularMesh) -> None:

@@ -17,12 +17,12 @@ def answer(kind, *names, scales=2.0):
     return Answer(0, kind, effects, {}, {}, 0.02)
 
 
-def found(verdict, *names):
+def diagnosis(verdict, *names):
     return ScoredDiagnosis(verdict, tuple(Cause(name, 9.0, 1.8, "m^2", (1.5, 2.5)) for name in names))
 
 
-def case(kind, planted, verdict, *said, scales=2.0):
-    return Scored(answer(kind, *planted, scales=scales), found(verdict, *said))
+def case(kind, planted, verdict, *names, scales=2.0):
+    return Scored(answer(kind, *planted, scales=scales), diagnosis(verdict, *names))
 
 
 CASES = [
@@ -62,7 +62,9 @@ COUNTS = {
 
 def test_every_rate_counts_its_cases():
     shares = {rate.name: rate.share_of(CASES) for rate in RATES}
-    counts = {name: (round(each.covered * each.sequences), each.sequences) for name, each in shares.items()}
+    counts = {
+        name: (round(share.covered * share.sequences), share.sequences) for name, share in shares.items()
+    }
     assert counts == COUNTS
 
 
@@ -100,5 +102,5 @@ def test_amplitudes_are_compared_from_where_the_effect_is_off():
 
 
 def test_what_is_said_is_the_name_where_one_is_given():
-    assert [each.conclusion for each in CASES[:5]] == ["none", "insufficient", "unknown", "Leak", "Leak"]
+    assert [case.conclusion for case in CASES[:5]] == ["none", "insufficient", "unknown", "Leak", "Leak"]
     assert CASES[9].conclusion == "two"

@@ -43,12 +43,12 @@ def test_in_the_average_wall_the_template_stays_where_it_is(template: Template) 
 @pytest.mark.filterwarnings("error")
 def test_the_moved_mesh_fills_the_wall_of_the_shape(name: str, template: Template) -> None:
     shape = SHAPES[name]
-    moved = template.deformed_to(shape)
-    assert moved.wall_volume() == pytest.approx(shape.surface().volume(), rel=0.02)
+    deformed = template.deformed_to(shape)
+    assert deformed.wall_volume() == pytest.approx(shape.surface().volume(), rel=0.02)
     coarseness = np.array(cavities(template.mesh)) / [AVERAGE.edv, AVERAGE.rv_edv]
-    assert cavities(moved) == pytest.approx(coarseness * [shape.edv, shape.rv_edv], rel=0.01)
-    assert np.rad2deg(smallest_dihedral_angles(moved.points, moved.tets).min()) >= 8.0
-    assert np.array_equal(moved.tets, template.mesh.tets)
+    assert cavities(deformed) == pytest.approx(coarseness * [shape.edv, shape.rv_edv], rel=0.01)
+    assert np.rad2deg(smallest_dihedral_angles(deformed.points, deformed.tets).min()) >= 8.0
+    assert np.array_equal(deformed.tets, template.mesh.tets)
 
 
 def test_a_heart_repeats_to_the_bit(template: Template) -> None:

@@ -19,16 +19,18 @@ def searched(monkeypatch):
     monkeypatch.setattr(library, "registered", lambda: few)
     recordings, search = [], SearchedRecording.search
     monkeypatch.setattr(
-        SearchedRecording, "search", lambda each, *given: recordings.append(each) or search(each, *given)
+        SearchedRecording,
+        "search",
+        lambda recording, *arguments: recordings.append(recording) or search(recording, *arguments),
     )
     return recordings
 
 
 def test_less_and_more_data_are_searched_where_there_are_more(searched):
-    said = diagnose_by_data(recorded(OFFSET), {"legs_raised": recorded(OFFSET, "legs_raised")})
-    assert [len(each.curves) for each in searched] == [2, 1], "a condition is never searched"
-    assert set(said.other) == {VOLUME, CONDITION}
-    assert said.other[VOLUME].verdict == "insufficient"
-    assert said.other[CONDITION].names == {"CatheterOffset"}
-    assert said.other[CONDITION].ranking == said.ranking
-    assert said.other[CONDITION].gain != said.gain
+    diagnosis = diagnose_by_data(recorded(OFFSET), {"legs_raised": recorded(OFFSET, "legs_raised")})
+    assert [len(recording.curves) for recording in searched] == [2, 1], "a condition is never searched"
+    assert set(diagnosis.other) == {VOLUME, CONDITION}
+    assert diagnosis.other[VOLUME].verdict == "insufficient"
+    assert diagnosis.other[CONDITION].names == {"CatheterOffset"}
+    assert diagnosis.other[CONDITION].ranking == diagnosis.ranking
+    assert diagnosis.other[CONDITION].gain != diagnosis.gain

@@ -64,11 +64,11 @@ def test_the_volume_is_that_of_the_mesh_that_followed_the_images(sound):
 def test_what_registration_cannot_follow_is_counted_and_drawn_anew(hidden, monkeypatch):
     calls, follow = [], imaging.track
 
-    def folding_once(*given):
-        calls.append(given)
+    def folding_once(*arguments):
+        calls.append(arguments)
         if len(calls) == 1:
             raise InputError("registration: frames [3] fold the wall")
-        return follow(*given)
+        return follow(*arguments)
 
     monkeypatch.setattr(imaging, "track", folding_once)
     _, case = hidden.plant(SOUND)
@@ -82,11 +82,11 @@ def test_a_seed_gives_one_case(hidden, sound):
 def test_a_heart_that_does_not_beat_is_counted_and_drawn_anew(hidden, monkeypatch):
     beat, calls = ventricles.generate, []
 
-    def failing_once(*given):
-        calls.append(given)
+    def failing_once(*arguments):
+        calls.append(arguments)
         if len(calls) == 1:
             raise ventricles.VolunteerError("no beat")
-        return beat(*given)
+        return beat(*arguments)
 
     monkeypatch.setattr(ventricles, "generate", failing_once)
     _, case = hidden.plant(SOUND)

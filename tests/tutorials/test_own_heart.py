@@ -55,9 +55,11 @@ def test_every_step_of_the_page_ends_well(project: Path) -> None:
     environment = environment_of(project)
     for step in steps():
         sys.stdout.write(f"$ {step}\n")
-        done = subprocess.run(command(step), cwd=project, env=environment, capture_output=True, text=True)
-        sys.stdout.write(f"{done.stdout[-1000:]}\n")
-        assert done.returncode == 0, f"{step}\n{done.stdout[-2000:]}\n{done.stderr[-4000:]}"
+        completed = subprocess.run(
+            command(step), cwd=project, env=environment, capture_output=True, text=True
+        )
+        sys.stdout.write(f"{completed.stdout[-1000:]}\n")
+        assert completed.returncode == 0, f"{step}\n{completed.stdout[-2000:]}\n{completed.stderr[-4000:]}"
     for case in ("mine", "drawn"):
         assert (project / f"results/{case}/figures/{case}_check.png").stat().st_size > 100_000
     assert (project / CAUSE).is_file()

@@ -23,8 +23,8 @@ def test_static_forces_are_the_derivative_of_what_is_stored(element: str) -> Non
 
     def stored(z: np.ndarray) -> float:
         step.forces(z.reshape(x.shape))
-        found = energies(body, step.commit(z.reshape(x.shape)))
-        return found["shape"] + found["volume"] + found["supports"]
+        energy = energies(body, step.commit(z.reshape(x.shape)))
+        return energy["shape"] + energy["volume"] + energy["supports"]
 
     slope = step.forces(x) @ direction.ravel()
     assert_derivative(stored, np.array(slope), x.ravel(), direction.ravel())
@@ -35,19 +35,23 @@ def test_static_forces_are_the_derivative_of_what_is_stored(element: str) -> Non
 )
 def test_an_audit_by_other_parameters_does_not_close(spoilt: str) -> None:
     """The remainder moves by the share of the parameter; round-off of the same states is below 1e-12."""
-    seen = watched(LONG_STEP)
+    watched_beat = watched(LONG_STEP)
     heart = Heart()
     value = heart.parameters()[heart.parameter_path(spoilt)]
     body = FiniteElementBody(reference(), heart.with_parameters({spoilt: 3.0 * value}).tissue)
-    other = audit(body, seen.states, heart.period)
-    assert abs(other.remainder - seen.audit.remainder) > 1e-8 * seen.audit.ejecting
+    other = audit(body, watched_beat.states, heart.period)
+    assert abs(other.remainder - watched_beat.audit.remainder) > 1e-8 * watched_beat.audit.ejecting
 
 
 def test_the_fibres_close_with_the_series_spring_and_not_without() -> None:
-    seen = watched(LONG_STEP)
+    watched_beat = watched(LONG_STEP)
     tissue = Heart().with_parameters({"E_s": 3.1e7}).tissue
-    other = audit(FiniteElementBody(reference(), tissue), seen.states, Heart().period)
-    assert abs(other.fibre_gap) > 100 * SMALL * seen.audit.ejecting > 100 * abs(seen.audit.fibre_gap)
+    other = audit(FiniteElementBody(reference(), tissue), watched_beat.states, Heart().period)
+    assert (
+        abs(other.fibre_gap)
+        > 100 * SMALL * watched_beat.audit.ejecting
+        > 100 * abs(watched_beat.audit.fibre_gap)
+    )
 
 
 def test_lost_blood_is_found_where_it_was_lost() -> None:

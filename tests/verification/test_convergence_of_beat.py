@@ -42,6 +42,6 @@ def test_the_page_compares_meshes_at_the_usual_step_and_steps_on_the_same_mesh()
 def test_every_mesh_is_observed_at_every_step():
     blocks = [cube(n, 0.02) for n in (1, 2)]
     rows = list(rows_of(Heart(), blocks, np.array([100.0, 100.0]), (20e-3, 10e-3)))
-    assert [each.time_step for each in rows if each.scheme == rows[-1].scheme] == 2 * [20e-3, 10e-3]
-    assert [each.size.tetrahedra for each in rows][:: len(rows) // 2] == [len(block.tets) for block in blocks]
-    assert all(np.isfinite(list(each.observed.values())).all() for each in rows)
+    assert [row.time_step for row in rows if row.scheme == rows[-1].scheme] == 2 * [20e-3, 10e-3]
+    assert [row.size.tetrahedra for row in rows][:: len(rows) // 2] == [len(block.tets) for block in blocks]
+    assert all(np.isfinite(list(row.observed.values())).all() for row in rows)

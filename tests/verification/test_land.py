@@ -84,8 +84,8 @@ def test_the_pressure_alone_makes_the_ventricle_larger_and_the_tension_smaller()
     loads = [inflated_ventricle((4, 2, 1)), contracting_ventricle((4, 2, 1))]
     for loading, sign in zip(loads, (1.0, -1.0), strict=True):
         cavity = Cavity.from_endocardium(loading.mesh, "lv_endo")
-        moved = loading.mesh.points + equilibrium(loading)[:, :3]
-        assert sign * (cavity.volume(moved) - cavity.volume(loading.mesh.points)) > 0.0
+        displaced = loading.mesh.points + equilibrium(loading)[:, :3]
+        assert sign * (cavity.volume(displaced) - cavity.volume(loading.mesh.points)) > 0.0
 
 
 def test_half_the_beam_is_half_a_beam():

@@ -36,9 +36,9 @@ def energy(problem: Manufactured, F: np.ndarray) -> np.ndarray:
 def test_the_gradient_is_that_of_the_position(problem, X):
     F = problem.deformation_gradient(X)
     for j in range(3):
-        moved = X.astype(complex)
-        moved[j] += 1j * STEP
-        assert F[:, j] == pytest.approx(problem.position(moved).imag / STEP, abs=1e-14)
+        shifted = X.astype(complex)
+        shifted[j] += 1j * STEP
+        assert F[:, j] == pytest.approx(problem.position(shifted).imag / STEP, abs=1e-14)
 
 
 def test_only_the_stretch_changes_volumes_by_the_pressure_over_K(problem, X):
@@ -50,9 +50,9 @@ def test_the_stress_is_the_derivative_of_the_energy(problem, X):
     F = problem.deformation_gradient(X)
     P = problem.stress(F)
     for i, j in np.ndindex(3, 3):
-        moved = np.moveaxis(F, -1, 0).astype(complex)
-        moved[:, i, j] += 1j * STEP
-        assert P[i, j] == pytest.approx(energy(problem, moved).imag / STEP, rel=1e-10, abs=1e-7)
+        shifted = np.moveaxis(F, -1, 0).astype(complex)
+        shifted[:, i, j] += 1j * STEP
+        assert P[i, j] == pytest.approx(energy(problem, shifted).imag / STEP, rel=1e-10, abs=1e-7)
 
 
 def test_the_stress_is_that_of_the_wall_point_by_point(problem, X):

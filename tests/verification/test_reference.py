@@ -18,10 +18,10 @@ def test_c_1_moves_by_its_deviations():
 
 
 def test_a_frozen_reference_is_that_of_the_standard_heart(monkeypatch):
-    seen = []
+    hearts = []
 
     def unloading(mesh, tissue, pressures):
-        seen.append(tissue.passive.c_1)
+        hearts.append(tissue.passive.c_1)
         return unload(mesh, tissue, 0.0 * pressures)
 
     monkeypatch.setattr(reference, "unload", unloading)
@@ -29,7 +29,7 @@ def test_a_frozen_reference_is_that_of_the_standard_heart(monkeypatch):
     for variant in (Variant("", FROZEN, 2.0), Variant("", OWN, 2.0)):
         with pytest.raises(ValueError, match="did the beat fail"):
             find(specimen(COARSE), END_DIASTOLIC_PRESSURE, None, (variant,))
-    assert seen == pytest.approx([6e3, 6e3 * np.exp(0.5)])
+    assert hearts == pytest.approx([6e3, 6e3 * np.exp(0.5)])
 
 
 def test_the_table_has_a_row_per_finding():
@@ -39,7 +39,7 @@ def test_the_table_has_a_row_per_finding():
 
 def test_every_reference_that_is_its_own_fills_alike():
     """Both cavities, whatever c_1, to what was measured; the paper's overfills both."""
-    found = first_beats()
+    beats = first_beats()
     for name in ("own", "own, c_1 up", "own, c_1 down"):
-        assert list(found[name].filled.values()) == pytest.approx([1.0, 1.0], abs=0.05)
-    assert min(found["end-diastolic mesh"].filled.values()) > 1.1
+        assert list(beats[name].filled.values()) == pytest.approx([1.0, 1.0], abs=0.05)
+    assert min(beats["end-diastolic mesh"].filled.values()) > 1.1

@@ -68,10 +68,10 @@ def too_soft(*_: object) -> None:
 def test_the_page_counts_and_names(monkeypatch):
     monkeypatch.setattr(page, "specimen", lambda: specimen(COARSE))
     monkeypatch.setattr(page, "CAMPAIGNS", (SPHERES,))
-    said = []
-    text = page.robustness_page((SPHERES,), said.append)
+    lines = []
+    text = page.robustness_page((SPHERES,), lines.append)
     assert "| spheres | `sphere` | 4 | 6 | 6 | 6 (100.0 %) |" in text
-    assert numbers_in(said[-1]) == [6.0, 6.0, 6.0]
+    assert numbers_in(lines[-1]) == [6.0, 6.0, 6.0]
     assert "\n- " not in text, "no heart failed"
     assert text.rsplit("##", 1)[0].count("mL") == 0
     assert len(volumes(text)) == 2, "the beat at the centre completes"
@@ -91,7 +91,7 @@ def test_the_committed_page_meets_what_was_promised():
         for row in re.findall(r"^\| (.*?) \| `(\w+)` \| (\d+) \| (\d+) \| .*?\((.*?) %\)", text, re.M)
     }
     assert [row[:4] for row in rows.values()] == [
-        (each.name, each.element, str(each.seed), str(each.count)) for each in CAMPAIGNS
+        (campaign.name, campaign.element, str(campaign.seed), str(campaign.count)) for campaign in CAMPAIGNS
     ]
     assert float(rows["the prior"][4]) >= 99.0
     (left, emptied), (right, least) = volumes(text)

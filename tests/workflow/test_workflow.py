@@ -40,8 +40,8 @@ def jobs(output):
 
 
 def inputs(job):
-    found = re.search(r"^ +input: (.*)$", job, re.MULTILINE)
-    return found[1].split(", ") if found else []
+    match = re.search(r"^ +input: (.*)$", job, re.MULTILINE)
+    return match[1].split(", ") if match else []
 
 
 def readers(output, part):
@@ -117,9 +117,9 @@ def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(p
     assert planned.returncode == 0, planned.stdout
     assert "build_measured_mesh" not in job_counts(planned.stdout)
     assert job_counts(planned.stdout)["simulate_point"] == POINTS_OF_COHORT
-    said = [line for line in planned.stdout.splitlines() if "left out" in line]
-    assert len(said) == 1
-    assert "fetch_measured_heart" in said[0]
+    lines = [line for line in planned.stdout.splitlines() if "left out" in line]
+    assert len(lines) == 1
+    assert "fetch_measured_heart" in lines[0]
 
 
 def test_an_edit_of_the_library_repeats_what_rests_on_it_and_nothing_else(drawn):

@@ -17,7 +17,7 @@ def hypothesis(matrix: np.ndarray, *amplitudes: Coordinate) -> Hypothesis:
     """Base coordinates and, for the last columns, amplitudes."""
     base = matrix.shape[1] - len(amplitudes)
     coordinates = (*(Coordinate(f"z{index}") for index in range(base)), *amplitudes)
-    return Hypothesis(tuple(each.name for each in amplitudes), coordinates, lambda x: matrix @ x)
+    return Hypothesis(tuple(amplitude.name for amplitude in amplitudes), coordinates, lambda x: matrix @ x)
 
 
 def data(values: np.ndarray, noise: Noise = NOISE) -> Data:

@@ -29,15 +29,15 @@ def curves(base: np.ndarray, delay: float = 0.0, drift: float = 0.0, pulse: floa
 
 
 def with_clipping(base: np.ndarray, clipped: float) -> np.ndarray:
-    seen = curves(base)
-    seen[:24] = np.tanh(clipped * 0.4 * seen[:24]) / (clipped * 0.4) if clipped > 1e-9 else seen[:24]
-    return seen
+    traces = curves(base)
+    traces[:24] = np.tanh(clipped * 0.4 * traces[:24]) / (clipped * 0.4) if clipped > 1e-9 else traces[:24]
+    return traces
 
 
 def with_gain(base: np.ndarray, gain: float) -> np.ndarray:
-    seen = curves(base)
-    seen[24:] *= np.exp(0.1 * gain)
-    return seen
+    traces = curves(base)
+    traces[24:] *= np.exp(0.1 * gain)
+    return traces
 
 
 EFFECTS = {
@@ -73,7 +73,9 @@ SINGLES = [single(name) for name in EFFECTS]
 def noise(random: np.random.Generator) -> np.ndarray:
     position = POSITION.covariance(TIMES, 1.0, random.choice(POSITION.levels))
     speed = SPEED.covariance(TIMES, 1.0, SPEED.levels[0])
-    return np.concatenate([random.multivariate_normal(np.zeros(24), each) for each in (position, speed)])
+    return np.concatenate(
+        [random.multivariate_normal(np.zeros(24), covariance) for covariance in (position, speed)]
+    )
 
 
 def observed(truth: np.ndarray, seed: int) -> Data:

@@ -10,7 +10,7 @@ A, B, C, AB = ("a",), ("b",), ("c",), ("a", "b")
 def evidences(
     a: float,
     b: float = 0.0,
-    rival: float = -5.0,
+    discrepancy: float = -5.0,
     on_top: float = 0.0,
     pair: float | None = None,
     left: float = 0.0,
@@ -19,33 +19,33 @@ def evidences(
     pairs = {} if pair is None else {AB: pair}
     best = A if a >= b else B
     above = {best: max(a, b) + on_top} | {name: value + left for name, value in pairs.items()}
-    return Evidences(0.0, {A: a, B: b, C: -1.0}, rival, above, pairs)
+    return Evidences(0.0, {A: a, B: b, C: -1.0}, discrepancy, above, pairs)
 
 
 @pytest.mark.parametrize(
-    ("given", "expected"),
+    ("evidence", "expected"),
     [
         (evidences(4.9), Decision("none")),
         (evidences(5.0), Decision("named", A)),
-        (evidences(1.0, rival=5.0), Decision("unknown")),
-        (evidences(8.0, rival=6.5), Decision("unknown")),
-        (evidences(8.0, rival=6.0), Decision("named", A)),
+        (evidences(1.0, discrepancy=5.0), Decision("unknown")),
+        (evidences(8.0, discrepancy=6.5), Decision("unknown")),
+        (evidences(8.0, discrepancy=6.0), Decision("named", A)),
         (evidences(9.0, on_top=4.1), Decision("unknown")),
         (evidences(9.0, on_top=4.0), Decision("named", A)),
-        (evidences(100.0, rival=90.0, on_top=35.0), Decision("named", A)),
-        (evidences(100.0, rival=90.0, on_top=36.0), Decision("unknown")),
-        (evidences(100.0, rival=90.1, on_top=35.0), Decision("unknown")),
+        (evidences(100.0, discrepancy=90.0, on_top=35.0), Decision("named", A)),
+        (evidences(100.0, discrepancy=90.0, on_top=36.0), Decision("unknown")),
+        (evidences(100.0, discrepancy=90.1, on_top=35.0), Decision("unknown")),
         (evidences(12.0, 9.5), Decision("group", A, (B,))),
         (evidences(9.5, 12.0), Decision("group", B, (A,))),
         (evidences(12.0, 9.0), Decision("named", A)),
         (evidences(12.0, pair=18.9), Decision("named", A)),
         (evidences(12.0, pair=19.0), Decision("two", AB)),
         (evidences(12.0, pair=19.0, left=4.0), Decision("unknown")),
-        (evidences(12.0, rival=30.0, on_top=30.0, pair=50.0), Decision("two", AB)),
+        (evidences(12.0, discrepancy=30.0, on_top=30.0, pair=50.0), Decision("two", AB)),
     ],
 )
-def test_the_rules(given, expected) -> None:
-    assert decide(given) == expected
+def test_the_rules(evidence, expected) -> None:
+    assert decide(evidence) == expected
 
 
 def test_a_model_of_another_structure_asks_for_more() -> None:

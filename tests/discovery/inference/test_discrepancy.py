@@ -16,28 +16,28 @@ BUMP = np.exp(-0.5 * ((TIMES - 0.5) / 0.1) ** 2)
 
 
 def fitted(values: np.ndarray, noise: Noise = NOISE) -> tuple[GPDiscrepancy, object]:
-    given = data(values, noise)
-    return GPDiscrepancy.from_data(given), fit(
-        CountedHypothesis(hypothesis(J)), values, Whitening.from_data(given), np.zeros(2)
+    recorded = data(values, noise)
+    return GPDiscrepancy.from_data(recorded), fit(
+        CountedHypothesis(hypothesis(J)), values, Whitening.from_data(recorded), np.zeros(2)
     )
 
 
 def test_the_evidence_is_the_marginal_density_averaged_over_sizes_and_levels() -> None:
     values = J @ np.array([0.5, -1.0]) + BUMP
-    rival, found = fitted(values)
+    discrepancy, fitted_model = fitted(values)
     exact = [
         multivariate_normal(cov=noise + size**2 * K + J @ J.T).pdf(values)
         for noise in covariances()
         for size in DISCREPANCY_SIZES
     ]
-    assert rival.log_evidence(found) == pytest.approx(np.log(np.mean(exact)), rel=1e-9)
+    assert discrepancy.log_evidence(fitted_model) == pytest.approx(np.log(np.mean(exact)), rel=1e-9)
 
 
 def test_the_curve_is_that_of_the_process_given_the_data() -> None:
     """Against the joint Gaussian of discrepancy and data, conditioned by its blocks, of one level and any size."""
     values, known = J @ np.array([0.5, -1.0]) + BUMP, Noise((0.3,), 0.1, 0.1, discrepancy=0.5)
-    rival, found = fitted(values, known)
-    (curve,) = rival.curves(found)
+    discrepancy, fitted_model = fitted(values, known)
+    (curve,) = discrepancy.curves(fitted_model)
     candidates = []
     for size in DISCREPANCY_SIZES:
         total = known.covariance(TIMES, 1.0, 0.3) + size**2 * K + J @ J.T
@@ -49,7 +49,7 @@ def test_the_curve_is_that_of_the_process_given_the_data() -> None:
 
 def test_a_bump_is_found_where_it_is() -> None:
     tight = Noise((0.05,), 0.0, 0.02, discrepancy=0.5)
-    rival, found = fitted(BUMP, tight)
-    (curve,) = rival.curves(found)
+    discrepancy, fitted_model = fitted(BUMP, tight)
+    (curve,) = discrepancy.curves(fitted_model)
     assert TIMES[np.argmax(curve.mean)] == 0.5
     assert curve.mean.max() > 2.0 * curve.sd[np.argmax(curve.mean)]

@@ -33,7 +33,7 @@ def test_one_sided_it_is_the_integral_over_the_half(sign) -> None:
         return (
             2.0
             * norm.pdf(a)
-            * np.mean([multivariate_normal(J[:, 0] * a, each).pdf(Y) for each in covariances()])
+            * np.mean([multivariate_normal(J[:, 0] * a, covariance).pdf(Y) for covariance in covariances()])
         )
 
     exact = quad(density, 0.0, 8.0, epsabs=0.0, epsrel=1e-8)[0]
@@ -50,7 +50,7 @@ def test_an_amplitude_that_no_datum_sees_changes_nothing() -> None:
 
 
 def test_mean_and_covariance_are_those_of_the_mixture_of_levels() -> None:
-    J, found = slopes(2), taken_at(np.array([0.3, 0.1]), slopes(2), [False] * 2)
+    J, laplace = slopes(2), taken_at(np.array([0.3, 0.1]), slopes(2), [False] * 2)
     weights = np.array([multivariate_normal(cov=noise + J @ J.T).pdf(Y) for noise in covariances()])
     weights /= weights.sum()
     inverses = [np.linalg.inv(np.eye(2) + J.T @ np.linalg.solve(noise, J)) for noise in covariances()]
@@ -58,5 +58,5 @@ def test_mean_and_covariance_are_those_of_the_mixture_of_levels() -> None:
         inverse @ J.T @ np.linalg.solve(noise, Y)
         for inverse, noise in zip(inverses, covariances(), strict=True)
     ]
-    assert found.mean == pytest.approx(weights @ means, rel=1e-9)
-    assert found.covariance == pytest.approx(np.tensordot(weights, inverses, 1), rel=1e-9)
+    assert laplace.mean == pytest.approx(weights @ means, rel=1e-9)
+    assert laplace.covariance == pytest.approx(np.tensordot(weights, inverses, 1), rel=1e-9)

@@ -29,7 +29,7 @@ def test_of_a_linear_model_it_is_the_difference_of_two_gaussians() -> None:
 def test_noise_adds_less_than_one_on_average() -> None:
     random, noise = np.random.default_rng(0), NOISE.covariance(TIMES, 1.0, NOISE.middle)
     values = J @ X + random.multivariate_normal(np.zeros(TIMES.size), noise, 2000)
-    noisy = np.mean([log_evidence(J, each) - log_evidence(J[:, :2], each) for each in values])
+    noisy = np.mean([log_evidence(J, vector) - log_evidence(J[:, :2], vector) for vector in values])
     assert 0.0 < noisy - expected_log_bayes_factor(NONE, SINGLE, BLOCKS, X) < 1.0
 
 

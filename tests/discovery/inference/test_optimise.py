@@ -13,8 +13,8 @@ KNOWN = Noise((0.3,), NOISE.memory, NOISE.roughness, NOISE.discrepancy)
 Y = slopes(3) @ np.array([1.0, -2.0, 0.5]) + 0.1 * np.random.default_rng(2).standard_normal(TIMES.size)
 
 
-def fitted(given: Hypothesis, start: np.ndarray, values: np.ndarray = Y) -> tuple[object, int]:
-    model = CountedHypothesis(given)
+def fitted(tested: Hypothesis, start: np.ndarray, values: np.ndarray = Y) -> tuple[object, int]:
+    model = CountedHypothesis(tested)
     return fit(model, values, Whitening.from_data(data(values, KNOWN)), start), model.runs
 
 
@@ -27,19 +27,19 @@ def ridge(J: np.ndarray) -> np.ndarray:
 
 def test_a_linear_problem_is_solved_by_a_damped_step_and_full_ones() -> None:
     """One run at the start, three for the slopes before and after, and the steps between."""
-    found, runs = fitted(hypothesis(slopes(3)), np.zeros(3))
-    assert found.converged
-    assert found.x == pytest.approx(ridge(slopes(3)), abs=1e-2)
+    optimum, runs = fitted(hypothesis(slopes(3)), np.zeros(3))
+    assert optimum.converged
+    assert optimum.x == pytest.approx(ridge(slopes(3)), abs=1e-2)
     assert runs <= 1 + 2 * 3 + 2
 
 
 def test_a_bound_holds_and_the_others_settle_beside_it() -> None:
     J = slopes(3)
     away = hypothesis(J * [1.0, 1.0, -1.0], Coordinate("a", one_sided=True, amplitude=True))
-    found, _ = fitted(away, away.at(1.0))
-    assert found.converged
-    assert found.x[2] == 0.0
-    assert found.x[:2] == pytest.approx(ridge(J[:, :2]), abs=1e-2)
+    optimum, _ = fitted(away, away.at(1.0))
+    assert optimum.converged
+    assert optimum.x[2] == 0.0
+    assert optimum.x[:2] == pytest.approx(ridge(J[:, :2]), abs=1e-2)
 
 
 def test_failures_shorten_the_step_and_the_start() -> None:
@@ -48,9 +48,11 @@ def test_failures_shorten_the_step_and_the_start() -> None:
     failing = Hypothesis(
         (), linear.coordinates, lambda x: linear.forward(x) if np.linalg.norm(x) < 2.3 else None
     )
-    found, _ = fitted(failing, np.array([3.0, 0.0, 0.0]))
-    assert found.converged
-    assert found.objective == pytest.approx(fitted(linear, np.zeros(3))[0].objective, abs=OBJECTIVE_TOLERANCE)
+    optimum, _ = fitted(failing, np.array([3.0, 0.0, 0.0]))
+    assert optimum.converged
+    assert optimum.objective == pytest.approx(
+        fitted(linear, np.zeros(3))[0].objective, abs=OBJECTIVE_TOLERANCE
+    )
 
 
 def test_a_model_that_never_runs_has_no_fit() -> None:
@@ -62,11 +64,11 @@ def test_borrowed_slopes_lead_to_the_same_place_for_fewer_runs() -> None:
     truth = oscillator.observed(oscillator.curves(np.array([1.0, 0.5, -1.0, 0.3])), 1)
     whitening, cost = Whitening.from_data(truth), []
     at_centre = CountedHypothesis(oscillator.NONE).jacobian(np.zeros(4), oscillator.curves(np.zeros(4)))
-    for given in (None, at_centre):
+    for start_slopes in (None, at_centre):
         model = CountedHypothesis(oscillator.NONE)
-        found = fit(model, truth.values, whitening, np.zeros(4), given)
-        cost.append((model.runs, found.objective))
-        assert found.converged
+        optimum = fit(model, truth.values, whitening, np.zeros(4), start_slopes)
+        cost.append((model.runs, optimum.objective))
+        assert optimum.converged
     assert cost[1][0] < cost[0][0]
     assert cost[1][1] == pytest.approx(cost[0][1], abs=0.05)
 
@@ -74,8 +76,8 @@ def test_borrowed_slopes_lead_to_the_same_place_for_fewer_runs() -> None:
 def test_trusted_slopes_are_not_taken_anew() -> None:
     J = slopes(3)
     model = CountedHypothesis(hypothesis(J))
-    found = fit(model, Y, Whitening.from_data(data(Y, KNOWN)), np.zeros(3), J, trusted=2)
-    assert found.x == pytest.approx(ridge(J), abs=1e-2)
+    optimum = fit(model, Y, Whitening.from_data(data(Y, KNOWN)), np.zeros(3), J, trusted=2)
+    assert optimum.x == pytest.approx(ridge(J), abs=1e-2)
     assert model.runs <= 1 + 1 + 2
 
 
@@ -83,8 +85,8 @@ def test_a_fit_that_cannot_reach_its_target_is_given_up_with_the_first_fresh_slo
     whole, runs = fitted(hypothesis(slopes(3)), np.zeros(3))
     for above, ended in ((0.1, True), (-0.1, False)):
         model = CountedHypothesis(hypothesis(slopes(3)))
-        found = fit(
+        optimum = fit(
             model, Y, Whitening.from_data(data(Y, KNOWN)), np.zeros(3), target=whole.objective + above
         )
-        assert found.converged == ended
+        assert optimum.converged == ended
         assert model.runs == (runs if ended else 1 + 3)

@@ -19,10 +19,10 @@ NEW = (Block("new", "m", TIMES, 1.0, KNOWN),)
 def explained(name: str) -> Explanation:
     """Data with a ramp, seen through two effects that make the same ramp of them."""
     matrix = np.column_stack([np.ones(TIMES.size), RAMP])
-    given = hypothesis(matrix, Coordinate(name, one_sided=True, amplitude=True))
-    found = FitContext(data(2.0 * RAMP, KNOWN)).explain(given, given.at(1.0))
-    assert found is not None
-    return found
+    effect = hypothesis(matrix, Coordinate(name, one_sided=True, amplitude=True))
+    explanation = FitContext(data(2.0 * RAMP, KNOWN)).explain(effect, effect.at(1.0))
+    assert explanation is not None
+    return explanation
 
 
 def seen_as(
@@ -34,7 +34,7 @@ def seen_as(
     )
 
 
-APART = {"a": ARCH, "b": -ARCH}
+OPPOSED = {"a": ARCH, "b": -ARCH}
 ALIKE = {"a": ARCH, "b": ARCH}
 
 
@@ -42,7 +42,9 @@ def test_divergence_is_the_mean_log_ratio() -> None:
     random = np.random.default_rng(0)
     means, roots = random.standard_normal((2, 3)), random.standard_normal((2, 3, 3))
     covariances = roots @ np.swapaxes(roots, 1, 2) + np.eye(3)
-    p, q = (multivariate_normal(mean, each) for mean, each in zip(means, covariances, strict=True))
+    p, q = (
+        multivariate_normal(mean, covariance) for mean, covariance in zip(means, covariances, strict=True)
+    )
     draws = p.rvs(200_000, random_state=1)
     expected = np.mean(p.logpdf(draws) - q.logpdf(draws))
     assert divergence(means[0], covariances[0], means[1], covariances[1]) == pytest.approx(expected, rel=0.02)
@@ -52,7 +54,7 @@ def test_divergence_is_the_mean_log_ratio() -> None:
 def test_what_looks_alike_again_adds_nothing_and_what_differs_adds() -> None:
     group = [explained("a"), explained("b")]
     assert evaluate(group, seen_as(ALIKE)).gain == pytest.approx(0.0, abs=1e-9)
-    assert evaluate(group, seen_as(APART)).gain > 3.0
+    assert evaluate(group, seen_as(OPPOSED)).gain > 3.0
 
 
 def test_what_is_unknown_of_the_measurement_lowers_its_worth() -> None:
@@ -64,7 +66,12 @@ def test_what_is_unknown_of_the_measurement_lowers_its_worth() -> None:
 def test_the_cheapest_that_decides_leads_and_what_fails_is_left_out() -> None:
     group = [explained("a"), explained("b")]
     dead = FurtherMeasurement("dead", 0.1, NEW, lambda effects: lambda x: None)
-    offered = [seen_as(APART, "dear", 5.0), seen_as(ALIKE, "vain", 0.5), dead, seen_as(APART, "cheap", 1.0)]
+    offered = [
+        seen_as(OPPOSED, "dear", 5.0),
+        seen_as(ALIKE, "vain", 0.5),
+        dead,
+        seen_as(OPPOSED, "cheap", 1.0),
+    ]
     prospects = plan(group, offered)
-    assert [each.name for each in prospects] == ["cheap", "dear", "vain"]
+    assert [prospect.name for prospect in prospects] == ["cheap", "dear", "vain"]
     assert prospects[0].simulations == 2 * 3

@@ -23,9 +23,9 @@ def test_it_is_the_evidence_of_a_linear_model_for_one_simulation() -> None:
     runs = context.simulations
     promised = predict_evidence(context, base, FURTHER)
     assert context.simulations == runs + 1
-    found = context.explain(FURTHER, FURTHER.at(1.0))
-    assert promised.log_evidence == pytest.approx(found.log_evidence, rel=1e-6)
-    assert promised.start[2] == pytest.approx(found.posterior.mean[2], rel=1e-6)
+    explanation = context.explain(FURTHER, FURTHER.at(1.0))
+    assert promised.log_evidence == pytest.approx(explanation.log_evidence, rel=1e-6)
+    assert promised.start[2] == pytest.approx(explanation.posterior.mean[2], rel=1e-6)
 
 
 def test_an_effect_that_is_not_there_starts_where_it_can_still_be_seen() -> None:
@@ -58,8 +58,8 @@ def test_an_effect_starts_on_the_side_on_which_it_acts(side) -> None:
 def test_only_pairs_that_promise_enough_are_fitted() -> None:
     truth = oscillator.combined(("delay", "pulse")).forward(np.array([0.5, 0.2, -0.3, 0.1, 2.0, 1.0]))
     context = FitContext(oscillator.observed(truth, 1))
-    singles = [context.explain(each, each.at(1.0)) for each in oscillator.SINGLES]
-    ranked = sorted(singles, key=lambda each: -each.log_evidence)
+    singles = [context.explain(single, single.at(1.0)) for single in oscillator.SINGLES]
+    ranked = sorted(singles, key=lambda explanation: -explanation.log_evidence)
     (pair,) = fit_pairs(context, ranked, oscillator.combined, Rules(predicted_gain=10.0))
     assert pair.effects == ("delay", "pulse")
     assert fit_pairs(context, ranked, oscillator.combined, Rules(predicted_gain=1e6)) == []

@@ -22,34 +22,34 @@ def base(seed: int) -> np.ndarray:
     ("name", "amplitude"), [("clipping", 3.0), ("delay", -2.5), ("drift", 3.0), ("pulse", 1.0)]
 )
 def test_a_hidden_effect_is_named_and_its_interval_holds_it(name, amplitude) -> None:
-    found = searched(oscillator.EFFECTS[name][1](base(4), amplitude), 4)
-    assert found.decision.effects == (name,)
-    _, low, high = found.best.interval(name, 0.99)
+    result = searched(oscillator.EFFECTS[name][1](base(4), amplitude), 4)
+    assert result.decision.effects == (name,)
+    _, low, high = result.best.interval(name, 0.99)
     assert low < amplitude < high
 
 
 def test_two_hidden_effects_are_both_named() -> None:
     truth = oscillator.combined(("delay", "pulse")).forward(np.array([*base(1), 2.0, 1.0]))
-    found = searched(truth, 1)
-    assert found.decision.verdict == "two"
-    assert found.decision.effects == ("delay", "pulse")
+    result = searched(truth, 1)
+    assert result.decision.verdict == "two"
+    assert result.decision.effects == ("delay", "pulse")
 
 
 def test_what_no_effect_explains_is_unknown_and_its_place_is_shown() -> None:
     truth = oscillator.curves(base(2))
     truth[:24] += 0.4 * np.exp(-0.5 * ((oscillator.TIMES - 0.35) / 0.05) ** 2)
-    found = searched(truth, 2)
-    assert found.decision.verdict == "unknown"
-    position, _ = found.baseline_discrepancy
+    result = searched(truth, 2)
+    assert result.decision.verdict == "unknown"
+    position, _ = result.baseline_discrepancy
     assert oscillator.TIMES[np.argmax(position.mean)] == pytest.approx(0.35, abs=0.05)
 
 
 def test_no_hypothesis_fits_worse_than_none() -> None:
     for seed in range(5):
-        found = searched(oscillator.curves(base(seed)), seed)
-        for single in found.survey.singles:
+        result = searched(oscillator.curves(base(seed)), seed)
+        for single in result.survey.singles:
             assert single.fit.converged
-            assert single.fit.objective <= found.survey.baseline.fit.objective + 0.05
+            assert single.fit.objective <= result.survey.baseline.fit.objective + 0.05
 
 
 def test_the_simulations_are_counted() -> None:
@@ -63,13 +63,13 @@ def test_the_simulations_are_counted() -> None:
 
         return Hypothesis(hypothesis.effects, hypothesis.coordinates, forward)
 
-    found = search(
+    result = search(
         oscillator.observed(oscillator.curves(base(0), pulse=2.0), 0),
         counted(oscillator.NONE),
-        [counted(each) for each in oscillator.SINGLES],
+        [counted(single) for single in oscillator.SINGLES],
         lambda names: counted(oscillator.combined(names)),
     )
-    assert found.simulations == runs
+    assert result.simulations == runs
 
 
 def test_data_and_models_without_which_nothing_can_be_said() -> None:

@@ -26,22 +26,22 @@ def truth(seed: int) -> np.ndarray:
 def share_of_alarms(frozen: int) -> float:
     """How often anything is found while the first ``frozen`` base coordinates are held at the prior's mean."""
 
-    def held(given: Hypothesis) -> Hypothesis:
+    def held(model: Hypothesis) -> Hypothesis:
         fixed = np.zeros(frozen)
         return Hypothesis(
-            given.effects, given.coordinates[frozen:], lambda x: given.forward(np.concatenate([fixed, x]))
+            model.effects, model.coordinates[frozen:], lambda x: model.forward(np.concatenate([fixed, x]))
         )
 
     verdicts = [
         search(
             oscillator.observed(oscillator.curves(truth(seed)), seed),
             held(oscillator.NONE),
-            [held(each) for each in oscillator.SINGLES],
+            [held(single) for single in oscillator.SINGLES],
             lambda names: held(oscillator.combined(names)),
         ).decision.verdict
         for seed in SEEDS
     ]
-    return np.mean([each != "none" for each in verdicts])
+    return np.mean([verdict != "none" for verdict in verdicts])
 
 
 def test_parameters_that_are_held_invent_effects() -> None:
@@ -55,27 +55,28 @@ def test_the_residual_of_one_step_is_no_evidence() -> None:
     for seed in SEEDS:
         data = oscillator.observed(oscillator.curves(truth(seed)), seed)
         context = FitContext(data)
-        rival = max(
-            each.log_evidence for each in (context.explain(each, each.at(1.0)) for each in oscillator.SINGLES)
+        best = max(
+            explanation.log_evidence
+            for explanation in (context.explain(single, single.at(1.0)) for single in oscillator.SINGLES)
         )
         for name, runs in (("one step", 1 + 4 + 1), ("converged", 400)):
-            found = fit(
+            optimum = fit(
                 CountedHypothesis(oscillator.NONE), data.values, context.whitening, np.zeros(4), limit=runs
             )
             at_step = replace(
-                found, jacobian=CountedHypothesis(oscillator.NONE).jacobian(found.x, found.predicted)
+                optimum, jacobian=CountedHypothesis(oscillator.NONE).jacobian(optimum.x, optimum.predicted)
             )
-            assert found.converged == (name == "converged")
-            alarms[name] += rival - laplace_there(at_step, context) > DEFAULT_RULES.detected
+            assert optimum.converged == (name == "converged")
+            alarms[name] += best - laplace_there(at_step, context) > DEFAULT_RULES.detected
     assert alarms["one step"] > len(SEEDS) / 2
     assert alarms["converged"] == 0
 
 
-def laplace_there(found: object, context: FitContext) -> float:
+def laplace_there(optimum: object, context: FitContext) -> float:
     """ln Z as if the fit had converged: without what the linear model still promises."""
-    seen = Explanation.from_fit(found, context.data.values, context.whitening)
-    step = seen.posterior.mean - found.x
-    return seen.log_evidence - 0.5 * step @ np.linalg.solve(seen.posterior.covariance, step)
+    explanation = Explanation.from_fit(optimum, context.data.values, context.whitening)
+    step = explanation.posterior.mean - optimum.x
+    return explanation.log_evidence - 0.5 * step @ np.linalg.solve(explanation.posterior.covariance, step)
 
 
 def bent(x: float) -> np.ndarray:
@@ -92,12 +93,13 @@ def test_a_base_fit_in_a_side_minimum_is_found_out() -> None:
     data = oscillator.observed(bent(1.5), 0)
     alone = fit(CountedHypothesis(none), data.values, FitContext(data).whitening, np.zeros(1))
     idle = Hypothesis(("idle",), (frequency, Coordinate("idle", amplitude=True)), lambda x: bent(x[0]))
-    found = search(data, none, [lured, idle], oscillator.combined)
+    result = search(data, none, [lured, idle], oscillator.combined)
     assert all(
-        each.fit.objective <= found.survey.baseline.fit.objective + 0.05 for each in found.survey.singles
+        single.fit.objective <= result.survey.baseline.fit.objective + 0.05
+        for single in result.survey.singles
     )
-    assert alone.objective - found.survey.baseline.fit.objective > DEFAULT_RULES.detected
-    assert found.decision.verdict == "none"
+    assert alone.objective - result.survey.baseline.fit.objective > DEFAULT_RULES.detected
+    assert result.decision.verdict == "none"
 
 
 def test_a_simulation_that_fails_is_no_curve() -> None:
@@ -109,9 +111,9 @@ def test_a_simulation_that_fails_is_no_curve() -> None:
     failing = replace(drift, forward=lambda x: drift.forward(x) if x[4] < 0.7 else None)
     dead = replace(oscillator.single("gain"), forward=lambda x: None)
     data = oscillator.observed(oscillator.curves(truth(1), drift=0.4), 1)
-    found = search(data, oscillator.NONE, [failing, dead], oscillator.combined)
-    assert found.survey.failed == (("gain",),)
-    assert found.decision.verdict == "none"
+    result = search(data, oscillator.NONE, [failing, dead], oscillator.combined)
+    assert result.survey.failed == (("gain",),)
+    assert result.decision.verdict == "none"
     stopped = np.where(oscillator.TIMES < 0.7, 1.0, 0.0)
     handed_out = np.tile(stopped, 2) * oscillator.curves(truth(1)) + 5.0 * np.tile(1.0 - stopped, 2)
     fallen = search(
@@ -132,8 +134,8 @@ def test_intervals_hold_what_was_hidden(effect) -> None:
                 abs(random.standard_normal()) if hidden.one_sided[4] else random.standard_normal(),
             ]
         )
-        found = FitContext(oscillator.observed(hidden.forward(x), seed)).explain(hidden, hidden.at(1.0))
-        _, low, high = found.interval(effect)
+        explanation = FitContext(oscillator.observed(hidden.forward(x), seed)).explain(hidden, hidden.at(1.0))
+        _, low, high = explanation.interval(effect)
         held += low <= x[4] <= high
     assert held >= 33
 
@@ -148,4 +150,4 @@ def test_false_alarms_without_an_effect_are_rare() -> None:
         ).decision.verdict
         for seed in range(100, 300)
     ]
-    assert sum(each != "none" for each in verdicts) <= 4
+    assert sum(verdict != "none" for verdict in verdicts) <= 4

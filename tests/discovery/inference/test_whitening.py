@@ -15,7 +15,7 @@ def test_levels_are_averaged_block_by_block() -> None:
     density = 1.0
     for block, rows in zip(DATA.blocks, DATA.rows, strict=True):
         levels = [block.noise.covariance(block.times, 1.0, level) for level in block.noise.levels]
-        density *= np.mean([multivariate_normal(cov=each).pdf(R[rows]) for each in levels])
+        density *= np.mean([multivariate_normal(cov=covariance).pdf(R[rows]) for covariance in levels])
     assert Whitening.from_data(DATA).log_likelihood(R) == pytest.approx(np.log(density), rel=1e-9)
 
 
@@ -24,7 +24,7 @@ def test_a_discrepancy_adds_its_covariance() -> None:
     one = Data(R[rows], (block,))
     smooth = 4.0 * block.noise.discrepancy_covariance(block.times, block.times, 1.0)
     levels = [block.noise.covariance(block.times, 1.0, level) + smooth for level in block.noise.levels]
-    density = np.mean([multivariate_normal(cov=each).pdf(R[rows]) for each in levels])
+    density = np.mean([multivariate_normal(cov=covariance).pdf(R[rows]) for covariance in levels])
     assert Whitening.from_data(one, 2.0).log_likelihood(R[rows]) == pytest.approx(np.log(density), rel=1e-9)
 
 
@@ -33,8 +33,8 @@ def test_the_normal_equations_are_the_slope_of_the_logarithm() -> None:
     slope, curvature = whitening.normal(R, J)
     h = 1e-5
     differences = [
-        (whitening.log_likelihood(R - J @ each) - whitening.log_likelihood(R + J @ each)) / (2 * h)
-        for each in h * np.eye(2)
+        (whitening.log_likelihood(R - J @ shift) - whitening.log_likelihood(R + J @ shift)) / (2 * h)
+        for shift in h * np.eye(2)
     ]
     assert slope == pytest.approx(differences, rel=1e-6)
     assert np.linalg.eigvalsh(curvature).min() > 0.0

@@ -28,7 +28,7 @@ def rivals(ventricle: VentricularMesh) -> Mapping[str, CompetingModel]:
     model = Model(ventricle, 0.8, Pressures(lv=1000.0, rv=500.0), scheme)
     extensions = competing_extensions(LOCKING, "mixed", "MitralRegurgitation")
     case = _measured(model(extensions[ELEMENT], PARAMETERS))
-    return {each.name: each for each in compare_extensions(case, model, extensions, 4)}
+    return {comparison.name: comparison for comparison in compare_extensions(case, model, extensions, 4)}
 
 
 def _measured(beat: Beat) -> MeasuredCase:

@@ -122,15 +122,18 @@ def test_one_unscented_step_then_a_beat_a_step_until_none_promises_more(
 
 def test_what_a_setting_holds_fixed_is_freed_about_its_heart() -> None:
     freed = Extension.from_names(PLAIN, "MitralRegurgitation").with_free_parameters()
-    held, heart = {each.name for each in freed.freed}, PLAIN.base_heart(PERIOD).parameters()
+    held, heart = (
+        {freed_parameter.name for freed_parameter in freed.freed},
+        PLAIN.base_heart(PERIOD).parameters(),
+    )
     assert "circulation.systemic.tau" in held
     assert "circulation.systemic.R_p" not in held, "estimated already"
     x = freed.start(2.0)
     assert freed.parameters(x)["circulation.systemic.tau"] == pytest.approx(heart["circulation.systemic.tau"])
     assert freed.parameters(x)["MitralRegurgitation.area"] == pytest.approx(2 * 0.15e-4)
     x[freed.names.index("circulation.systemic.tau")] = 1.0
-    moved = freed.parameters(x)["circulation.systemic.tau"]
-    assert moved == pytest.approx(heart["circulation.systemic.tau"] * np.exp(0.2))
+    tau = freed.parameters(x)["circulation.systemic.tau"]
+    assert tau == pytest.approx(heart["circulation.systemic.tau"] * np.exp(0.2))
 
 
 def test_a_heart_that_contracts_for_shorter_is_given_a_leak_where_that_is_frozen_only() -> None:
@@ -141,7 +144,7 @@ def test_a_heart_that_contracts_for_shorter_is_given_a_leak_where_that_is_frozen
         {name: curves[name].resampled(50) for name in ("lv_volume", "lv_pressure")}, []
     )
     frozen, freed = (
-        [refit(each, run, target(sound), 30).log_evidence for each in (none, leak)]
+        [refit(extension, run, target(sound), 30).log_evidence for extension in (none, leak)]
         for none, leak in (
             (plain, Extension.from_names(PLAIN, "MitralRegurgitation")),
             (
@@ -158,11 +161,13 @@ def test_an_extension_is_found_from_where_the_model_without_it_ended(
     case: MeasuredCase, refits: tuple[Refit, Refit]
 ) -> None:
     none, extended = refits
-    found = continue_refit(Extension.from_names(PLAIN, "MitralRegurgitation"), run, target(case), 20, none)
-    assert found.converged
-    assert found.objective == pytest.approx(extended.objective, abs=1.0)
-    assert found.log_evidence == pytest.approx(extended.log_evidence, abs=1.5)
-    assert found.simulations < extended.simulations + 5
+    continued = continue_refit(
+        Extension.from_names(PLAIN, "MitralRegurgitation"), run, target(case), 20, none
+    )
+    assert continued.converged
+    assert continued.objective == pytest.approx(extended.objective, abs=1.0)
+    assert continued.log_evidence == pytest.approx(extended.log_evidence, abs=1.5)
+    assert continued.simulations < extended.simulations + 5
 
 
 def test_an_effect_that_is_not_there_ends_off_where_the_model_without_it_ended() -> None:
@@ -172,19 +177,21 @@ def test_an_effect_that_is_not_there_ends_off_where_the_model_without_it_ended()
         {name: curves[name].resampled(50) for name in ("lv_volume", "lv_pressure")}, []
     )
     none = refit(plain, run, target(sound), 20)
-    found = continue_refit(Extension.from_names(PLAIN, "MitralRegurgitation"), run, target(sound), 20, none)
-    assert found.estimate[-1] == pytest.approx(0.0, abs=0.05)
-    assert found.objective < none.objective + 0.3
-    assert found.log_evidence < none.log_evidence
+    continued = continue_refit(
+        Extension.from_names(PLAIN, "MitralRegurgitation"), run, target(sound), 20, none
+    )
+    assert continued.estimate[-1] == pytest.approx(0.0, abs=0.05)
+    assert continued.objective < none.objective + 0.3
+    assert continued.log_evidence < none.log_evidence
 
 
 def test_the_estimate_is_a_heart_that_was_simulated(case: MeasuredCase, refits: tuple[Refit, Refit]) -> None:
-    extension, found = Extension(PLAIN), refits[0]
-    curves = beat_curves(run(extension, found.parameters))
-    values = np.concatenate([curves[name](each.times) for name, each in case.split.fitted.items()])
+    extension, fit = Extension(PLAIN), refits[0]
+    curves = beat_curves(run(extension, fit.parameters))
+    values = np.concatenate([curves[name](curve.times) for name, curve in case.split.fitted.items()])
     misfit = target(case).misfit(values)
-    assert misfit == pytest.approx(found.misfit)
-    assert found.objective == pytest.approx(0.5 * misfit + 0.5 * found.estimate @ found.estimate)
+    assert misfit == pytest.approx(fit.misfit)
+    assert fit.objective == pytest.approx(0.5 * misfit + 0.5 * fit.estimate @ fit.estimate)
 
 
 def test_a_model_that_does_not_beat_is_refused(case: MeasuredCase) -> None:

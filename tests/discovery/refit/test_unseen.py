@@ -106,28 +106,28 @@ def searched(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(centred_search, "fit_nominal_heart", lambda *_: ADULT)
 
 
-def said(beats: Sequence[Mapping[str, Curve]]) -> tuple[str, float, float | None]:
+def conclusion(beats: Sequence[Mapping[str, Curve]]) -> tuple[str, float, float | None]:
     recording = MeasuredCase.from_curves({"lv_volume": beats[0]["lv_volume"].resampled(25)}, []).recording()
-    found = centred_search.centred_search(recording, ADULT.heart, beats)
-    return found.next_measurement, found.threshold, found.self_test
+    result = centred_search.centred_search(recording, ADULT.heart, beats)
+    return result.next_measurement, result.threshold, result.self_test
 
 
 @pytest.mark.usefixtures("searched")
 def test_a_search_without_a_centre_asks_for_more(
     monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve]
 ) -> None:
-    def following(*given: object) -> NominalHeart:
-        if given[2] not in allowed:
+    def following(*arguments: object) -> NominalHeart:
+        if arguments[2] not in allowed:
             raise InputError("the sphere does not follow")
         return ADULT
 
     monkeypatch.setattr(centred_search, "fit_nominal_heart", following)
     allowed: list[object] = [("lv_volume",)]
-    assert said([beat]) == ("sphere", CENTRED_RULES.detected, None)
+    assert conclusion([beat]) == ("sphere", CENTRED_RULES.detected, None)
     allowed = [()]
-    assert said([beat]) == ("sphere", STRICT_RULES.detected, None)
+    assert conclusion([beat]) == ("sphere", STRICT_RULES.detected, None)
     allowed = []
-    assert said([beat]) == ("adult", STRICT_RULES.detected, None)
+    assert conclusion([beat]) == ("adult", STRICT_RULES.detected, None)
 
 
 @pytest.mark.usefixtures("searched")
@@ -135,7 +135,9 @@ def test_a_search_without_a_centre_asks_for_more(
 def test_a_sphere_that_finds_what_nobody_hid_asks_for_more(
     monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve], tested: float, rules: Rules
 ) -> None:
-    seen: list[object] = []
-    monkeypatch.setattr(centred_search, "self_test", lambda *given: seen.extend(given[2]) or tested)
-    assert said([beat, {}, beat]) == ("sphere", rules.detected, tested)
-    assert len(seen) == 1, "the centre's own beat and one that failed"
+    tested_beats: list[object] = []
+    monkeypatch.setattr(
+        centred_search, "self_test", lambda *arguments: tested_beats.extend(arguments[2]) or tested
+    )
+    assert conclusion([beat, {}, beat]) == ("sphere", rules.detected, tested)
+    assert len(tested_beats) == 1, "the centre's own beat and one that failed"

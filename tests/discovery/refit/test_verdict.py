@@ -33,8 +33,8 @@ TWO, GROUP = (replace(FOUND, verdict=verdict, mechanisms=(LEAK, OTHER)) for verd
 NOTHING = replace(FOUND, verdict="none", mechanisms=())
 
 
-def tried(found: Diagnosis) -> list[tuple[str, ...]]:
-    return [each.effects for each in propose_extensions(found, PLAIN)]
+def tried(diagnosis: Diagnosis) -> list[tuple[str, ...]]:
+    return [extension.effects for extension in propose_extensions(diagnosis, PLAIN)]
 
 
 def test_what_is_named_is_tried_and_else_the_best_of_the_ranking() -> None:
@@ -79,8 +79,8 @@ class Judge:
 
     continue_refit = extended
 
-    def at(self, extension: Extension, found: Refit) -> SimpleNamespace:
-        return SimpleNamespace(extension=extension, refit=found)
+    def at(self, extension: Extension, fit: Refit) -> SimpleNamespace:
+        return SimpleNamespace(extension=extension, refit=fit)
 
     def proof(self, _: FittedExtension, extended: FittedExtension) -> SimpleNamespace:
         return SimpleNamespace(helps=lambda: len(extended.extension.added) in self.nearer)
@@ -91,7 +91,7 @@ def climbed(judge: Judge) -> list[tuple[int, bool]]:
     steps: Iterable[tuple[FittedExtension, bool]] = ExtensionTrial.climb(
         cast("ExtensionTrial", judge), base, propose_extensions(TWO, PLAIN)
     )
-    return [(len(each.extension.added), helps) for each, helps in steps]
+    return [(len(step.extension.added), helps) for step, helps in steps]
 
 
 @pytest.mark.parametrize(
@@ -121,8 +121,12 @@ def test_steps_are_climbed_while_each_helps_over_the_one_before(
 
 def test_names_that_do_not_help_are_withdrawn() -> None:
     assert withdraw_unhelpful(FOUND, ("MitralRegurgitation",)) is FOUND
-    gone = withdraw_unhelpful(FOUND, ())
-    assert (gone.verdict, gone.mechanisms, gone.withdrawn) == ("unknown", (), ("MitralRegurgitation",))
+    withdrawn = withdraw_unhelpful(FOUND, ())
+    assert (withdrawn.verdict, withdrawn.mechanisms, withdrawn.withdrawn) == (
+        "unknown",
+        (),
+        ("MitralRegurgitation",),
+    )
     one = withdraw_unhelpful(TWO, ("AorticStenosis",))
     assert (one.verdict, one.mechanisms, one.withdrawn) == ("named", (OTHER,), ("MitralRegurgitation",))
 
@@ -147,10 +151,12 @@ class Helped:
         return ()
 
 
-def judged(found: Diagnosis, kept: tuple[str, ...]) -> Diagnosis:
-    (extension,) = propose_extensions(found, PLAIN)
+def judged(diagnosis: Diagnosis, kept: tuple[str, ...]) -> Diagnosis:
+    (extension,) = propose_extensions(diagnosis, PLAIN)
     none, extended = fitted(Extension(PLAIN), 1.0), fitted(extension, 8.0)
-    return apply_proof(found, TriedExtension(extension, none, extended, kept, 19), cast("Proof", Helped()))
+    return apply_proof(
+        diagnosis, TriedExtension(extension, none, extended, kept, 19), cast("Proof", Helped())
+    )
 
 
 def test_a_proved_diagnosis_has_the_sizes_and_evidence_of_the_refits() -> None:
@@ -169,14 +175,14 @@ def test_an_attempt_asks_no_search() -> None:
     judge = Judge({1: 4.0}, ())
     judge.setting, judge.baseline = PLAIN, Extension(PLAIN)
     judge.proof = lambda *_: Helped()
-    found = ExtensionTrial.attempt(
+    trial = ExtensionTrial.attempt(
         cast("ExtensionTrial", judge), "AorticStenosis", fitted(Extension(PLAIN), 1.0)
     )
-    assert [each.name for each in found.refitted.extension] == ["AorticStenosis"]
-    assert np.isnan(found.refitted.extension[0].ln_bayes_factor), "no search gave one"
-    assert found.refitted.ln_bayes_factor == 3.0
-    assert found.refitted.simulations == 9 + 9 + 2
-    assert found.gain[0].curve == "rv_volume"
+    assert [mechanism.name for mechanism in trial.refitted.extension] == ["AorticStenosis"]
+    assert np.isnan(trial.refitted.extension[0].ln_bayes_factor), "no search gave one"
+    assert trial.refitted.ln_bayes_factor == 3.0
+    assert trial.refitted.simulations == 9 + 9 + 2
+    assert trial.gain[0].curve == "rv_volume"
 
 
 def test_a_trial_is_not_taken_for_a_name() -> None:

@@ -90,10 +90,10 @@ def test_no_step_is_longer_than_slopes_hold() -> None:
 
 
 def test_a_beat_that_fails_shortens_the_step_and_changes_nothing_else() -> None:
-    asked: list[Floats] = []
+    points: list[Floats] = []
 
     def failing(x: Floats) -> Floats | None:
-        asked.append(x)
+        points.append(x)
         return linear(x) if np.abs(x).max() < 0.5 else None
 
     walk = started(failing)

@@ -8,7 +8,7 @@ from heartfit.discovery.sphere_model import diagnose as case
 from heartfit.discovery.sphere_model import forward_model as library
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
 
-FEW = ("CatheterDelay", "CatheterOffset", "ImageShrinkage", "MitralRegurgitation")
+NAMES = ("CatheterDelay", "CatheterOffset", "ImageShrinkage", "MitralRegurgitation")
 
 
 @pytest.fixture(scope="session")
@@ -20,4 +20,4 @@ def few_mechanisms() -> Iterator[None]:
 
 
 def few(model: SphereForwardModel) -> dict[str, library.Candidate]:
-    return {name: each for name, each in library.candidates(model).items() if name in FEW}
+    return {name: candidate for name, candidate in library.candidates(model).items() if name in NAMES}

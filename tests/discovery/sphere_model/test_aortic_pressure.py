@@ -43,15 +43,15 @@ def test_it_is_a_block_with_the_noise_of_a_catheter(stenosed):
 def test_the_catheter_in_the_ventricle_does_not_act_on_it():
     times = {"lv_pressure": np.arange(20) * 0.04, "aorta_pressure": np.arange(20) * 0.04}
     model, centre = SphereForwardModel(ADULT, times), np.zeros(len(FREE_PARAMETERS))
-    moved = model.predict(centre, (CatheterOffset(500.0),)) - model.predict(centre, ())
-    assert moved == pytest.approx(np.repeat([500.0, 0.0], 20))
+    change = model.predict(centre, (CatheterOffset(500.0),)) - model.predict(centre, ())
+    assert change == pytest.approx(np.repeat([500.0, 0.0], 20))
 
 
 def test_it_speaks_for_a_stenosis(stenosed, monkeypatch):
     monkeypatch.setattr(searching, "candidates", one)
-    ventricle = {name: each for name, each in stenosed.curves.items() if name != "aorta_pressure"}
-    without, found = (
-        SearchedRecording.search(each) for each in (replace(stenosed, curves=ventricle), stenosed)
+    ventricle = {name: curve for name, curve in stenosed.curves.items() if name != "aorta_pressure"}
+    without, complete = (
+        SearchedRecording.search(recording) for recording in (replace(stenosed, curves=ventricle), stenosed)
     )
-    assert found.verdict == "named"
-    assert found.ranking()["AorticStenosis"] > without.ranking()["AorticStenosis"] + 3.0
+    assert complete.verdict == "named"
+    assert complete.ranking()["AorticStenosis"] > without.ranking()["AorticStenosis"] + 3.0

@@ -15,7 +15,7 @@ OFFSET = PlantedPlan(11, "single", ("CatheterOffset",), 2.5, reloaded=True)
 
 
 @pytest.fixture
-def given(tmp_path, monkeypatch):
+def arguments(tmp_path, monkeypatch):
     """The arguments; instruments cost no simulation."""
     few = {name: registered()[name] for name in ("CatheterOffset", "ImageShrinkage")}
     monkeypatch.setattr(library, "registered", lambda: few)
@@ -35,11 +35,14 @@ def given(tmp_path, monkeypatch):
     ]
 
 
-def test_it_names_the_cause_and_says_what_it_did_not_search(given, tmp_path, capsys):
-    assert cli.main(["diagnose", *given]) == 0
-    said, content = capsys.readouterr().out, read_cause(tmp_path / "out" / "cause.json")
-    assert said.count("\n") == 1
+def test_it_names_the_cause_and_says_what_it_did_not_search(arguments, tmp_path, capsys):
+    assert cli.main(["diagnose", *arguments]) == 0
+    printed, content = capsys.readouterr().out, read_cause(tmp_path / "out" / "cause.json")
+    assert printed.count("\n") == 1
     assert set(content["unsearched"]) == {"rv_volume"}
-    assert {each["curve"] for each in content["departures"]} == {"lv_volume", "lv_pressure"}
-    assert {(each["curve"], each["on"]) for each in content["gain"]} <= {("lv_volume", "legs")}
-    assert "CatheterOffset" in {*content["withdrawn"], *(each["name"] for each in content["mechanisms"])}
+    assert {departure["curve"] for departure in content["departures"]} == {"lv_volume", "lv_pressure"}
+    assert {(gain["curve"], gain["on"]) for gain in content["gain"]} <= {("lv_volume", "legs")}
+    assert "CatheterOffset" in {
+        *content["withdrawn"],
+        *(mechanism["name"] for mechanism in content["mechanisms"]),
+    }

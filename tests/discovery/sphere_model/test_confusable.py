@@ -9,13 +9,13 @@ from heartfit.synthetic.campaign import PlantedPlan
 from tests.discovery.sphere_model.hearts import recorded
 
 
-def rival(model: SphereForwardModel) -> dict[str, library.Candidate]:
+def competing_candidates(model: SphereForwardModel) -> dict[str, library.Candidate]:
     return {"SlowRelaxation": library.candidates(model)["SlowRelaxation"]}
 
 
 def test_a_late_activation_is_not_called_slow_relaxation_even_where_nothing_else_is_known(monkeypatch):
-    assert "spread" in {each.name for each in SPHERE_PARAMETERS}
-    monkeypatch.setattr(searching, "candidates", rival)
-    found = SearchedRecording.search(recorded(PlantedPlan(712, "single", ("DelayedActivation",), 2.0)))
-    assert found.ranking()["SlowRelaxation"] < found.rules.detected
-    assert found.explanations == ()
+    assert "spread" in {parameter.name for parameter in SPHERE_PARAMETERS}
+    monkeypatch.setattr(searching, "candidates", competing_candidates)
+    result = SearchedRecording.search(recorded(PlantedPlan(712, "single", ("DelayedActivation",), 2.0)))
+    assert result.ranking()["SlowRelaxation"] < result.rules.detected
+    assert result.explanations == ()

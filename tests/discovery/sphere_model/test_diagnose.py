@@ -15,53 +15,53 @@ pytestmark = pytest.mark.usefixtures("few_mechanisms")
 
 
 @pytest.fixture(scope="module")
-def found(few_mechanisms):
+def diagnosis(few_mechanisms):
     return diagnose(recorded(LEAK), {"legs raised": recorded(LEAK, "legs_raised")})
 
 
-def test_a_planted_leak_is_named_and_its_interval_covers(found):
-    (cause,), (planted,) = found.mechanisms, plant(LEAK).answer.effects
-    assert found.verdict == "named"
+def test_a_planted_leak_is_named_and_its_interval_covers(diagnosis):
+    (cause,), (planted,) = diagnosis.mechanisms, plant(LEAK).answer.effects
+    assert diagnosis.verdict == "named"
     assert cause.name == planted.name
     assert cause.ln_bayes_factor > 10.0
     assert cause.interval[0] < planted.amplitude < cause.interval[1]
     assert cause.unit == "m^2"
 
 
-def test_it_gains_under_a_loading_that_was_never_fitted(found):
-    assert {each.on for each in found.gain} == {"legs raised"}
-    assert all(each.ratio < 1.0 for each in found.gain)
-    assert all(each.interval[0] < each.ratio < each.interval[1] for each in found.gain)
+def test_it_gains_under_a_loading_that_was_never_fitted(diagnosis):
+    assert {gain.on for gain in diagnosis.gain} == {"legs raised"}
+    assert all(gain.ratio < 1.0 for gain in diagnosis.gain)
+    assert all(gain.interval[0] < gain.ratio < gain.interval[1] for gain in diagnosis.gain)
 
 
-def test_the_card_says_it_in_words(found):
-    assert verdict_sentence(found).startswith("Missing mechanism: mitral regurgitation, 0.")
-    text = markdown_card(found, "case 1")
+def test_the_card_says_it_in_words(diagnosis):
+    assert verdict_sentence(diagnosis).startswith("Missing mechanism: mitral regurgitation, 0.")
+    text = markdown_card(diagnosis, "case 1")
     assert "cm²" in text
     assert "legs raised" in text
-    assert str(found.simulations) in text
+    assert str(diagnosis.simulations) in text
 
 
-def test_the_card_is_written_and_read(found, tmp_path):
-    write_cause_card(tmp_path / "deep", render_cause(found, "case 1"), "0123")
+def test_the_card_is_written_and_read(diagnosis, tmp_path):
+    write_cause_card(tmp_path / "deep", render_cause(diagnosis, "case 1"), "0123")
     content = read_cause(tmp_path / "deep" / "cause.json")
     assert content["verdict"] == "named"
-    assert content["mechanisms"][0]["amplitude"] == found.mechanisms[0].amplitude
+    assert content["mechanisms"][0]["amplitude"] == diagnosis.mechanisms[0].amplitude
     assert content["fingerprint"] == "0123"
     assert (tmp_path / "deep" / "cause.png").stat().st_size > 10_000
 
 
-def test_every_model_that_was_tried_is_told_with_its_criteria(found):
-    none, *others = found.tried
+def test_every_model_that_was_tried_is_told_with_its_criteria(diagnosis):
+    none, *others = diagnosis.tried
     assert none.effects == ()
-    singles = {each.effects[0]: each for each in others if len(each.effects) == 1}
-    assert singles.keys() == found.ranking.keys() - {"unknown"}
-    for name, each in singles.items():
-        assert each.ln_evidence - none.ln_evidence == pytest.approx(found.ranking[name])
-        assert each.unknowns > none.unknowns == 23
+    singles = {tried_model.effects[0]: tried_model for tried_model in others if len(tried_model.effects) == 1}
+    assert singles.keys() == diagnosis.ranking.keys() - {"unknown"}
+    for name, tried_model in singles.items():
+        assert tried_model.ln_evidence - none.ln_evidence == pytest.approx(diagnosis.ranking[name])
+        assert tried_model.unknowns > none.unknowns == 23
     leak = singles["MitralRegurgitation"]
     assert none.negative_ln_likelihood - leak.negative_ln_likelihood > 10.0
-    assert found.samples == sum(trace.times.size for trace in found.traces)
+    assert diagnosis.samples == sum(trace.times.size for trace in diagnosis.traces)
 
 
 def test_what_another_condition_adds_tells_members_of_a_group_apart():
@@ -73,15 +73,15 @@ def test_what_another_condition_adds_tells_members_of_a_group_apart():
 
 @pytest.mark.parametrize("seed", [1, 4, 6])
 def test_nothing_is_found_where_nothing_is(seed):
-    found = diagnose(healthy(seed))
-    assert found.verdict == "none"
-    assert found.mechanisms == found.gain == ()
-    assert found.next_measurement == ""
+    diagnosis = diagnose(healthy(seed))
+    assert diagnosis.verdict == "none"
+    assert diagnosis.mechanisms == diagnosis.gain == ()
+    assert diagnosis.next_measurement == ""
 
 
 def test_a_volume_alone_is_not_enough():
     both = healthy(4)
-    found = diagnose(replace(both, curves={"lv_volume": both.curves["lv_volume"]}))
-    assert found.verdict == "insufficient"
-    assert "pressure" in found.next_measurement
-    assert verdict_sentence(found).startswith("Insufficient data")
+    diagnosis = diagnose(replace(both, curves={"lv_volume": both.curves["lv_volume"]}))
+    assert diagnosis.verdict == "insufficient"
+    assert "pressure" in diagnosis.next_measurement
+    assert verdict_sentence(diagnosis).startswith("Insufficient data")

@@ -27,7 +27,7 @@ def test_size_changes_volumes_and_no_pressure():
     large = Recording(
         ADULT.heart.period, {"lv_volume": Samples(frames, 2.0 * ADULT.filled * np.repeat([0.4, 1.0], 13))}
     )
-    small, twice = (SphereForwardModel(each, TIMES) for each in (ADULT, ADULT.scaled_to(large)))
+    small, twice = (SphereForwardModel(heart, TIMES) for heart in (ADULT, ADULT.scaled_to(large)))
     ratio = twice.predict(CENTRE, ()) / small.predict(CENTRE, ())
     assert ratio[:26] == pytest.approx(2.0, rel=1e-3)  # the mass of the wall alone breaks the similarity
     assert ratio[26:] == pytest.approx(1.0, rel=0.1)
@@ -58,9 +58,9 @@ def test_nothing_that_is_free_is_held_by_a_centre_without_length_dependence():
     centre = replace(ADULT, heart=ADULT.heart.with_parameters({"slope": 0.0}))
     model = SphereForwardModel(centre, TIMES)
     beat = model.predict(CENTRE, ())
-    for index, each in enumerate(FREE_PARAMETERS):
-        moved = model.predict(np.where(np.arange(len(FREE_PARAMETERS)) == index, 1.0, 0.0), ())
-        assert np.abs(moved / beat - 1.0).max() > 1e-3, each.name
+    for index, parameter in enumerate(FREE_PARAMETERS):
+        shifted = model.predict(np.where(np.arange(len(FREE_PARAMETERS)) == index, 1.0, 0.0), ())
+        assert np.abs(shifted / beat - 1.0).max() > 1e-3, parameter.name
 
 
 def test_coordinates_beyond_what_a_heart_can_be_predict_nothing():

@@ -25,20 +25,20 @@ def test_every_hypothesis_begins_with_the_same_coordinates_and_none_is_in_it():
     none = hypothesis(BOTH)
     assert none.coordinates == BASE_COORDINATES
     without = none.forward(none.at(0.0))
-    for each in candidates(BOTH).values():
-        single = hypothesis(BOTH, (each,))
+    for candidate in candidates(BOTH).values():
+        single = hypothesis(BOTH, (candidate,))
         assert single.coordinates[: len(BASE_COORDINATES)] == BASE_COORDINATES
         assert single.amplitudes.sum() == 1
-        assert np.array_equal(single.forward(single.at(0.0)), without), each.name
-        assert not np.array_equal(single.forward(single.at(1.0)), without), each.name
+        assert np.array_equal(single.forward(single.at(0.0)), without), candidate.name
+        assert not np.array_equal(single.forward(single.at(1.0)), without), candidate.name
 
 
 def test_effects_join():
-    every = candidates(BOTH)
-    pair = hypothesis(BOTH, (every["CatheterOffset"], every["MitralRegurgitation"]))
+    library = candidates(BOTH)
+    pair = hypothesis(BOTH, (library["CatheterOffset"], library["MitralRegurgitation"]))
     assert pair.effects == ("CatheterOffset", "MitralRegurgitation")
     assert pair.amplitudes.sum() == 2
-    leak = hypothesis(BOTH, (every["MitralRegurgitation"],))
+    leak = hypothesis(BOTH, (library["MitralRegurgitation"],))
     both, alone = pair.forward(pair.at(1.0)), leak.forward(leak.at(1.0))
     assert np.array_equal(both[:26], alone[:26])
-    assert np.allclose(both[26:] - alone[26:], every["CatheterOffset"].unknowns[0].at(1.0))
+    assert np.allclose(both[26:] - alone[26:], library["CatheterOffset"].unknowns[0].at(1.0))

@@ -4,9 +4,11 @@ from heartfit.discovery.sphere_model.limits import detection_limits
 
 
 def test_a_delay_shows_and_a_scar_does_not():
-    found = {(each.name, each.sign): each for each in detection_limits(1, names=("CatheterDelay", "Scar"))}
-    assert set(found) == {("CatheterDelay", 1.0), ("CatheterDelay", -1.0), ("Scar", 1.0)}
-    late, scar = found["CatheterDelay", 1.0], found["Scar", 1.0]
+    limits = {
+        (limit.name, limit.sign): limit for limit in detection_limits(1, names=("CatheterDelay", "Scar"))
+    }
+    assert set(limits) == {("CatheterDelay", 1.0), ("CatheterDelay", -1.0), ("Scar", 1.0)}
+    late, scar = limits["CatheterDelay", 1.0], limits["Scar", 1.0]
     assert 0.005 < late.amplitude < 0.015
     assert scar.least is scar.amplitude is None
     assert max(scar.factors) < 5.0

@@ -12,7 +12,7 @@ from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
 
 POINTS = np.random.default_rng(0).normal(0.0, 0.7, (3, len(BASE_COORDINATES)))
-FEW = ("CatheterDelay", "CatheterOffset", "ImageTriggerDelay")
+NAMES = ("CatheterDelay", "CatheterOffset", "ImageTriggerDelay")
 
 
 def curves(x: np.ndarray) -> dict[str, Curve]:
@@ -36,8 +36,10 @@ def recording(beats: list[dict[str, Curve]]) -> Recording:
 
 @pytest.fixture(autouse=True)
 def _few(monkeypatch: pytest.MonkeyPatch) -> None:
-    every = module.candidates
-    monkeypatch.setattr(module, "candidates", lambda model: {name: every(model)[name] for name in FEW})
+    all_candidates = module.candidates
+    monkeypatch.setattr(
+        module, "candidates", lambda model: {name: all_candidates(model)[name] for name in NAMES}
+    )
 
 
 def test_nothing_is_found_in_beats_of_the_sphere_itself(

@@ -17,7 +17,7 @@ from heartfit.synthetic.campaign import PlantedPlan
 from tests.discovery.sphere_model.hearts import healthy, recorded
 
 CALIBRATED = ("cavity", "sigma_0", "mu", "c_1", "R_p", "k_RS", "k_ATP")
-SEEN = np.array([each.name.rsplit(".", 1)[-1] in CALIBRATED for each in FREE_PARAMETERS])
+SEEN = np.array([parameter.name.rsplit(".", 1)[-1] in CALIBRATED for parameter in FREE_PARAMETERS])
 
 
 @pytest.fixture(scope="module")
@@ -30,32 +30,37 @@ def context():
     return FitContext(data), model
 
 
-def frozen(given: Hypothesis) -> Hypothesis:
+def frozen(full: Hypothesis) -> Hypothesis:
     """The hypothesis with what is not calibrated held at the centre of its prior."""
-    free = np.concatenate([SEEN, np.ones(len(given.coordinates) - SEEN.size, dtype=bool)])
+    free = np.concatenate([SEEN, np.ones(len(full.coordinates) - SEEN.size, dtype=bool)])
 
     def forward(x: Floats) -> Floats | None:
         whole = np.zeros(free.size)
         whole[free] = x
-        return given.forward(whole)
+        return full.forward(whole)
 
-    kept = tuple(each for each, is_free in zip(given.coordinates, free, strict=True) if is_free)
-    return Hypothesis(given.effects, kept, forward)
+    kept = tuple(coordinate for coordinate, is_free in zip(full.coordinates, free, strict=True) if is_free)
+    return Hypothesis(full.effects, kept, forward)
 
 
 def best_bayes_factor(context: FitContext, hypotheses: Sequence[Hypothesis]) -> float:
     """ln evidence of the best effect over none, which comes first."""
-    none, *effects = (context.explain(each, each.at(float(bool(each.effects)))) for each in hypotheses)
-    return max(each.log_evidence for each in effects) - none.log_evidence
+    none, *effects = (
+        context.explain(candidate, candidate.at(float(bool(candidate.effects)))) for candidate in hypotheses
+    )
+    return max(explanation.log_evidence for explanation in effects) - none.log_evidence
 
 
 def test_frozen_parameters_invent_an_effect(context):
     judge, model = context
-    every = candidates(model)
-    effects = [every[name] for name in ("CatheterDelay", "CatheterOffset", "ImageTriggerDelay")]
-    hypotheses = [hypothesis(model), *(hypothesis(model, (each,)) for each in effects)]
+    library = candidates(model)
+    effects = [library[name] for name in ("CatheterDelay", "CatheterOffset", "ImageTriggerDelay")]
+    hypotheses = [hypothesis(model), *(hypothesis(model, (coordinate,)) for coordinate in effects)]
     assert best_bayes_factor(judge, hypotheses) < DEFAULT_RULES.detected
-    assert best_bayes_factor(judge, [frozen(each) for each in hypotheses]) > 2.0 * DEFAULT_RULES.detected
+    assert (
+        best_bayes_factor(judge, [frozen(coordinate) for coordinate in hypotheses])
+        > 2.0 * DEFAULT_RULES.detected
+    )
 
 
 def test_the_residual_of_one_unscented_step_is_no_evidence(context):

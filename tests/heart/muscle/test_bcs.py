@@ -19,13 +19,13 @@ from tests.shrinking import assert_derivative
 
 LAW = BestelClementSorine(sigma_0=280e3)
 ADDITIVE = replace(LAW, additive=True)
-ONE = np.ones(1)
+UNIT = np.ones(1)
 BOTH = pytest.mark.parametrize("second_order", [False, True])
 RHEOLOGIES = pytest.mark.parametrize("law", [LAW, ADDITIVE], ids=["A", "B"])
 
 
 def drive(attach: float, detach: float, dt: float, n_0: float = 0.8, second_order: bool = True) -> Drive:
-    return Drive((attach + detach) * ONE, attach * ONE, n_0 * ONE, dt, second_order)
+    return Drive((attach + detach) * UNIT, attach * UNIT, n_0 * UNIT, dt, second_order)
 
 
 def hold_length(state: np.ndarray, step: Drive, duration: float) -> np.ndarray:
@@ -104,9 +104,9 @@ def shortened(second_order: bool, dt: float, length: float = 0.32) -> float:
     law = replace(LAW, starling=Starling(slope=1.0))
     state, strain = law.rest(1), np.zeros(1)
     for n in range(round(length / dt)):
-        following = -0.1 * np.sin(4.0 * (n + 1) * dt) * ONE
+        following = -0.1 * np.sin(4.0 * (n + 1) * dt) * UNIT
         step = TimeStep(n * dt, dt, 1.0, second_order)
-        driven = law.drive(step, (6.0 * ONE, 6.0 * ONE), state)
+        driven = law.drive(step, (6.0 * UNIT, 6.0 * UNIT), state)
         out = law.begin(strain, state)
         law.respond(driven, strain, following, state, out)
         state, strain = law.advance(driven, state, out[2]), following
@@ -215,7 +215,7 @@ def test_both_rheologies_agree_at_small_strains() -> None:
 def test_the_length_dependence_of_the_additive_rheology_is_in_engineering_strain() -> None:
     law, state = BestelClementSorine(additive=True, starling=Starling(1.0, 0.0)), LAW.rest(1)
     state[0] = 0.0969
-    step = law.drive(TimeStep(0.0, 5e-3, 1.0), (ONE, ONE), state)
+    step = law.drive(TimeStep(0.0, 5e-3, 1.0), (UNIT, UNIT), state)
     assert step.n_0 == pytest.approx([0.8933])
     assert law.unstressed(np.array([0.105])) == pytest.approx([0.1])
 

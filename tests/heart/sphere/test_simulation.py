@@ -34,7 +34,7 @@ from tests.printed import numbers_in
 
 LEFT, RIGHT = Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6)
 ONE_CLASS = np.array([0.03])
-SHORT = Numerics(time_step=0.01, max_beats=2, drift=0.0)
+TWO_BEATS = Numerics(time_step=0.01, max_beats=2, drift=0.0)
 TIGHT = Tolerances(force=1e-7, volume=1e-14, pressure=1e-4, iterations=60)
 BOTH = pytest.mark.parametrize("second_order", [False, True])
 
@@ -83,7 +83,7 @@ def test_it_is_the_beat_of_the_coupled_path(
 ) -> None:
     """Volumes, pressures and flows of every branch, over two beats with a shift between them."""
     monkeypatch.setattr(unloading, "INFLATION_FORCE_TOLERANCE", 1e-9)
-    numerics = replace(SHORT, second_order=second_order, tolerances=TIGHT)
+    numerics = replace(TWO_BEATS, second_order=second_order, tolerances=TIGHT)
     coupled = simulate(heart, SphericalBody(LEFT, RIGHT, heart.muscle), numerics)
     compiled = simulate_spheres(heart, [LEFT, RIGHT], numerics)
     assert max(departures(compiled, coupled).values()) < 1e-7
@@ -94,7 +94,7 @@ def test_it_is_the_beat_of_the_coupled_path(
 
 def test_a_left_ventricle_alone_beats_as_beside_a_right_one(spherical_heart: Heart) -> None:
     heart = spherical_heart + MitralRegurgitation()
-    alone, both = (simulate_spheres(heart, spheres, SHORT) for spheres in ([LEFT], [LEFT, RIGHT]))
+    alone, both = (simulate_spheres(heart, spheres, TWO_BEATS) for spheres in ([LEFT], [LEFT, RIGHT]))
     assert alone.volume.keys() == {"lv"}
     assert alone.pressure.keys() == {"lv", "aorta", "left_atrium"}
     assert alone.flow.keys() == {"mitral", "aortic", "MitralRegurgitation"}
@@ -105,7 +105,7 @@ def test_a_left_ventricle_alone_beats_as_beside_a_right_one(spherical_heart: Hea
 
 def test_one_fibre_class_is_many_of_the_same_time(spherical_heart: Heart) -> None:
     one, many = (
-        simulate_spheres(spherical_heart, [LEFT], SHORT, times)
+        simulate_spheres(spherical_heart, [LEFT], TWO_BEATS, times)
         for times in (ONE_CLASS, np.repeat(ONE_CLASS, 4))
     )
     assert max(departures(one, many).values()) < 1e-9
@@ -114,7 +114,7 @@ def test_one_fibre_class_is_many_of_the_same_time(spherical_heart: Heart) -> Non
 @BOTH
 def test_blood_is_conserved_step_by_step(heart: Heart, second_order: bool) -> None:
     """The mean flow of a step is (q + b q# of the step before) / (1 + b), whatever the branches."""
-    beat = simulate_spheres(heart, [LEFT, RIGHT], replace(SHORT, max_beats=1, second_order=second_order))
+    beat = simulate_spheres(heart, [LEFT, RIGHT], replace(TWO_BEATS, max_beats=1, second_order=second_order))
     flow, dt = beat.flow, beat.time[1]
     net = flow["mitral"] - flow["aortic"] - flow["MitralRegurgitation"] - flow["Shunt"]
     right = flow["tricuspid"] - flow["pulmonary"] + flow["Shunt"]
@@ -125,7 +125,9 @@ def test_blood_is_conserved_step_by_step(heart: Heart, second_order: bool) -> No
 
 
 def test_cut_steps_recover_the_beat(inviscid: Heart) -> None:
-    coarse, fine = (simulate_spheres(inviscid, [LEFT], replace(SHORT, time_step=dt)) for dt in (0.02, 0.0025))
+    coarse, fine = (
+        simulate_spheres(inviscid, [LEFT], replace(TWO_BEATS, time_step=dt)) for dt in (0.02, 0.0025)
+    )
     assert coarse.diagnostics["step_cuts"] > 0
     assert fine.diagnostics["step_cuts"] == 0
     assert coarse.volume["lv"].min() == pytest.approx(fine.volume["lv"].min(), rel=0.05)
@@ -136,7 +138,7 @@ def test_a_step_taken_in_halves_ends_where_the_whole_one_does(
     spherical_heart: Heart, failing: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """But for the error of one step: at its own time, 16 in contraction, 52 in relaxation, and in its own row."""
-    whole = simulate_spheres(spherical_heart, [LEFT], replace(SHORT, max_beats=1))
+    whole = simulate_spheres(spherical_heart, [LEFT], replace(TWO_BEATS, max_beats=1))
 
     def fails_once(
         tissue: SphereTissue, inputs: StepInputs, state: State, curves: Floats, first: int
@@ -148,7 +150,7 @@ def test_a_step_taken_in_halves_ends_where_the_whole_one_does(
         return completed, UNBALANCED, iterations
 
     monkeypatch.setattr(simulation, "advance", fails_once)
-    halved = simulate_spheres(spherical_heart, [LEFT], replace(SHORT, max_beats=1))
+    halved = simulate_spheres(spherical_heart, [LEFT], replace(TWO_BEATS, max_beats=1))
     assert halved.diagnostics["step_cuts"] == 1
     for name in ("lv_volume", "lv_pressure", "aorta_pressure"):
         curve = whole.signals()[name]
@@ -156,7 +158,7 @@ def test_a_step_taken_in_halves_ends_where_the_whole_one_does(
 
 
 def test_a_failing_heart_says_when_and_why(inviscid: Heart) -> None:
-    beat = simulate_spheres(inviscid, [LEFT], replace(SHORT, time_step=0.02, cuts=0))
+    beat = simulate_spheres(inviscid, [LEFT], replace(TWO_BEATS, time_step=0.02, cuts=0))
     assert (beat.status, beat.completed) == ("failed", False)
     assert beat.reason.startswith("beat 1: at 0.")
     assert beat.reason.removesuffix(": ").split(": ")[-1] in FAILURE_REASONS

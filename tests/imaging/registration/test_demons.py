@@ -18,9 +18,9 @@ def texture(shape: tuple[int, ...], shift: tuple[float, ...]) -> np.ndarray:
 def test_a_shift_is_found_to_a_twentieth_of_a_voxel(shape: tuple[int, ...], shift: tuple[float, ...]) -> None:
     """However strongly it is smoothed: a shift is as smooth as can be."""
     still = (0.0,) * len(shape)
-    found = register(texture(shape, still), texture(shape, shift), Demons(smoothing=3.0))
+    displacement = register(texture(shape, still), texture(shape, shift), Demons(smoothing=3.0))
     inner = tuple(slice(size // 3, 2 * size // 3) for size in shape)
-    assert np.abs(found[inner] - shift).max() < 0.05
+    assert np.abs(displacement[inner] - shift).max() < 0.05
 
 
 def test_the_same_images_give_the_same_displacement_to_the_bit() -> None:

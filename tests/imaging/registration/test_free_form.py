@@ -42,21 +42,21 @@ def test_the_minimum_of_a_quadratic_is_found(seed: int) -> None:
     first, second = rng.standard_normal((2, 9, 6))
     b, c = rng.standard_normal((2, 9))
     expected = np.linalg.lstsq(np.vstack([first, second]), np.concatenate([b, c]), rcond=None)[0]
-    found = minimise([line(first, b), line(second, c)], np.zeros((2, 3), np.float32), 10)
-    assert found.ravel() == pytest.approx(expected, abs=2e-3)
+    minimum = minimise([line(first, b), line(second, c)], np.zeros((2, 3), np.float32), 10)
+    assert minimum.ravel() == pytest.approx(expected, abs=2e-3)
 
 
 def test_a_diagonal_quadratic_takes_one_step() -> None:
     scale = np.array([1e-2, 1.0, 30.0, 1e3])
-    found = minimise([line(np.diag(scale), scale * [1.0, -2.0, 3.0, 4.0])], np.zeros((4,), np.float32), 1)
-    assert found == pytest.approx(np.array([1.0, -2.0, 3.0, 4.0]), rel=1e-5)
+    minimum = minimise([line(np.diag(scale), scale * [1.0, -2.0, 3.0, 4.0])], np.zeros((4,), np.float32), 1)
+    assert minimum == pytest.approx(np.array([1.0, -2.0, 3.0, 4.0]), rel=1e-5)
 
 
 def test_what_no_term_sees_stays() -> None:
     """A knot of the lattice beyond the images."""
-    seen = np.diag([1.0, 0.0, 2.0])
-    found = minimise([line(seen, np.array([3.0, 0.0, 4.0]))], np.full((3,), 7.0, np.float32), 5)
-    assert found == pytest.approx(np.array([3.0, 7.0, 2.0]), rel=1e-5)
+    matrix = np.diag([1.0, 0.0, 2.0])
+    minimum = minimise([line(matrix, np.array([3.0, 0.0, 4.0]))], np.full((3,), 7.0, np.float32), 5)
+    assert minimum == pytest.approx(np.array([3.0, 7.0, 2.0]), rel=1e-5)
 
 
 @pytest.mark.parametrize("start", [0.5, 1.5, 3.0, 10.0, 100.0])

@@ -40,8 +40,8 @@ def test_polynomials_up_to_cubic_are_reproduced(shape: tuple[int, ...], degree: 
     places = np.vstack([np.random.default_rng(0).random((50, len(shape))) * last, 0.0 * last, last])
     degrees = tuple((degree + axis) % 4 for axis in range(len(shape)))
     expected = np.prod((places / KNOTS) ** degrees, axis=1)
-    found = lattice.evaluate(coefficients(lattice, degrees), places)
-    assert found == pytest.approx(np.tile(expected[:, None], len(shape)), rel=1e-10, abs=1e-10)
+    displacement = lattice.evaluate(coefficients(lattice, degrees), places)
+    assert displacement == pytest.approx(np.tile(expected[:, None], len(shape)), rel=1e-10, abs=1e-10)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -49,9 +49,9 @@ def test_on_a_grid_it_is_what_it_is_at_scattered_places(shape: tuple[int, ...]) 
     lattice = Lattice(shape, KNOTS)
     places = [np.sort(np.random.default_rng(a).random(4 + a)) * (n - 1) for a, n in enumerate(shape)]
     scattered = np.stack(np.meshgrid(*places, indexing="ij"), axis=-1).reshape(-1, len(shape))
-    found = lattice.sampling(places).displacement(random(lattice, 1))
-    expected = lattice.evaluate(random(lattice, 1), scattered).T.reshape(found.shape)
-    assert found == pytest.approx(expected, abs=1e-6)
+    displacement = lattice.sampling(places).displacement(random(lattice, 1))
+    expected = lattice.evaluate(random(lattice, 1), scattered).T.reshape(displacement.shape)
+    assert displacement == pytest.approx(expected, abs=1e-6)
 
 
 def test_beyond_the_image_the_displacement_is_that_of_its_edge() -> None:
@@ -83,10 +83,12 @@ def test_the_derivative_of_a_cubic_is_its_quadratic(shape: tuple[int, ...]) -> N
     lattice = Lattice(shape, KNOTS)
     for axis in range(len(shape)):
         degrees = tuple(3 if a == axis else 1 for a in range(len(shape)))
-        found = lattice.sampling(voxels(shape), axis).displacement(coefficients(lattice, degrees))
+        displacement = lattice.sampling(voxels(shape), axis).displacement(coefficients(lattice, degrees))
         xi = np.meshgrid(*[places / KNOTS for places in voxels(shape)], indexing="ij")
         expected = np.prod([3.0 * x**2 / KNOTS if a == axis else x for a, x in enumerate(xi)], axis=0)
-        assert found == pytest.approx(np.broadcast_to(expected, found.shape), rel=1e-5, abs=1e-4)
+        assert displacement == pytest.approx(
+            np.broadcast_to(expected, displacement.shape), rel=1e-5, abs=1e-4
+        )
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -98,12 +100,12 @@ def test_the_transpose_is_the_transpose(shape: tuple[int, ...], along: int | Non
         lattice.sampling([places[::2] for places in voxels(shape)], along),
         np.random.default_rng(2),
     )
-    moved = sampling.displacement(random(lattice, 3))
-    field = rng.standard_normal(moved.shape)
+    displaced = sampling.displacement(random(lattice, 3))
+    field = rng.standard_normal(displaced.shape)
     back = sampling.transposed(field)
     assert back.shape == lattice.zeros().shape
-    assert (moved * field).sum() == pytest.approx((random(lattice, 3) * back).sum(), rel=1e-6)
-    squares = rng.random(moved.shape)
+    assert (displaced * field).sum() == pytest.approx((random(lattice, 3) * back).sum(), rel=1e-6)
+    squares = rng.random(displaced.shape)
     diagonal = sampling.diagonal(squares)
     for _ in range(5):
         unit, place = lattice.zeros(), tuple(rng.integers(lattice.zeros().shape))
@@ -140,5 +142,5 @@ def test_bending_is_symmetric_and_its_diagonal_the_diagonal(shape: tuple[int, ..
     for _ in range(5):
         unit, place = lattice.zeros(), tuple(rng.integers(lattice.zeros().shape))
         unit[place] = 1.0
-        found = lattice.bending_diagonal[(0, *place[1:])]
-        assert found == pytest.approx(lattice.bending(unit)[place], rel=1e-5)
+        diagonal = lattice.bending_diagonal[(0, *place[1:])]
+        assert diagonal == pytest.approx(lattice.bending(unit)[place], rel=1e-5)

@@ -31,11 +31,13 @@ def test_the_left_endocardium_of_the_middle_slices_is_followed_to_a_millimetre(
     part = replace(images, grid=grid, voxels=images.voxels[FRAMES, SLICES], times=images.times[FRAMES])
     motion = register_slices(part, heart.surface.points)
     require_unfolded(motion)
-    found = [
-        each for each in outlines(heart.surface, heart.positions[FRAMES], motion) if each.surface == "lv_endo"
+    endocardial = [
+        outline
+        for outline in outlines(heart.surface, heart.positions[FRAMES], motion)
+        if outline.surface == "lv_endo"
     ]
-    assert [outline.slice for outline in found] == [0, 1, 2]
-    for outline in found:
+    assert [outline.slice for outline in endocardial] == [0, 1, 2]
+    for outline in endocardial:
         mean, _ = outline.distance()
         assert mean[1:].mean() < 1.05e-3
         assert mean[END_SYSTOLE] < 1.6e-3 < 7e-3 < outline.distance_at_rest()[END_SYSTOLE]

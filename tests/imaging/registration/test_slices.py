@@ -95,7 +95,7 @@ def test_frames_are_followed_from_neighbour_to_neighbour() -> None:
     """Stripes 16 pixels apart, which move by 4 a frame: alone, the fourth frame looks as the first."""
     step = 4.0 * np.minimum(np.arange(FRAMES), FRAMES - np.arange(FRAMES))
     j, i = np.meshgrid(np.arange(64.0), np.arange(64.0), indexing="ij")
-    stripes = [np.cos(2.0 * np.pi * (i - moved) / 16.0) + np.cos(2.0 * np.pi * j / 16.0) for moved in step]
+    stripes = [np.cos(2.0 * np.pi * (i - shift) / 16.0) + np.cos(2.0 * np.pi * j / 16.0) for shift in step]
     grid = Grid((64, 64, 1), np.array([PIXEL, PIXEL, STEP]), np.zeros(3), np.eye(3))
     images = ImageSequence(grid, np.array(stripes)[:, None], np.arange(FRAMES) / FRAMES, 1.0)
     middle = grid.points(np.array([[32.0, 32.0, 0.0]]))

@@ -123,14 +123,14 @@ def test_curvatures_of_voxels_add_up(lattice: Lattice) -> None:
     places = [(9, 8, 10), (7, 11, 8), (10, 9, 9)]
     for term_of in (volume_of, lambda lattice, weight: brightness_of(lattice, ramp(), weight)):
         together = term_of(lattice, sum(one_voxel(place) for place in places)).linearise(here)
-        apart = [term_of(lattice, one_voxel(place)).linearise(here) for place in places]
-        assert together.value == pytest.approx(sum(part.value for part in apart), rel=1e-5)
-        for found, parts in (
-            (together.curvature(step), [part.curvature(step) for part in apart]),
-            (together.diagonal, [part.diagonal for part in apart]),
-            (together.force, [part.force for part in apart]),
+        single_voxels = [term_of(lattice, one_voxel(place)).linearise(here) for place in places]
+        assert together.value == pytest.approx(sum(part.value for part in single_voxels), rel=1e-5)
+        for total, parts in (
+            (together.curvature(step), [part.curvature(step) for part in single_voxels]),
+            (together.diagonal, [part.diagonal for part in single_voxels]),
+            (together.force, [part.force for part in single_voxels]),
         ):
-            assert found == pytest.approx(sum(parts), abs=1e-5 * float(np.abs(found).max()))
+            assert total == pytest.approx(sum(parts), abs=1e-5 * float(np.abs(total).max()))
 
 
 def test_what_keeps_every_volume_costs_nothing(lattice: Lattice) -> None:
@@ -187,8 +187,8 @@ def test_an_image_moved_by_the_displacement_does_not_differ(lattice: Lattice) ->
     weight = middle()
     fixed = FixedImage(lattice, PyramidLevel.from_shape(SHAPE, 1), moving + slope @ shift, weight)
     term = Brightness(fixed, moving)
-    moved = np.broadcast_to(shift[:, None, None, None], lattice.zeros().shape)
-    assert term.mismatch(moved) == pytest.approx(0.0, abs=1e-4 * np.abs(slope @ shift))
+    displaced = np.broadcast_to(shift[:, None, None, None], lattice.zeros().shape)
+    assert term.mismatch(displaced) == pytest.approx(0.0, abs=1e-4 * np.abs(slope @ shift))
     assert term.mismatch(lattice.zeros()) == pytest.approx(abs(slope @ shift), rel=1e-4)
     assert term.linearise(lattice.zeros()).value == pytest.approx(
         weight.sum() * (slope @ shift) ** 2, rel=1e-4

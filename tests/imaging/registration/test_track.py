@@ -73,7 +73,7 @@ def texture(places: np.ndarray, seed: int = 0) -> np.ndarray:
     return sum(np.cos(places @ wave + phase) for wave, phase in zip(waves, phases, strict=True))
 
 
-def moved(points: np.ndarray, motion: Affine, share: float) -> np.ndarray:
+def displaced(points: np.ndarray, motion: Affine, share: float) -> np.ndarray:
     gradient, step = motion(share)
     return (points - MIDDLE) @ gradient.T + step + MIDDLE
 
@@ -101,10 +101,10 @@ def origins(grid: Grid, motion: Affine, share: float) -> np.ndarray:
     return (places - MIDDLE - step) @ np.linalg.inv(gradient).T + MIDDLE
 
 
-def errors(found: Tracking, mesh: VentricularMesh, motion: Affine) -> np.ndarray:
+def errors(tracking: Tracking, mesh: VentricularMesh, motion: Affine) -> np.ndarray:
     """Distances (p,n), in voxels of 3 mm, between where nodes are and where they are said to be."""
-    true = np.array([moved(mesh.points, motion, share) for share in COURSE])
-    return np.linalg.norm(found.motion.positions - true, axis=-1) / VOXEL
+    true = np.array([displaced(mesh.points, motion, share) for share in COURSE])
+    return np.linalg.norm(tracking.motion.positions - true, axis=-1) / VOXEL
 
 
 @pytest.fixture(scope="module")
@@ -115,32 +115,32 @@ def box() -> VentricularMesh:
 @pytest.mark.parametrize("motion", [shift, rotation, contraction])
 def test_a_known_motion_is_found_to_a_fifth_of_a_voxel(box: VentricularMesh, motion: Affine) -> None:
     """Everywhere in the tissue, which moves by up to a voxel and a half; to a twentieth on average."""
-    found = track(imaged(motion), box, STIFF)
-    error = errors(found, box, motion)
-    assert np.linalg.norm(moved(box.points, motion, 1.0) - box.points, axis=1).max() > VOXEL
+    tracking = track(imaged(motion), box, STIFF)
+    error = errors(tracking, box, motion)
+    assert np.linalg.norm(displaced(box.points, motion, 1.0) - box.points, axis=1).max() > VOXEL
     assert error.max() < 0.2
     assert error.mean() < 0.05
-    assert found.mismatch.max() < 0.05
-    assert found.compression.min() > 0.9
+    assert tracking.mismatch.max() < 0.05
+    assert tracking.compression.min() > 0.9
 
 
 def test_still_images_give_no_motion(box: VentricularMesh) -> None:
-    found = track(imaged(nothing), box, STIFF)
-    assert found.motion.positions == pytest.approx(np.tile(box.points, (FRAMES, 1, 1)), abs=1e-9)
-    assert found.mismatch.max() < 1e-6
-    assert found.compression == pytest.approx(np.ones(FRAMES), abs=1e-6)
+    tracking = track(imaged(nothing), box, STIFF)
+    assert tracking.motion.positions == pytest.approx(np.tile(box.points, (FRAMES, 1, 1)), abs=1e-9)
+    assert tracking.mismatch.max() < 1e-6
+    assert tracking.compression == pytest.approx(np.ones(FRAMES), abs=1e-6)
 
 
 def test_voxels_need_not_be_cubes_nor_stand_along_the_axes(box: VentricularMesh) -> None:
     """They give the same motion, to a twentieth of a voxel on average, and to a fifth but for a corner of the box."""
     straight = track(imaged(contraction), box, STIFF).motion.positions
     for thickness, turned in ((4e-3, False), (VOXEL, True)):
-        found = track(imaged(contraction, thickness, turned), box, STIFF)
-        error = errors(found, box, contraction)
+        tracking = track(imaged(contraction, thickness, turned), box, STIFF)
+        error = errors(tracking, box, contraction)
         assert error.mean() < 0.05
         assert np.quantile(error, 0.99) < 0.2
-        apart = np.linalg.norm(found.motion.positions - straight, axis=-1) / VOXEL
-        assert apart.mean() < 0.05
+        distance = np.linalg.norm(tracking.motion.positions - straight, axis=-1) / VOXEL
+        assert distance.mean() < 0.05
 
 
 def test_a_beat_told_in_other_order_is_the_same_beat(box: VentricularMesh) -> None:
@@ -148,7 +148,7 @@ def test_a_beat_told_in_other_order_is_the_same_beat(box: VentricularMesh) -> No
     images = imaged(shift)
     back = [0, *range(FRAMES - 1, 0, -1)]
     reversed_ = replace(images, voxels=images.voxels[back])
-    forwards, backwards = (track(each, box, STIFF).motion.positions for each in (images, reversed_))
+    forwards, backwards = (track(sequence, box, STIFF).motion.positions for sequence in (images, reversed_))
     assert backwards[back] == pytest.approx(forwards, abs=0.05 * VOXEL)
 
 
@@ -165,10 +165,10 @@ def test_the_same_images_give_the_same_motion_to_the_bit_and_brightness_has_no_u
 
 
 def test_the_first_phase_is_the_mesh_itself_at_the_times_of_the_frames(box: VentricularMesh) -> None:
-    found = track(imaged(shift), box, STIFF).motion
-    np.testing.assert_array_equal(found.positions[0], box.points)
-    np.testing.assert_array_equal(found.times, TIMES)
-    assert found.period == PERIOD
+    tracking = track(imaged(shift), box, STIFF).motion
+    np.testing.assert_array_equal(tracking.positions[0], box.points)
+    np.testing.assert_array_equal(tracking.times, TIMES)
+    assert tracking.period == PERIOD
 
 
 def test_a_frame_is_sought_from_where_its_neighbour_was_found(box: VentricularMesh) -> None:
@@ -205,9 +205,9 @@ def test_a_frame_that_folds_the_wall_is_named(box: VentricularMesh) -> None:
 
 def test_a_frame_that_would_fold_the_wall_is_matched_stiffer(box: VentricularMesh) -> None:
     """Only where it is needed: still frames stay where they were found."""
-    found = track(other_tissue(), box, replace(STIFF, knots=5e-3, stiffness=4e-8, incompressibility=0.0))
-    assert found.compression.min() > 0.0
-    assert (found.compression[3:5] < 0.9).all()
-    assert found.mismatch[3:5].min() > 0.05
-    volumes = element_volumes(found.motion.positions[4], box.tets) / box.element_volumes()
-    assert found.compression[4] == volumes.min()
+    tracking = track(other_tissue(), box, replace(STIFF, knots=5e-3, stiffness=4e-8, incompressibility=0.0))
+    assert tracking.compression.min() > 0.0
+    assert (tracking.compression[3:5] < 0.9).all()
+    assert tracking.mismatch[3:5].min() > 0.05
+    volumes = element_volumes(tracking.motion.positions[4], box.tets) / box.element_volumes()
+    assert tracking.compression[4] == volumes.min()

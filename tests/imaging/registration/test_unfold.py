@@ -30,11 +30,11 @@ def compression(block: VentricularMesh, places: np.ndarray) -> float:
 def test_one_node_that_folds_the_wall_is_taken_back(block: VentricularMesh) -> None:
     places = pushed(block, 1)
     assert compression(block, places) < 0.0
-    found = unfold(block, places)
-    assert compression(block, found) >= MIN_VOLUME_RATIO
-    otherwise = (found != places).any(axis=1)
+    unfolded = unfold(block, places)
+    assert compression(block, unfolded) >= MIN_VOLUME_RATIO
+    otherwise = (unfolded != places).any(axis=1)
     assert 0 < otherwise.sum() < MAX_RELAXED_SHARE * len(places)
-    assert abs(found - block.points - np.array([3e-3, 0.0, -1e-3])).max() < 1.7e-3, "towards the others"
+    assert abs(unfolded - block.points - np.array([3e-3, 0.0, -1e-3])).max() < 1.7e-3, "towards the others"
 
 
 def test_what_is_not_folded_stays_to_the_last_digit(block: VentricularMesh) -> None:

@@ -18,7 +18,7 @@ from tests.imaging.segmentation.conftest import PIXEL, STEP, axes
 
 
 @pytest.fixture(scope="module")
-def found(segmentation: Segmentation) -> LabelledSurface:
+def surface(segmentation: Segmentation) -> LabelledSurface:
     return wall_surface(segmentation)
 
 
@@ -33,25 +33,25 @@ def distances(queries: np.ndarray, surface: LabelledSurface, name: str) -> np.nd
     return np.linalg.norm(foot - queries, axis=1)
 
 
-def test_cavities_and_wall_have_their_volumes(found: LabelledSurface, ventricles: LabelledSurface) -> None:
+def test_cavities_and_wall_have_their_volumes(surface: LabelledSurface, ventricles: LabelledSurface) -> None:
     for name in ("lv_endo", "rv_endo"):
-        assert cavity(found, name) == pytest.approx(cavity(ventricles, name), rel=0.02)
-    assert found.volume() == pytest.approx(ventricles.volume(), rel=0.03)
+        assert cavity(surface, name) == pytest.approx(cavity(ventricles, name), rel=0.02)
+    assert surface.volume() == pytest.approx(ventricles.volume(), rel=0.03)
 
 
 def test_each_surface_is_where_it_was_to_less_than_a_pixel(
-    found: LabelledSurface, ventricles: LabelledSurface
+    surface: LabelledSurface, ventricles: LabelledSurface
 ) -> None:
     for name in ("lv_endo", "rv_endo", "epi"):
-        away = distances(found.points[np.unique(found.surfaces[name])], ventricles, name)
+        away = distances(surface.points[np.unique(surface.surfaces[name])], ventricles, name)
         assert away.mean() < 0.5 * PIXEL
         assert np.quantile(away, 0.95) < PIXEL
 
 
-def test_the_wall_is_a_ball_with_one_flat_opening_of_each_cavity(found: LabelledSurface) -> None:
-    assert euler_characteristic(found.triangles) == 2
-    assert [len(rim_loops(found.surfaces[name])) for name in ("lv_endo", "rv_endo", "epi")] == [1, 1, 1]
-    base = found.points[np.unique(found.surfaces["base"])] @ axes()[:, 2]
+def test_the_wall_is_a_ball_with_one_flat_opening_of_each_cavity(surface: LabelledSurface) -> None:
+    assert euler_characteristic(surface.triangles) == 2
+    assert [len(rim_loops(surface.surfaces[name])) for name in ("lv_endo", "rv_endo", "epi")] == [1, 1, 1]
+    base = surface.points[np.unique(surface.surfaces["base"])] @ axes()[:, 2]
     np.testing.assert_allclose(base, 0.0, atol=1e-9)
 
 
@@ -65,22 +65,22 @@ def test_a_wall_that_is_not_segmented_has_the_stated_thickness(segmentation: Seg
         assert np.median(to_right[over_right]) == pytest.approx(thickness, abs=0.3e-3)
 
 
-def test_slices_may_be_numbered_either_way(segmentation: Segmentation, found: LabelledSurface) -> None:
-    given = segmentation.grid
-    last = given.points(np.array([0.0, 0.0, given.size[2] - 1.0]))
-    turned = given.direction * [1.0, 1.0, -1.0]
+def test_slices_may_be_numbered_either_way(segmentation: Segmentation, surface: LabelledSurface) -> None:
+    grid = segmentation.grid
+    last = grid.points(np.array([0.0, 0.0, grid.size[2] - 1.0]))
+    turned = grid.direction * [1.0, 1.0, -1.0]
     backwards = Segmentation(
-        replace(given, origin=last, direction=turned),
+        replace(grid, origin=last, direction=turned),
         {name: mask[::-1] for name, mask in segmentation.parts.items()},
     )
-    assert wall_surface(backwards).volume() == pytest.approx(found.volume(), rel=1e-9)
+    assert wall_surface(backwards).volume() == pytest.approx(surface.volume(), rel=1e-9)
 
 
-def test_the_base_is_cut_where_it_is_stated(segmentation: Segmentation, found: LabelledSurface) -> None:
+def test_the_base_is_cut_where_it_is_stated(segmentation: Segmentation, surface: LabelledSurface) -> None:
     lower = wall_surface(segmentation, Shaping(above_base=0.0))
     height = (lower.points @ axes()[:, 2]).max()
     assert height == pytest.approx(-0.5 * STEP, abs=1e-9)
-    assert cavity(lower, "lv_endo") < cavity(found, "lv_endo")
+    assert cavity(lower, "lv_endo") < cavity(surface, "lv_endo")
 
 
 def test_a_hole_in_the_wall_is_no_heart(segmentation: Segmentation, grid: Grid) -> None:
@@ -102,11 +102,11 @@ def test_inflow_and_outflow_of_the_right_ventricle_leave_one_opening(segmentatio
 
 
 def test_what_the_parts_enclose_in_a_slice_is_wall(
-    segmentation: Segmentation, found: LabelledSurface
+    segmentation: Segmentation, surface: LabelledSurface
 ) -> None:
     """A pit between the parts, as between aorta and right ventricle, would be a tunnel."""
     wall = segmentation.parts["lv_wall"].copy()
     j, i = np.unravel_index(distance_transform_edt(wall[11]).argmax(), wall[11].shape)
     wall[10:, j - 1 : j + 2, i - 1 : i + 2] = False
-    surface = wall_surface(Segmentation(segmentation.grid, {**segmentation.parts, "lv_wall": wall}))
-    assert surface.volume() == pytest.approx(found.volume(), rel=2e-3)
+    filled = wall_surface(Segmentation(segmentation.grid, {**segmentation.parts, "lv_wall": wall}))
+    assert filled.volume() == pytest.approx(surface.volume(), rel=2e-3)

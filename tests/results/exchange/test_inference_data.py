@@ -14,7 +14,7 @@ COUNT = CHAINS * DRAWS
 
 
 @pytest.fixture(scope="module")
-def found(calibrated):
+def groups(calibrated):
     return inference_groups(calibrated)
 
 
@@ -23,32 +23,32 @@ def drawn(group, names):
 
 
 @pytest.mark.parametrize("about", ["prior", "posterior"])
-def test_draws_have_the_mean_and_covariance_that_stand_beside_them(found, about):
-    logarithms = np.log(drawn(found[about], ("sigma_0", "mu")))
+def test_draws_have_the_mean_and_covariance_that_stand_beside_them(groups, about):
+    logarithms = np.log(drawn(groups[about], ("sigma_0", "mu")))
     mean, covariance = (
-        found["constant_data"][f"{about}_{moment}"].values for moment in ("mean", "covariance")
+        groups["constant_data"][f"{about}_{moment}"].values for moment in ("mean", "covariance")
     )
     sd = np.sqrt(np.diag(covariance))
     assert logarithms.mean(axis=0) == pytest.approx(mean, abs=4.0 * sd.max() / np.sqrt(COUNT))
     assert np.cov(logarithms.T) == pytest.approx(covariance, abs=6.0 * sd.max() ** 2 / np.sqrt(COUNT))
 
 
-def test_predictive_draws_follow_by_the_linear_map_with_the_noise(found, calibrated):
+def test_predictive_draws_follow_by_the_linear_map_with_the_noise(groups, calibrated):
     belief = calibrated.noise_aware.estimate
     slopes = np.array([[-10e-6, 40e-6], [2e-6, -30e-6]])
     exact = np.array([60e-6, 400e-6]) + (belief.mean - calibrated.noise_aware.prior.mean) @ slopes
     spread = slopes.T @ belief.covariance @ slopes + calibrated.measurement.covariance
-    seen = drawn(found["posterior_predictive"], ("V_min", "q_max")) - exact
+    noise = drawn(groups["posterior_predictive"], ("V_min", "q_max")) - exact
     sd = np.sqrt(np.diag(spread))
-    assert np.all(np.abs(seen.mean(axis=0)) < 4.0 * sd / np.sqrt(COUNT))
-    assert np.cov((seen / sd).T) == pytest.approx(spread / np.outer(sd, sd), abs=0.15)
+    assert np.all(np.abs(noise.mean(axis=0)) < 4.0 * sd / np.sqrt(COUNT))
+    assert np.cov((noise / sd).T) == pytest.approx(spread / np.outer(sd, sd), abs=0.15)
 
 
-def test_the_density_is_that_of_each_draw(found, calibrated):
+def test_the_density_is_that_of_each_draw(groups, calibrated):
     belief = calibrated.noise_aware.estimate
-    logarithms = np.log(drawn(found["posterior"], belief.names))
+    logarithms = np.log(drawn(groups["posterior"], belief.names))
     expected = multivariate_normal(belief.mean, belief.covariance).logpdf(logarithms)
-    assert found["sample_stats"]["lp"].values.ravel() == pytest.approx(expected)
+    assert groups["sample_stats"]["lp"].values.ravel() == pytest.approx(expected)
 
 
 def test_the_file_is_read_by_arviz_with_units_and_the_same_to_the_byte(calibrated, tmp_path):

@@ -44,8 +44,8 @@ def searched(folder, criteria, criterion=None):
             problem, candidate_space=space, criterion=criterion, user_calibrated_models=calibrated
         )
         assert not begun["uncalibrated_models"]
-        done = ui.end_iteration(problem, begun["candidate_space"], calibrated_models=Models())
-        space, ended = done["candidate_space"], done["terminate"]
+        iteration = ui.end_iteration(problem, begun["candidate_space"], calibrated_models=Models())
+        space, ended = iteration["candidate_space"], iteration["terminate"]
     return ui.get_best(problem, problem.state.models, criterion=criterion).model_id
 
 
@@ -92,6 +92,6 @@ def test_files_are_the_same_to_the_byte_and_hold_every_model(tmp_path):
     before = {path: path.read_bytes() for path in folder.rglob("*.*") if path.is_file()}
     exported(tmp_path, tried(7.0, 3.0, 8.0))
     assert before == {path: path.read_bytes() for path in folder.rglob("*.*") if path.is_file()}
-    said = json.loads((tmp_path / "cause" / "cause.json").read_text())["tried"]
-    assert said == json.loads(json.dumps([asdict(each) for each in tried(7.0, 3.0, 8.0)]))
+    stored = json.loads((tmp_path / "cause" / "cause.json").read_text())["tried"]
+    assert stored == json.loads(json.dumps([asdict(model) for model in tried(7.0, 3.0, 8.0)]))
     assert len(yaml.safe_load((folder / "evidence.yaml").read_text())) == 4

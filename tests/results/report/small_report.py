@@ -72,7 +72,7 @@ def beating(mesh: VentricularMesh, least: float) -> Motion:
     return Motion(TIMES, PERIOD, centre + size[:, None, None] * (mesh.points - centre))
 
 
-def fit(mesh: VentricularMesh, case: str, failed: bool = False, found: bool = False) -> FittedCase:
+def fit(mesh: VentricularMesh, case: str, failed: bool = False, diagnosed: bool = False) -> FittedCase:
     card = Card(case, SETTING, posterior(0.0), posterior(2e-6), {} if failed else {"sigma_0": 250e3})
     curves = {} if failed else with_pressure(volumes(63.0))
     return FittedCase(
@@ -82,18 +82,18 @@ def fit(mesh: VentricularMesh, case: str, failed: bool = False, found: bool = Fa
         calibrated=curves,
         band={name: Curve(TIMES, 0.02 * curve.values, PERIOD) for name, curve in curves.items()},
         motion=None if failed else beating(mesh, 0.85),
-        searched=diagnosis() if found else None,
-        proved=diagnosis() if found else None,
+        searched=diagnosis() if diagnosed else None,
+        proved=diagnosis() if diagnosed else None,
     )
 
 
 def study(mesh: VentricularMesh, name: str = "heart1", note: str = "") -> StudyRecord:
     """A catheterised heart whose cause is proved, and one without pressure whose calibrated beat failed."""
-    moved = beating(mesh, 0.8)
-    sound, weak = {SETTING: fit(mesh, name, found=True)}, {SETTING: fit(mesh, "heart2", failed=True)}
+    motion = beating(mesh, 0.8)
+    sound, weak = {SETTING: fit(mesh, name, diagnosed=True)}, {SETTING: fit(mesh, "heart2", failed=True)}
     cases = [
-        CaseRecord(name, "virtual", "lbbb", mesh, moved, with_pressure(volumes(60.0)), [], sound),
-        CaseRecord("heart2", "measured", "healthy", mesh, moved, volumes(60.0), [], weak),
+        CaseRecord(name, "virtual", "lbbb", mesh, motion, with_pressure(volumes(60.0)), [], sound),
+        CaseRecord("heart2", "measured", "healthy", mesh, motion, volumes(60.0), [], weak),
     ]
     rows = {
         "setting": [SETTING, "Marchesseau et al. 2012"],

@@ -21,8 +21,10 @@ def beats() -> list[dict[str, Curve]]:
 
 
 def test_a_linear_map_gives_its_own_band() -> None:
-    found = curve_deviation(PRIOR, sigma_points(PRIOR), beats(), POSTERIOR, beats()[0])["lv_volume"]
-    assert found.values == pytest.approx(WAVE * np.sqrt(SLOPES @ POSTERIOR.covariance @ SLOPES), abs=1e-12)
+    deviation = curve_deviation(PRIOR, sigma_points(PRIOR), beats(), POSTERIOR, beats()[0])["lv_volume"]
+    assert deviation.values == pytest.approx(
+        WAVE * np.sqrt(SLOPES @ POSTERIOR.covariance @ SLOPES), abs=1e-12
+    )
 
 
 def test_one_lost_point_changes_nothing_and_too_many_leave_no_band() -> None:

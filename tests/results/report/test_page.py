@@ -27,11 +27,11 @@ class Outline(HTMLParser):
         self.feed(page)
 
     def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
-        given = dict(attributes)
+        values = dict(attributes)
         self.open += [] if tag in EMPTY else [tag]
-        self.ids += [given["id"]] if "id" in given else []
-        self.links += [given["href"]] if "href" in given else []
-        self.images += [given] if tag == "img" else []
+        self.ids += [values["id"]] if "id" in values else []
+        self.links += [values["href"]] if "href" in values else []
+        self.images += [values] if tag == "img" else []
 
     def handle_endtag(self, tag: str) -> None:
         assert self.open.pop() == tag
@@ -44,7 +44,7 @@ def test_every_tag_is_closed_every_link_leads_somewhere_and_every_picture_is_tol
     assert {link.removeprefix("#") for link in outline.links} <= set(outline.ids)
     assert len(outline.images) == 1 + 1 + 2 * (1 + 1) + 2, "cohort, setting, each case, both cause cards"
     assert all(
-        each["alt"] and each["src"].startswith("data:image/svg+xml;base64,") for each in outline.images
+        image["alt"] and image["src"].startswith("data:image/svg+xml;base64,") for image in outline.images
     )
 
 

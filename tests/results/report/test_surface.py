@@ -44,16 +44,16 @@ def test_triangles_keep_their_size_through_the_beat(
 def test_the_axes_are_those_of_the_ventricle(ventricle: VentricularMesh) -> None:
     """x away from the septum, z to the base."""
     axes = LeftVentricularAxes.from_mesh(ventricle)
-    moved = np.array(
+    turned = np.array(
         [ventricle.points, ventricle.points + 0.01 * axes.axis, ventricle.points + 0.01 * axes.septal]
     )
-    steps = QUANTUM * unpack(packed_positions(ventricle, moved)["outside"]).reshape(3, 3, -1).mean(axis=2)
+    steps = QUANTUM * unpack(packed_positions(ventricle, turned)["outside"]).reshape(3, 3, -1).mean(axis=2)
     assert steps[1] == pytest.approx([0.0, 0.0, 0.01], abs=QUANTUM)
     assert steps[2] == pytest.approx([-0.01, 0.0, -0.01], abs=QUANTUM)
 
 
 def test_a_triangle_has_the_segment_of_the_wall_behind_it(ventricle: VentricularMesh) -> None:
-    found = set(unpack(packed_surface(ventricle)["outside"]["segment"]).tolist())
-    assert found <= set(np.asarray(ventricle.segments).tolist())
-    assert 0 in found
-    assert len(found) > 10
+    segments = set(unpack(packed_surface(ventricle)["outside"]["segment"]).tolist())
+    assert segments <= set(np.asarray(ventricle.segments).tolist())
+    assert 0 in segments
+    assert len(segments) > 10
