@@ -26,7 +26,7 @@ from heartfit.io.meshes import read_mesh
 from heartfit.personalise.run import ventricles
 
 PERIOD = 0.86  # s
-REPEATS, LONGEST = 3, 30.0  # beats; s of CPU time after which there is no further one
+REPEATS, LONGEST = 3, 30.0  # number of beats; CPU time after which none is started [s]
 
 
 def cost(name: str, setting: str, *reference: str) -> dict[str, float]:

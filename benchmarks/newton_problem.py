@@ -24,7 +24,7 @@ TENSION = 30e3  # Pa
 HOLD = 1e7
 """Springs, N/m, some thousand times a node's own stiffness: more would spoil factors in single precision."""
 PROBE = 1e-5
-STRAIN, PRESSURE = 0.1, 2e3  # 1, Pa: of the state
+STRAIN, PRESSURE = 0.1, 2e3  # of the state; pressure in Pa
 
 
 @dataclass(frozen=True)

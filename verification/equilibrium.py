@@ -146,7 +146,7 @@ class Balance:
         result[:, :3][held] = 0.0
         return result
 
-    @np.errstate(over="ignore", invalid="ignore")  # an exponential law overflows after too long a step
+    @np.errstate(over="ignore", invalid="ignore")  # an exponential law overflows if a step is too long
     def step_back(self, x: Floats, change: Floats, size: float) -> tuple[Floats, Floats]:
         """Subtract the largest share of the change that inverts no element and keeps the residual bounded."""
         for share in 0.5 ** np.arange(HALVINGS):

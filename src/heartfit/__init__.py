@@ -5,5 +5,5 @@ from pathlib import Path
 
 from heartfit.core.kernel_cache import kernel_folder
 
-# numba reads it as it is imported
+# numba reads it on import
 os.environ.setdefault("NUMBA_CACHE_DIR", str(kernel_folder(Path(__file__).parent)))

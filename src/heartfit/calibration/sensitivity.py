@@ -132,7 +132,7 @@ def sensitivity(
     labelled = [_label(point, outcome) for point, outcome in zip(points, outcomes, strict=True)]
     moments = transform(labelled, z, scaling, completed)
     centre = z[0] if completed[0] else z[completed].mean(axis=0)
-    derivative = moments.cov_xz / prior.sd[:, None]  # by parameters in standard deviations of the prior
+    derivative = moments.cov_xz / prior.sd[:, None]  # per standard deviation of the prior
     scale = np.linalg.norm(derivative, axis=0)
     silent = [
         name

@@ -28,7 +28,7 @@ def table_row(*cells: object) -> str:
 
 @cache
 def _environment() -> "Environment":
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined  # most jobs render nothing
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined  # most jobs render no template
 
     return Environment(
         loader=FileSystemLoader(TEMPLATE_FOLDERS),

@@ -111,7 +111,7 @@ DISPLAY = {  # SI unit: printed unit, SI value of one printed unit
     "Pa.s/m^3": ("MPa.s/m^3", 1e6),
     "MPa.s/m^3": ("MPa.s/m^3", 1.0),
     "MPa": ("kPa", 1e-3),
-    "MPa.s": ("kPa.s", 1e-3),  # as the paper gives them
+    "MPa.s": ("kPa.s", 1e-3),  # units of the paper
     "m^3": ("mL", 1e-6),
     "m^3/s": ("mL/s", 1e-6),
     "Pa/s": ("kPa/s", 1e3),

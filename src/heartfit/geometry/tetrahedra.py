@@ -76,7 +76,7 @@ def tetrahedralise(
     one gives another mesh of the same quality. Raises ChildProcessError if the mesher fails.
     """
     size = surface.diagonal()
-    scale = 2.0 ** np.ceil(np.log2(size))  # a power of two: no digit is lost
+    scale = 2.0 ** np.ceil(np.log2(size))  # a power of two, so that scaling is exact
     numbers = np.array([edge_length / size, tolerance / size, seed])
     arrays = (_round(surface.points / scale), surface.triangles, _round(numbers))
     points, tets = _unpack(_run_in_subprocess(_pack(*arrays)), 2)
@@ -84,7 +84,7 @@ def tetrahedralise(
 
 
 def _round(values: Floats) -> Floats:
-    return np.round(values, DIGITS) + 0.0  # and no -0.0
+    return np.round(values, DIGITS) + 0.0  # + 0.0 replaces -0.0
 
 
 def _run_in_subprocess(request: bytes) -> bytes:
@@ -121,7 +121,7 @@ def _serve_request(scratch: str) -> None:
     """Read surface and sizes from the standard input and write the mesh to the standard output."""
     points, triangles, numbers = _unpack(sys.stdin.buffer.read(), 3)
     with os.fdopen(os.dup(1), "wb") as output:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # compiled code prints there, too
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # compiled code prints to standard output, too
         os.chdir(scratch)
         output.write(_pack(*_mesh_inside(points, triangles, *numbers)))
 
@@ -129,7 +129,7 @@ def _serve_request(scratch: str) -> None:
 def _mesh_inside(
     points: Array, triangles: Array, edge_length: float, tolerance: float, seed: float
 ) -> tuple[Array, Array]:
-    import wildmeshing.wildmeshing as engine  # only here, in a process that does nothing else
+    import wildmeshing.wildmeshing as engine  # only in this subprocess, whose random device is replaced
 
     seed_random_device(engine.__file__, int(seed))
     mesher = engine.Tetrahedralizer(epsilon=tolerance, edge_length_r=edge_length, coarsen=True, max_threads=1)

@@ -173,4 +173,4 @@ def _scaled(text: str, factor: float) -> float | str:
     try:
         return factor * number(text)
     except ValueError:
-        return text  # Case refuses it with the rest of the row
+        return text  # the validation of the row rejects it

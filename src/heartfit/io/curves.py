@@ -30,7 +30,7 @@ KINDS = {f"{place}_{kind}": kind for kind, places in PLACES.items() for place in
 COLUMNS = {f"{name}_{UNITS[kind][0]}": name for name, kind in KINDS.items()}
 COLUMNS["aortic_pressure_kpa"] = "aorta_pressure"  # the usual name
 PERIOD = re.compile(r"^#\s*period_s\s*=\s*(.*?)\s*$", re.MULTILINE)
-FLOW = re.compile(r"(\w+_flow)_ml_per_s")  # of any branch: a mechanism may add one
+FLOW = re.compile(r"(\w+_flow)_ml_per_s")  # any branch, since mechanisms may add one
 
 
 def kind_of(name: str) -> str:

@@ -89,7 +89,7 @@ def replacing(path: Path) -> Iterator[Path]:
     with TemporaryDirectory(dir=path.parent, prefix=DRAFT) as folder:
         draft = Path(folder) / path.name
         yield draft
-        _sync(draft)  # otherwise the new name may reach the disk before the content
+        _sync(draft)  # the content must reach the disk before the new name
         note(path, draft)
         draft.replace(path)
     _sync(path.parent)

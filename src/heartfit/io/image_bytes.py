@@ -135,7 +135,7 @@ def _meta_image(path: Path, header: bytes, most: int) -> int:
     length = LENGTH.search(header)
     stream = zlib.decompressobj()
     with _voxels(path, header, VOXELS_FOLLOW) as file:
-        packed = file.read()  # all of it: a damaged length may be any number
+        packed = file.read()  # the whole file: a damaged length may have any value
     count = len(stream.decompress(packed[: int(length[1])] if length else packed, most))
     return count if stream.eof else 0
 

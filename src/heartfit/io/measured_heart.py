@@ -90,7 +90,7 @@ def _matrix(file: Path) -> Any:
     require_file(file, EXPECTED)
     with parsing(file, "a sparse matrix S of numbers", MatReadError, OSError):
         matrix = csc_array(loadmat(file, variable_names=["S"], appendmat=False)["S"], dtype=float)
-        matrix.check_format(full_check=True)  # an index out of range would be read from beyond the array
+        matrix.check_format(full_check=True)  # an index out of range would read beyond the array
         if not np.isfinite(matrix.data).all():
             raise InputError(f"{file}: holds NaN or infinity; expected finite weights: fetch it again")
     return matrix

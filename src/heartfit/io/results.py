@@ -41,7 +41,7 @@ def decode(content: Any, kind: type[T], where: str) -> T:
     """Decode a record of a kind; raises InputError for other content, ``where`` names its place."""
     try:
         return CONVERTER.structure(content, kind)
-    except Exception as fault:  # a group of the errors of all fields
+    except Exception as fault:  # an exception group with the errors of all fields
         first = transform_error(fault, path=kind.__name__, format_exception=_reason)[0]
         raise InputError(f"{where}: {first}; delete it and run the stage again") from None
 

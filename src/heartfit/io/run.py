@@ -32,7 +32,7 @@ def _is_whole(content: bytes) -> bool:
     try:
         while stream.tell() < len(content):
             for _ in pickletools.genops(stream):
-                pass  # to the end of this pickle
+                pass  # reads one pickle to its end
     except (ValueError, EOFError):
         return False
     return len(content) > 0
@@ -140,7 +140,7 @@ def _locked_alone(lock: int) -> bool:
     except BlockingIOError:
         _share(lock)
         return False
-    except (OSError, AttributeError):  # the file system or the operating system has no such locks
+    except (OSError, AttributeError):  # locks are not supported by the file system or the operating system
         return False
     return True
 

@@ -124,7 +124,7 @@ def read_cells(path: Path, separator: str = ",", expected: str = "curves as CSV"
         header, *rows = csv.reader(lines, delimiter=separator, skipinitialspace=True, strict=True)
     except csv.Error as fault:
         raise InputError(f"{path}: not a table ({fault}); expected {expected}: export it again") from None
-    except ValueError:  # nothing to unpack
+    except ValueError:  # no header to unpack
         raise InputError(f"{path}: empty; expected {expected}: export it again") from None
     names = [name.strip() for name in header]
     _require_columns(path, names, separator)

@@ -44,5 +44,5 @@ class ImageShrinkage(Sensor):
 
     def distort(self, times: Floats, values: Floats, period: float) -> Floats:
         first = np.interp(0.0, times, values, period=period)
-        # the form that leaves the values bit for bit at s = 0
+        # this form is exact at s = 0
         return values + self.shrinkage * (first - values)

@@ -51,7 +51,7 @@ class RateMismatch(Sensor):
             np.interp(instants, times, values, period=period)
             for instants in (self._true_times(times, period), times)
         )
-        # the form that leaves the values bit for bit at a = 0
+        # this form is exact at a = 0
         result: Floats = values + (distorted - undistorted)
         return result
 

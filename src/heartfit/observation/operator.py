@@ -61,7 +61,7 @@ class CurveFeatures(ABC):
         return self._filter(curve, derivative=1)
 
     def _filter(self, curve: Curve, derivative: int) -> Curve:
-        from scipy.signal import savgol_filter  # takes 0.4 s to import, and only observations need it
+        from scipy.signal import savgol_filter  # the import takes 0.4 s
 
         frames = curve.resampled(self.frames)
         values = savgol_filter(

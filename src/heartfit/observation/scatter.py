@@ -62,7 +62,7 @@ class Scatter:
 
     def half_width(self, level: float = 0.95) -> Floats:
         """Half-width (m,) of the interval of the next vector about the mean at probability ``level``, by component."""
-        from scipy.special import stdtrit  # every job imports noise models, few need intervals
+        from scipy.special import stdtrit  # many jobs import noise models, few need intervals
 
         quantile = stdtrit(self.count - 1, 0.5 * (1.0 + level))
         half_width: Floats = quantile * np.sqrt(np.diag(self.predictive))

@@ -31,7 +31,7 @@ def require_no_drift(numbers: pd.DataFrame, tolerances: pd.DataFrame) -> pd.Data
     compared = with_measured(numbers, tolerances)
     off = compared[
         ~((compared["measured"] - compared["expected"]).abs() <= compared["tolerance"])
-    ]  # NaN is off, too
+    ]  # the negation includes NaN
     if not off.empty:
         raise DriftError(
             "\n".join(

@@ -60,7 +60,7 @@ def diagnose_by_data(rest: Recording, conditions: Mapping[str, Recording]) -> Sc
     """Diagnose the recording at rest and, if there are other conditions, also the smaller and the larger data set."""
     if not conditions:
         return diagnose_recording(rest)
-    searched = cache(SearchedRecording.search)  # one search for both: a condition is never fitted
+    searched = cache(SearchedRecording.search)  # conditions are not fitted, so one search serves both
     volume = replace(rest, curves={"lv_volume": rest.curves["lv_volume"]})
     at_rest = diagnose_recording(rest, lambda recording: conclude(searched(recording), {}))
     more = diagnose_recording(rest, lambda recording: conclude(searched(recording), conditions))

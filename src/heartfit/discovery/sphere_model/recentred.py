@@ -65,7 +65,7 @@ def fit_nominal_heart(
     samples = {name: Samples(curve.times, curve.values) for name, curve in curves.items()}
     recording = Recording(heart.period, samples)
     data, nominal = _data(recording), _start(heart, recording)
-    for _ in range(ROUNDS):  # restarts free the fit from the pull of the prior
+    for _ in range(ROUNDS):  # restarts remove the shrinkage by the prior
         nominal, predicted = _fit(nominal, data)
     for block, rows in zip(data.blocks, data.rows, strict=True):
         if block.curve in recorded:

@@ -63,7 +63,7 @@ def register(fixed: Floats, moving: Floats, method: Demons, start: Floats | None
 
 def _demons_filter(method: Demons, iterations: int) -> sitk.DiffeomorphicDemonsRegistrationFilter:
     demons = sitk.DiffeomorphicDemonsRegistrationFilter()
-    demons.SetNumberOfThreads(1)  # jobs run side by side, and sums keep their order
+    demons.SetNumberOfThreads(1)  # jobs run in parallel, and the order of sums is reproducible
     demons.SetNumberOfIterations(iterations)
     demons.SetSmoothDisplacementField(True)
     demons.SetStandardDeviations(method.smoothing)

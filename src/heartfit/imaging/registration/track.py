@@ -147,7 +147,7 @@ def track(sequence: ImageSequence, mesh: VentricularMesh, settings: FreeForm) ->
     Raises InputError, with the numbers of the frames, where even the stiffest displacement folds the wall (inverts a
     tetrahedron).
     """
-    with threadpool_limits(1):  # threads change the last bits of sums, and cost more than they save
+    with threadpool_limits(1):  # threads change the last bits of sums and are slower
         return _track(sequence, mesh, settings)
 
 

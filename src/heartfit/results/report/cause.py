@@ -79,7 +79,7 @@ def _figure(diagnosis: Diagnosis) -> Picture | None:
         return None
     figure = plot_cause(diagnosis)
     figure.set_size_inches(WIDTH, figure.get_figheight())
-    figure.suptitle("")  # the page has the sentence
+    figure.suptitle("")  # the page shows the verdict as text
     return as_picture(figure, f"Measured and simulated curves and the misfit. {verdict_sentence(diagnosis)}")
 
 
