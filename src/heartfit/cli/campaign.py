@@ -21,7 +21,7 @@ def costs_arguments(command: argparse.ArgumentParser) -> None:
         "results",
         type=Path,
         nargs="+",
-        help="folders of results; of a job in several studies, the first one counts",
+        help="folders of results; for a job in several studies, the first one is used",
     )
     command.add_argument("-o", "--output", type=Path, default=RESOURCES, help="folder of the two tables")
 
@@ -39,9 +39,7 @@ def plan_arguments(command: argparse.ArgumentParser) -> None:
         "--kind", choices=("measured", "virtual"), default="measured", help="kind of the subjects"
     )
     command.add_argument("--setting", nargs="+", default=[], help="settings; all if not given")
-    command.add_argument(
-        "--pressure", action="store_true", help="the left ventricular pressure is recorded too"
-    )
+    command.add_argument("--pressure", action="store_true", help="with a recorded left ventricular pressure")
     command.add_argument(
         "--cpus", type=_positive, default=200, help="number of CPUs that run jobs in parallel"
     )
@@ -67,7 +65,7 @@ def plan(arguments: argparse.Namespace) -> int:
 def shards_arguments(command: argparse.ArgumentParser) -> None:
     """Add the arguments of `shards`."""
     command.add_argument(
-        "--size", type=_positive, default=100, help="subjects per shard, beside the reference"
+        "--size", type=_positive, default=100, help="subjects per shard, in addition to the reference"
     )
     command.add_argument(
         "-o", "--output", type=Path, default=Path("config/shards"), help="folder of the shards"
@@ -104,7 +102,7 @@ def join_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def join(arguments: argparse.Namespace) -> int:
-    """Write the numbers of all shards as those of one study, and their means; fails if shards disagree."""
+    """Write the numbers of all shards as those of one study, and their means; fails if shards are inconsistent."""
     from heartfit.io.tables import read_shards, write_tables
     from heartfit.results.provenance import calibrated_cases, merge_shards, summarise_cohort
     from heartfit.results.text import render_tables

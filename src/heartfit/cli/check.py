@@ -1,4 +1,4 @@
-"""Command that checks a study before it runs, and draws its hearts."""
+"""Command that checks a study before a run and draws its hearts."""
 
 import argparse
 import sys
@@ -14,7 +14,7 @@ if TYPE_CHECKING:  # imported in the functions that need them: other commands st
     from heartfit.results.understood import ImportedCase
 
 DRAWN_MESH = (0.015, 0.0006)
-"""Edge length and tolerance of the drawn mesh [m]: seconds instead of a minute."""
+"""Edge length and tolerance of the drawn mesh [m], which is made in seconds instead of a minute."""
 
 
 def check_arguments(command: argparse.ArgumentParser) -> None:
@@ -28,12 +28,12 @@ def check_arguments(command: argparse.ArgumentParser) -> None:
         help="configuration files; later ones override earlier ones",
     )
     command.add_argument(
-        "--no-picture", action="store_true", help="draw no picture, which takes seconds per heart"
+        "--no-picture", action="store_true", help="omit the pictures, which take seconds per heart"
     )
 
 
 def check(arguments: argparse.Namespace) -> int:
-    """Read all inputs of a study, list every problem, and draw each heart as the program understands it."""
+    """Read all inputs of a study, list every problem, and draw each heart as interpreted by the program."""
     from heartfit.io.plan import inspect
 
     own = [] if arguments.case is None else [Path(f"config/{arguments.case}.yaml")]
@@ -52,7 +52,7 @@ def check(arguments: argparse.Namespace) -> int:
 
 
 def _print_summary(inspection: "Inspection", label: str) -> None:
-    """Print a line for every input that is in order."""
+    """Print a line for every valid input."""
     assert inspection.plan is not None
     plan = inspection.plan
     print(f"configuration: {label} in order, settings {', '.join(plan.study.settings)}")
@@ -91,7 +91,7 @@ def _picture(subject: "Subject", file: Path) -> list[str]:
 
 
 def _understood(subject: "Subject") -> "ImportedCase | None":
-    """Mesh the wall coarsely and prepare it like the study, with its motion if known; None without a wall."""
+    """Mesh the wall coarsely and prepare it as in the study, with its motion if known; None without a wall."""
     from heartfit.geometry.carry import carry_mesh
     from heartfit.geometry.fibres import prepare
     from heartfit.geometry.mesher import fill_wall

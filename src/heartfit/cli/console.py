@@ -59,7 +59,7 @@ class Progress:
             self._printed = now
             left = (now - self._begin) * (1.0 - completed) / completed
             sys.stderr.write(
-                f"{100 * completed:3.0f} % of the most beats allowed, {left:.0f} s left or less\n"
+                f"{100 * completed:3.0f} % of the maximal number of beats, at most {left:.0f} s remaining\n"
             )
 
 
@@ -91,7 +91,7 @@ STANDARD = Path("config/config.yaml")
 """Configuration of a study if none is named."""
 
 Command = tuple[Callable[[argparse.Namespace], int], Callable[[argparse.ArgumentParser], None], str]
-"""Function that carries out a command, function that adds its arguments, and line of help."""
+"""Function that runs a command, function that adds its arguments, and line of help."""
 
 
 def add_configuration(command: argparse.ArgumentParser) -> None:

@@ -1,4 +1,4 @@
-"""Commands that diagnose a recorded heart, with Python files that declare further mechanisms."""
+"""Commands that diagnose a recorded heart and run Python files with further mechanisms."""
 
 import argparse
 import sys
@@ -30,7 +30,7 @@ def _run(path: Path) -> list[str]:
     earlier = registered()
     try:
         _import(path)
-    except Exception as problem:  # a foreign file may raise anything
+    except Exception as problem:  # a user's file may raise any exception
         raise InputError(f"{path}{_line(path, problem)}: {type(problem).__name__}: {problem}") from problem
     new = [name for name in registered() if name not in earlier]
     if not new:

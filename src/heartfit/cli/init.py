@@ -184,4 +184,4 @@ def _label(text: str) -> tuple[str, int]:
     return name.strip(), int(number)
 
 
-COMMANDS: tuple[Command, ...] = ((init, init_arguments, "write the configuration of a heart of your own"),)
+COMMANDS: tuple[Command, ...] = ((init, init_arguments, "write the configuration of a measured heart"),)

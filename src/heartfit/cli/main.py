@@ -1,4 +1,4 @@
-"""The console command heartfit, for use without Snakemake."""
+"""Console command heartfit, for use without Snakemake."""
 
 import sys
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ SUBJECTS = (simulate, init, check, diagnose, campaign, pages)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Carry out a command; return 0 for success, 1 for a failed simulation, 2 for bad input, reported in one line."""
+    """Run a command; return 0 for success, 1 for a failed simulation, 2 for invalid input, reported in one line."""
     try:
         namespace = _parser().parse_args(arguments)
         return int(namespace.carry_out(namespace))
@@ -35,4 +35,8 @@ def _parser() -> Parser:
         command = commands.add_parser(name, help=text, description=carry_out.__doc__)
         command.set_defaults(carry_out=carry_out)
         add_arguments(command)
+    for name, replacement in pages.MOVED_COMMANDS.items():
+        command = commands.add_parser(name, help=f"moved to `{replacement}`")
+        command.set_defaults(carry_out=pages.refuse_moved_command)
+        pages.add_ignored_arguments(command)
     return parser

@@ -36,7 +36,7 @@ def detection_limits(_: argparse.Namespace) -> int:
     """Print the smallest detectable size of each effect from a volume and a pressure, within some minutes."""
     from heartfit.discovery.sphere_model.forward_model import BASE_COORDINATES
     from heartfit.discovery.sphere_model.limits import detection_limits
-    from heartfit.results.planted_ventricles import limits_page
+    from heartfit.results.planted_page import limits_page
 
     print(limits_page(detection_limits(HEARTS), len(BASE_COORDINATES)), end="")
     return 0
@@ -48,7 +48,7 @@ def tolerances_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "table",
         type=Path,
-        help="table of tolerances; its expected numbers are replaced by those of the study",
+        help="table of tolerances, whose expected numbers are replaced by those of the study",
     )
 
 
@@ -62,40 +62,32 @@ def tolerances(arguments: argparse.Namespace) -> int:
     return 0
 
 
+MOVED_COMMANDS = {
+    "verification": "python -m verification",
+    "robustness": "python -m verification robustness",
+    "reference": "python -m verification reference MESH",
+}
+"""Commands that are no longer part of the installed package, and their replacements."""
+
+
 def refuse_moved_command(_: argparse.Namespace) -> int:
-    """Raise InputError, which names the new command, for a command that is no part of the installed package."""
+    """Raise InputError with the replacements of the moved commands."""
+    verification, robustness, reference = MOVED_COMMANDS.values()
     raise InputError(
         "the checks of the simulator stand beside the package, in a checkout of the sources; run there "
-        "`python -m verification`, `python -m verification robustness` or `python -m verification reference MESH`"
+        f"`{verification}`, `{robustness}` or `{reference}`"
     )
 
 
-def verification(arguments: argparse.Namespace) -> int:
-    """Moved to `python -m verification`."""
-    return refuse_moved_command(arguments)
-
-
-def robustness(arguments: argparse.Namespace) -> int:
-    """Moved to `python -m verification robustness`."""
-    return refuse_moved_command(arguments)
-
-
-def reference(arguments: argparse.Namespace) -> int:
-    """Moved to `python -m verification reference MESH`."""
-    return refuse_moved_command(arguments)
-
-
-def add_ignored_mesh(command: argparse.ArgumentParser) -> None:
-    """Add the old argument of `reference`, so that an old call is answered with the new command."""
-    command.add_argument("mesh", nargs="?")
+def add_ignored_arguments(command: argparse.ArgumentParser) -> None:
+    """Accept the old arguments of a moved command, so that an old call is answered with the new command."""
+    command.add_argument("arguments", nargs="*", help=argparse.SUPPRESS)
 
 
 COMMANDS: tuple[Command, ...] = (
     (parameters, add_no_arguments, "print the reference page of all parameters"),
     (configuration_schema, add_no_arguments, "print the JSON schema of a configuration"),
     (cause_schema, add_no_arguments, "print the JSON schema of a cause.json"),
-    (verification, add_no_arguments, "moved to `python -m verification`"),
-    (robustness, add_no_arguments, "moved to `python -m verification robustness`"),
     (
         detection_limits,
         add_no_arguments,
@@ -106,5 +98,4 @@ COMMANDS: tuple[Command, ...] = (
         tolerances_arguments,
         "print a table of tolerances with the numbers of a study as the expected ones",
     ),
-    (reference, add_ignored_mesh, "moved to `python -m verification reference MESH`"),
 )
