@@ -1,4 +1,4 @@
-"""Find from the beats about the prior's mean what each parameter does, and how far it may go."""
+"""Compute the effect and the plausible range of each parameter from the beats about the prior's mean."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The mean beat of the pressure that was recorded in a measured heart, over the period of its images."""
+"""Average the recorded pressure of a measured heart to one beat with the period of its images."""
 
 from pathlib import Path
 

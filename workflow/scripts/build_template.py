@@ -1,4 +1,4 @@
-"""Mesh the average wall once, for all virtual hearts that are moved from it."""
+"""Mesh the average wall, which is morphed to all virtual hearts."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Fill the wall of a volunteer, as acquired at end diastole, with a mesh and a conduction of the calibrator's own."""
+"""Mesh the acquired end-diastolic wall of a volunteer for the calibrator, and fit the conduction."""
 
 from pathlib import Path
 

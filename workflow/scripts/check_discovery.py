@@ -1,4 +1,4 @@
-"""Hold what was said of hidden effects to what is claimed of it; fails with every claim that the counts refute."""
+"""Compare the scores of the discovery benchmark with their claims; fails and lists every refuted claim."""
 
 from pathlib import Path
 

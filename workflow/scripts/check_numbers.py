@@ -1,4 +1,4 @@
-"""Hold the study's numbers to their tolerances; fails with every number that drifted."""
+"""Compare the study's numbers with their tolerances; fails and lists every number outside."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Hold what was said of effects hidden in 3-D to what is claimed of it; fails with every claim that is refuted."""
+"""Compare the scores for effects hidden in 3-D with their claims; fails and lists every refuted claim."""
 
 from pathlib import Path
 

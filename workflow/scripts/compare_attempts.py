@@ -1,4 +1,4 @@
-"""Set beside each other what a case's model gains by each mechanism that was tried."""
+"""Compare the gains of a case's model by each tried mechanism."""
 
 from itertools import repeat
 from pathlib import Path

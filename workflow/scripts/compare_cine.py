@@ -1,4 +1,4 @@
-"""Compare what registration makes of the real short-axis images with the measured surface cut by the same planes."""
+"""Compare registered real short-axis images with the measured surface cut by the same planes."""
 
 from itertools import repeat
 from pathlib import Path

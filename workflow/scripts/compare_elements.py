@@ -1,4 +1,4 @@
-"""Ask whether linear tetrahedra, a mechanism or the locking-free element explains a heart on a finer mesh."""
+"""Test whether linear tetrahedra, a mechanism or the locking-free element explains a heart on a finer mesh."""
 
 from itertools import repeat
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Compile the numerical kernels once, which numba keeps beside their sources."""
+"""Compile the numerical kernels, which numba caches beside their sources."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Count how often the intervals of a calibration contain the truth of spheres."""
+"""Measure the coverage of a calibration's intervals on spheres of known truth."""
 
 from itertools import repeat
 from pathlib import Path

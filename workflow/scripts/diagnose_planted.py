@@ -1,4 +1,4 @@
-"""Search the causes of what the model misses in planted recordings, whose answers are not given."""
+"""Diagnose planted recordings without access to the answers."""
 
 from pathlib import Path
 

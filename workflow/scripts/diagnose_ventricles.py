@@ -1,4 +1,4 @@
-"""Search the cause of what the model misses in planted ventricles, on a sphere centred on one beat of their mesh."""
+"""Diagnose planted ventricles on a sphere centred on one beat of their mesh."""
 
 from pathlib import Path
 

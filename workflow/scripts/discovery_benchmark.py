@@ -1,4 +1,4 @@
-"""Open the answers and score what was said of every planted case: tables, figures and the page."""
+"""Score the diagnoses of all planted cases with the unsealed answers: tables, figures and the page."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Open the answers and score what was said of effects hidden in three dimensions: tables, figure and page."""
+"""Score the diagnoses of effects hidden in 3-D with the unsealed answers: tables, figure and page."""
 
 from pathlib import Path
 

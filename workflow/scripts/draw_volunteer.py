@@ -1,4 +1,4 @@
-"""Draw a further volunteer, on whom registration is tried."""
+"""Draw a volunteer that tests registration."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Beliefs, observations and curves of every case as InferenceData and as tidy tables, for other programs."""
+"""Write posteriors, observations and curves of every case as InferenceData and as tidy tables."""
 
 from functools import partial
 from itertools import starmap

@@ -1,4 +1,4 @@
-"""Volume curves of both cavities from the registered mesh, the recorded pressure, and what is observed of them."""
+"""Extract volume curves of both cavities from the registered mesh, and observe them and the recorded pressure."""
 
 from functools import reduce
 from operator import or_

@@ -1,4 +1,4 @@
-"""Fetch the measured heart from its public repository and put the beat lengths of its cines beside it."""
+"""Download the measured heart from its public repository and add the beat lengths of its cines."""
 
 from pathlib import Path
 from shutil import copyfile

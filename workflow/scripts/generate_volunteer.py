@@ -1,4 +1,4 @@
-"""Generate a virtual volunteer: the wall and its beat, and the truth, kept apart."""
+"""Generate a virtual volunteer: wall, beat, and a separate file of the truth."""
 
 from pathlib import Path
 

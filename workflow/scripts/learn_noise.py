@@ -1,4 +1,4 @@
-"""Learn from registered sequences of known truth what the measurement does to curves and observations."""
+"""Learn the noise of curves and observations from registered sequences of known truth."""
 
 from operator import attrgetter
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Tables 1 to 3 beside the paper's, what guards them, and every number of them with its provenance."""
+"""Write Tables 1 to 3 beside the paper's, the table of plausibility, and each number with its provenance."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Plant effects in hidden hearts: what was measured into one folder, the sealed answers into another."""
+"""Plant effects in hidden hearts; write recordings into one folder and sealed answers into another."""
 
 from itertools import repeat
 from pathlib import Path

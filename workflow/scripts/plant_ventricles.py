@@ -1,4 +1,4 @@
-"""Hide an effect in three-dimensional ventricles: what was measured and the mesh here, the sealed answer there."""
+"""Plant an effect in three-dimensional ventricles; write recording and mesh, and a separate sealed answer."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Draw when each place of the ventricles is activated."""
+"""Draw the activation times of the ventricles."""
 
 from itertools import repeat
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Show what a case's calibrated simulation leaves of every measured curve, and of the strain of each segment."""
+"""Plot the residual of a case's calibrated simulation for each measured curve and the strain of each segment."""
 
 from itertools import repeat
 from pathlib import Path

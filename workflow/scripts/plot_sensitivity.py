@@ -1,4 +1,4 @@
-"""Plot which parameter moves which observation."""
+"""Plot the sensitivity of the observations to the parameters."""
 
 from itertools import repeat
 from pathlib import Path

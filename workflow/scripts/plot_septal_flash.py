@@ -1,4 +1,4 @@
-"""The septal flash of the patients beside a volunteer: true, registered and calibrated motions, figure and table."""
+"""Plot and tabulate the septal flash of the patients beside a volunteer: true, registered and calibrated."""
 
 from itertools import repeat
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Plot and tabulate what each parameter does under one setting: curves, covariances and their decomposition."""
+"""Plot and tabulate the effect of each parameter for one setting: curves, covariances and their decomposition."""
 
 from itertools import repeat
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Extend a case's three-dimensional model by what the search names, and judge it by what was never fitted."""
+"""Extend a case's three-dimensional model by the named mechanisms and test it on held-out data."""
 
 from pathlib import Path
 

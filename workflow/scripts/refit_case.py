@@ -1,4 +1,4 @@
-"""Refit a case's model to half of its samples by repeated unscented steps, without any mechanism more."""
+"""Refit a case's baseline model to half of its samples by repeated unscented steps."""
 
 from pathlib import Path
 

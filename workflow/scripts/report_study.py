@@ -1,4 +1,4 @@
-"""One page of the whole study that opens from a file."""
+"""Write the report of the whole study as one page."""
 
 from pathlib import Path
 

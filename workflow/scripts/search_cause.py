@@ -1,4 +1,4 @@
-"""Search on the sphere, centred on a case's own beat, for the cause of what its simulation gets wrong."""
+"""Search for a mechanism that a case's model lacks, on a sphere centred on its 3-D beat."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Simulate one more beat, at the calibrated parameters, and keep its motion and the shape of it."""
+"""Simulate the beat at the calibrated parameters and write its motion and shape."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Sobol's indices of the reference volunteer's left ventricle as a sphere."""
+"""Compute Sobol's indices for the reference volunteer's left ventricle as a sphere."""
 
 from pathlib import Path
 

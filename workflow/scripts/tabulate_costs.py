@@ -1,4 +1,4 @@
-"""Time and memory of every job, by stage: a table and a figure."""
+"""Tabulate and plot time and memory of every job, by stage."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Set what was named of each virtual case beside what was planted, and its parameters beside the truth."""
+"""Compare named with planted mechanisms of each virtual case, and parameters with the truth."""
 
 from itertools import repeat
 from pathlib import Path

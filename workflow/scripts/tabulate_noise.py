@@ -1,4 +1,4 @@
-"""Tabulate the noise model and the coverage of its intervals on sequences that it has not seen."""
+"""Tabulate the noise model and the coverage of its intervals on sequences that were not used for training."""
 
 from itertools import repeat
 from operator import attrgetter

@@ -1,4 +1,4 @@
-"""Take the images of a measured heart, end diastole first and with the times of their frames."""
+"""Read the images of a measured heart and write them from end diastole, with the times of their frames."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Image a volunteer, register the images and compare what was found with what was simulated."""
+"""Image a volunteer, register the images and compare the registered with the simulated motion."""
 
 from pathlib import Path
 

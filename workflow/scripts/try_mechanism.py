@@ -1,4 +1,4 @@
-"""Extend a case's model by one mechanism, named or not, and say what that gains where nothing was fitted."""
+"""Extend a case's model by one mechanism, named or not, and compute its gain on held-out data."""
 
 from pathlib import Path
 
