@@ -85,7 +85,7 @@ def test_imports_point_to_lower_rooms():
     assert not upward
 
 
-def test_what_knows_vectors_never_imports_a_heart():
+def test_rooms_of_vectors_never_import_a_heart():
     others = [
         (file, module)
         for file, tree in TREES.items()
@@ -118,7 +118,7 @@ def test_only_io_and_the_command_line_open_files():
     assert offenders == ALLOWED_CALLS
 
 
-def test_io_knows_records_of_results_and_calls_nothing_that_renders():
+def test_io_imports_records_of_results_and_no_function():
     functions = {
         (file, alias.name)
         for file, tree in TREES.items()

@@ -40,7 +40,7 @@ def test_a_copy_has_the_compiled_kernels_of_its_sources_and_no_others(project: P
     )
 
 
-def test_a_copy_without_compiled_kernels_is_made_too(project: Path, tmp_path: Path) -> None:
+def test_a_project_without_compiled_kernels_is_copied(project: Path, tmp_path: Path) -> None:
     (project / PACKAGE / "sphere" / "beat.py").write_text("import numba\nbeat = 22\n")
     copy_project(tmp_path / "copy", project)
     assert not list((tmp_path / "copy").rglob("*.nbi"))

@@ -52,7 +52,7 @@ def test_every_message_of_the_code_is_on_the_page():
     assert not untold, "tell in docs/errors.md what they mean"
 
 
-def test_the_page_tells_of_no_message_that_there_is_not():
+def test_the_page_lists_no_message_that_the_code_lacks():
     texts = {
         written(node)
         for tree in TREES
@@ -62,5 +62,5 @@ def test_the_page_tells_of_no_message_that_there_is_not():
     assert not [phrase for phrase in PHRASES if not any(tells_of(phrase, text) for text in texts)]
 
 
-def test_no_phrase_stands_for_whatever_is_said():
+def test_every_phrase_has_at_least_three_letters():
     assert not [phrase for phrase in PHRASES if len(re.findall(r"\w", phrase)) < 3]

@@ -15,7 +15,7 @@ def test_the_citation_is_of_this_version_and_licence():
     assert (str(cited["version"]), cited["license"]) == (PROJECT["version"], PROJECT["license"])
 
 
-def test_the_catalog_of_workflows_finds_what_it_asks_for():
+def test_the_workflow_catalog_finds_its_required_files():
     usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
     assert {"mandatory-flags", "software-stack-deployment", "report"} <= usage.keys()
     readme = (ROOT / "README.md").read_text().lower()

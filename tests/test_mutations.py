@@ -67,7 +67,7 @@ class Fake:
 
 
 @pytest.mark.parametrize(("text", "caught"), [("wrong", "a test"), ("harmless", "")])
-def test_survivors_are_told_from_the_caught(tmp_path, monkeypatch, text, caught):
+def test_survivors_are_distinguished_from_caught_mutants(tmp_path, monkeypatch, text, caught):
     kernel = tmp_path / "src" / "heartfit" / "kernel.py"
     kernel.parent.mkdir(parents=True)
     kernel.write_text("right")

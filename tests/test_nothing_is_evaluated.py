@@ -78,7 +78,7 @@ def dangers(tree: ast.Module, file: str) -> Iterator[str]:
             yield f"line {node.lineno}: {name_of(node)}"
 
 
-def test_nothing_is_evaluated() -> None:
+def test_no_input_is_evaluated() -> None:
     trees = {file: ast.parse(file.read_text(encoding="utf-8")) for file in FILES}
     assert not {str(file): lines for file, tree in trees.items() if (lines := [*dangers(tree, file.name)])}
 

@@ -46,7 +46,7 @@ def test_rules_are_short(file):
 
 
 @pytest.mark.parametrize("file", RULES, ids=lambda file: file.stem)
-def test_what_rules_share_is_defined_in_one_place(file):
+def test_shared_code_of_rules_is_defined_once(file):
     assert not re.search(r"^def ", file.read_text(), flags=re.MULTILINE), "it belongs into workflow/common"
 
 

@@ -20,7 +20,7 @@ def study():
     return module
 
 
-def test_it_rests_on_the_standard_library_alone():
+def test_the_script_imports_the_standard_library_only():
     check = "import runpy, sys; sys.argv = ['study.py']; runpy.run_path('study.py', run_name='imported')"
     run = subprocess.run([sys.executable, "-I", "-S", "-c", check], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
@@ -37,11 +37,11 @@ def test_the_time_that_remains_is_added_to_the_count_of_steps(study):
     assert study.remaining("rule all:", 120.0) == ""
 
 
-def test_the_study_and_the_readme_promise_the_same_time(study):
+def test_the_study_and_the_readme_state_the_same_duration(study):
     assert f"takes about {study.duration()} minutes on two cores" in (ROOT / "README.md").read_text()
 
 
-def test_nothing_is_set_up_twice(study, tmp_path, monkeypatch):
+def test_the_environment_is_set_up_once(study, tmp_path, monkeypatch):
     monkeypatch.setattr(study, "STAMP", tmp_path / "stamp")
     monkeypatch.setattr(study, "create_environment", lambda: ["pip"])
     calls = []
@@ -55,7 +55,7 @@ def test_nothing_is_set_up_twice(study, tmp_path, monkeypatch):
     assert len(calls) == 4
 
 
-def test_a_python_without_ensurepip_and_pip_is_told_what_to_do(study, monkeypatch):
+def test_a_python_without_ensurepip_and_pip_is_refused_with_advice(study, monkeypatch):
     monkeypatch.setattr(study.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(SystemExit, match="neither ensurepip nor pip"):
         study.create_environment()

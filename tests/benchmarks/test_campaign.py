@@ -17,7 +17,7 @@ def test_the_page_holds_the_run_beside_the_plan():
     assert page.count("| 110 | 10.0 | 12.0 | 2.0 % | 1.0 % |") == 3
 
 
-def test_its_subjects_are_cases(monkeypatch, tmp_path):
+def test_the_subjects_of_the_campaign_are_cases(monkeypatch, tmp_path):
     (tmp_path / "config").mkdir()
     tiny = Path(__file__).parents[2] / "config" / "tiny.yaml"
     (tmp_path / "config" / "tiny.yaml").write_text(tiny.read_text())

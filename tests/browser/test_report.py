@@ -47,7 +47,7 @@ def changed(before: np.ndarray, after: np.ndarray) -> float:
     return float((np.abs(before - after) > SEEN).mean())
 
 
-def test_it_opens_without_a_word_and_without_the_network(opened: Opened, heart: Locator) -> None:
+def test_the_report_opens_without_console_errors_or_network_requests(opened: Opened, heart: Locator) -> None:
     assert opened.errors == []
     assert opened.requests == [opened.page.url]
 
@@ -58,7 +58,7 @@ def test_no_picture_is_blank(opened: Opened) -> None:
     assert min(spread) > SEEN
 
 
-def test_nothing_is_wider_than_the_screen(opened: Opened) -> None:
+def test_no_element_is_wider_than_the_screen(opened: Opened) -> None:
     assert opened.page.evaluate(WIDE) == []
     assert opened.page.evaluate("document.documentElement.scrollWidth") <= SCREEN["width"]
 
@@ -79,7 +79,7 @@ def test_the_ventricles_are_drawn_turn_and_beat(heart: Locator, side: int) -> No
     assert changed(first, pixels(scene)) < 0.001, "back where it was"
 
 
-def test_both_sides_follow_the_hand(opened: Opened, heart: Locator) -> None:
+def test_both_views_rotate_with_the_pointer(opened: Opened, heart: Locator) -> None:
     left, right = (heart.locator(".scene").nth(side) for side in (0, 1))
     before = pixels(right)
     box = left.bounding_box() or {}
@@ -117,7 +117,7 @@ def test_the_inside_is_seen_through_the_outside(heart: Locator) -> None:
     box.uncheck()
 
 
-def test_it_plays_and_the_curves_follow(opened: Opened, heart: Locator) -> None:
+def test_playing_moves_the_cursor_of_the_curves(opened: Opened, heart: Locator) -> None:
     mark = opened.page.locator(".traced .line").first
     still = mark.evaluate("(each) => each.style.left")
     play = heart.get_by_role("button", name="Play")
@@ -130,7 +130,7 @@ def test_it_plays_and_the_curves_follow(opened: Opened, heart: Locator) -> None:
     heart.locator(".time").fill("0")
 
 
-def test_what_was_drawn_out_of_sight_is_given_back_and_drawn_again(opened: Opened, heart: Locator) -> None:
+def test_pictures_out_of_sight_release_their_context_and_are_redrawn(opened: Opened, heart: Locator) -> None:
     opened.page.locator("#provenance").scroll_into_view_if_needed()
     opened.page.wait_for_function("() => !document.querySelector('.heart').classList.contains('drawn')")
     heart.scroll_into_view_if_needed()
@@ -139,7 +139,7 @@ def test_what_was_drawn_out_of_sight_is_given_back_and_drawn_again(opened: Opene
     assert pixels(heart.locator(".scene").first).std() > SEEN
 
 
-def test_it_prints(opened: Opened) -> None:
+def test_the_report_prints(opened: Opened) -> None:
     assert len(opened.page.pdf()) > 100_000
 
 

@@ -25,7 +25,7 @@ def test_many_members_have_mean_and_covariance_of_the_posterior() -> None:
     assert np.abs(scaled).max() < 0.03
 
 
-def test_members_that_fail_are_left_out_and_too_few_are_told() -> None:
+def test_failed_members_are_excluded_and_too_few_are_reported() -> None:
     assert smooth_ensemble(PRIOR, failing(LINEAR, [0, 21]), named(OBSERVED), NOISE, 20, seed=1).shape == (
         18,
         4,
@@ -52,13 +52,13 @@ def test_cma_es_finds_the_maximum_a_posteriori_past_failures() -> None:
     assert np.array_equal(*estimates)
 
 
-def test_without_the_package_cma_es_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_the_package_cma_es_names_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("heartfit.calibration.alternatives.has_cma", lambda: False)
     with pytest.raises(InputError, match=r"pip install 'heartfit\[alternatives\]'"):
         next(minimise_by_cma_es(PRIOR, LINEAR, named(OBSERVED), NOISE, seed=1))
 
 
-def test_what_was_run_is_not_run_again() -> None:
+def test_completed_simulations_are_not_repeated() -> None:
     counted = CountedForward(LINEAR)
     forward = CachedForward(counted)
     one, two = PRIOR.physical(), PRIOR.physical(PRIOR.mean + 1.0)

@@ -41,7 +41,7 @@ def test_points_lie_at_the_step_and_not_at_root_n() -> None:
 
 
 @given(step=some.floats(0.1, 3.0))
-def test_squares_are_shares_of_the_variance_whatever_the_step(step: float) -> None:
+def test_squares_are_shares_of_the_variance_for_any_step(step: float) -> None:
     changes = SD[:, None] * SLOPES
     result = sensitivity_of(step=step)
     assert result.covariance == pytest.approx(changes / np.linalg.norm(changes, axis=0))
@@ -62,14 +62,14 @@ def test_a_parameter_without_beats_is_refused() -> None:
         sensitivity_of(lost={2: "cold", 5: "hot"})
 
 
-def test_an_observation_that_nothing_moves_is_refused() -> None:
+def test_an_observation_without_sensitivity_is_refused() -> None:
     prior, scaling = prior_of(SD), one_at_a_time_scaling(3, 1.0)
     points = sigma_points(prior, scaling)
     with pytest.raises(CalibrationError, match=r"parameter.*\bEF\b"):
         sensitivity(prior, points, [linear(point.z) for point in points], scaling, (*NAMES, "EF"))
 
 
-def test_other_deviations_are_as_if_drawn_with_them() -> None:
+def test_rescaled_deviations_equal_a_draw_with_them() -> None:
     other = np.array([0.1, 0.1, 0.4])
     assert sensitivity_of().with_sd(other.tolist()).covariance == pytest.approx(
         sensitivity_of(other).covariance

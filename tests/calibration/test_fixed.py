@@ -6,14 +6,14 @@ import pytest
 from heartfit.calibration.sensitivity import covariance_of_fixed
 
 
-def test_it_is_the_covariance_of_a_linear_map() -> None:
+def test_the_covariance_is_that_of_a_linear_map() -> None:
     rng = np.random.default_rng(0)
     slopes, sds = rng.standard_normal((5, 3)), rng.uniform(0.1, 0.3, 5)
     changes = (sds * rng.standard_normal((200_000, 5))) @ slopes
     assert covariance_of_fixed(slopes, sds) == pytest.approx(np.cov(changes.T), abs=0.01)
 
 
-def test_nothing_fixed_is_no_noise() -> None:
+def test_without_fixed_parameters_there_is_no_noise() -> None:
     assert (covariance_of_fixed(np.empty((0, 3)), np.empty(0)) == np.zeros((3, 3))).all()
 
 
@@ -24,6 +24,6 @@ def test_nothing_fixed_is_no_noise() -> None:
         (np.array([[np.nan]]), np.ones(1), "not finite"),
     ],
 )
-def test_what_does_not_fit_is_refused(slopes: np.ndarray, sds: np.ndarray, message: str) -> None:
+def test_mismatched_shapes_are_refused(slopes: np.ndarray, sds: np.ndarray, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         covariance_of_fixed(slopes, sds)

@@ -6,7 +6,7 @@ import pytest
 from heartfit.calibration.gaussian import Gaussian
 
 
-def test_there_and_back() -> None:
+def test_round_trip() -> None:
     values = {"sigma_0": 240e3, "mu": 7e3, "R_p": 1.14e8}
     prior = Gaussian.from_relative(values, {"sigma_0": 0.2, "mu": 0.3, "R_p": 0.1})
     assert prior.physical() == pytest.approx(values)

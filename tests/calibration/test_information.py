@@ -23,7 +23,7 @@ def posterior_of(before: Gaussian, a: np.ndarray, noise: float, truth: np.ndarra
     return calibrate(before, outcomes, dict(zip(names, a @ truth, strict=True)), noise**2 * np.eye(len(a)))
 
 
-def test_one_observation_takes_away_what_the_ratio_of_signal_and_noise_says():
+def test_one_observation_removes_the_variance_given_by_the_signal_to_noise_ratio():
     posterior = posterior_of(prior(), np.array([[1.0, 0.0, 0.0]]), 0.15, np.zeros(3))
     informed = information(posterior.prior, posterior.estimate)
     assert informed.reduction == pytest.approx([0.3**2 / (0.3**2 + 0.15**2), 0.0, 0.0], abs=1e-12)
@@ -59,7 +59,7 @@ def test_the_resolution_is_what_the_estimate_shows_of_the_truth(correlation):
     )
 
 
-def test_what_was_shrunk_is_restored_where_it_was_seen():
+def test_shrinkage_is_undone_in_observed_directions():
     before = prior()
     truth = before.mean + np.array([0.3, 0.2, 0.3])
     posterior = posterior_of(before, np.array([[1.0, 0.0, 0.0], [0.0, 0.1, 0.0]]), 0.1, truth)
@@ -71,6 +71,6 @@ def test_what_was_shrunk_is_restored_where_it_was_seen():
     )
 
 
-def test_other_parameters_are_refused():
+def test_mismatched_parameters_are_refused():
     with pytest.raises(ValueError, match="same"):
         information(prior(), prior().marginal(["a", "c"]))

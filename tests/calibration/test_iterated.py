@@ -51,7 +51,7 @@ def bent(a: np.ndarray, x: np.ndarray) -> np.ndarray:
     return np.exp(0.5 * a @ x)
 
 
-def test_with_noise_it_converges_to_the_maximum_a_posteriori() -> None:
+def test_with_noise_the_iteration_converges_to_the_maximum_a_posteriori() -> None:
     prior, a = random_prior(4, 7), slopes(4, 7)
     observed = bent(a, prior.mean) * np.array([1.5, 0.8, 1.2])
     inverse, weight = np.linalg.inv(prior.covariance), np.linalg.inv(NOISE)
@@ -66,7 +66,7 @@ def test_with_noise_it_converges_to_the_maximum_a_posteriori() -> None:
     assert away[-1] < 1e-4 < away[0]
 
 
-def test_without_noise_it_meets_the_observations_that_one_step_misses() -> None:
+def test_without_noise_the_iteration_meets_observations_that_one_step_misses() -> None:
     prior, a = random_prior(4, 7), slopes(4, 7)
     observed = bent(a, prior.mean) * np.array([1.5, 0.8, 1.2])
     iterations = islice(iterate(prior, forward_of(prior, lambda x: bent(a, x)), named(observed)), 10)
@@ -84,7 +84,7 @@ def test_each_step_costs_the_points_of_its_design_and_survives_a_failure() -> No
     assert iterations[1].estimate.mean == pytest.approx(kalman(prior, a, np.array([*observed.values()]))[0])
 
 
-def test_points_that_all_fail_are_told() -> None:
+def test_failure_of_all_points_is_reported() -> None:
     prior = random_prior(2, 0)
     forward = failing(forward_of(prior, lambda x: np.ones(3)), range(5))
     with pytest.raises(CalibrationError, match="both failed"):

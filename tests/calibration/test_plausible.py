@@ -44,14 +44,14 @@ def test_a_straight_line_has_one_root() -> None:
     assert (log(lowest.factor), lowest.stopped_by) == (pytest.approx(-0.5), "P_max")
 
 
-def test_where_nothing_is_limited_there_is_a_cap() -> None:
+def test_unlimited_ranges_end_at_the_cap() -> None:
     k = ranges_within(EF, PEAK).ranges[1]
     assert (k.lowest.factor, k.highest.factor) == pytest.approx((0.5, 2.0))
     assert k.lowest.stopped_by == k.highest.stopped_by == "cap"
     assert k.median == pytest.approx(1e6)
 
 
-def test_a_limit_that_the_standard_beat_breaks_is_named_and_ends_nothing() -> None:
+def test_a_limit_broken_by_the_standard_beat_is_named_and_ignored() -> None:
     result = ranges_within(Limit("EF", 0.61, 0.7))
     assert result.broken == ("EF",)
     assert {end.stopped_by for bounds in result.ranges for end in (bounds.lowest, bounds.highest)} == {"cap"}
@@ -63,7 +63,7 @@ def test_a_failed_beat_ends_the_range_halfway_and_the_other_side_is_a_line() -> 
     assert log(sigma_0.lowest.factor) == pytest.approx(-0.5)
 
 
-def test_without_the_standard_beat_nothing_is_known() -> None:
+def test_without_the_standard_beat_no_range_is_known() -> None:
     with pytest.raises(InputError, match=r"\bmean\b.*fail"):
         ranges_within(EF, lost=0)
 

@@ -36,7 +36,7 @@ def test_the_first_rows_are_those_of_pivoted_qr(seed: int) -> None:
     assert select(rows, 3) == qr(rows.T, pivoting=True)[2][:3].tolist()
 
 
-def test_of_two_parallel_rows_the_longer_is_taken_and_the_other_last() -> None:
+def test_the_longer_of_two_parallel_rows_is_selected_and_the_other_comes_last() -> None:
     rows = np.array([[0.0, 3.0], [2.9, 0.0], [0.0, -2.0], [0.1, 0.1]])
     assert select(rows, 4) == [0, 1, 2, 3]
 
@@ -47,7 +47,7 @@ def test_once_every_direction_is_spent_the_strongest_left_is_taken() -> None:
 
 
 @given(seed=seeds)
-def test_all_are_taken_once(seed: int) -> None:
+def test_every_parameter_is_selected_once(seed: int) -> None:
     assert sorted(select(random_rows(seed), 8)) == list(range(8))
 
 

@@ -20,7 +20,7 @@ def test_slopes_are_scaled_by_what_was_observed_and_leave_out_what_is_estimated(
     assert SLOPES.covariance({"a", "b", "c"}, {"V_min": 2.0}, 0.1) == pytest.approx(np.zeros((1, 1)))
 
 
-def test_what_the_slopes_do_not_know_is_named():
+def test_parameters_unknown_to_the_slopes_are_named():
     with pytest.raises(InputError, match="P_max"):
         SLOPES.covariance({"a"}, {"P_max": 1.0}, 0.1)
     lost = replace(SLOPES, relative=np.where(np.eye(3) > 0, np.nan, 1.0))

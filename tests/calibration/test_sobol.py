@@ -69,6 +69,6 @@ def test_many_lost_outputs_stop_the_study() -> None:
         sobol_indices(PRIOR, Linear(lost), SAMPLES, seed=0)
 
 
-def test_an_observation_that_nothing_moves_is_refused() -> None:
+def test_an_observation_without_sensitivity_is_refused() -> None:
     with pytest.raises(SobolError, match=r"parameter.*\bZ\b"):
         indices_of(PRIOR, [{"Z": 1.0}] * (16 * BLOCK), seed=0)

@@ -60,7 +60,7 @@ def test_a_square_has_the_gaussian_mean_and_variance(seed: int) -> None:
 
 
 @given(n=some.integers(1, 7), seed=some.integers(0, 1000), scaling=scalings, data=some.data())
-def test_a_linear_map_is_exact_whatever_failed_or_the_points_are_refused(
+def test_a_linear_map_is_exact_despite_failed_points_or_the_points_are_refused(
     n: int, seed: int, scaling: Scaling, data: some.DataObject
 ) -> None:
     prior = random_prior(n, seed)

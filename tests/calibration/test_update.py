@@ -100,14 +100,14 @@ def test_collinear_observations_are_refused_unless_they_carry_noise() -> None:
     update(prior, moments, named(observed), np.diag(np.square(0.1 * observed)))
 
 
-def test_an_observation_nothing_changes_is_refused() -> None:
+def test_an_observation_without_sensitivity_is_refused() -> None:
     prior, _, z, observed = linear(4, 3, 2)
     z[:, 1] = 7.0
     with pytest.raises(CalibrationError, match=r"parameter.*\bq_max\b"):
         update(prior, transform(sigma_points(prior), z), named(observed))
 
 
-def test_more_observations_than_parameters_without_noise_are_said() -> None:
+def test_more_observations_than_parameters_without_noise_are_reported() -> None:
     prior = Gaussian.from_relative({"mu": 7e3, "R_p": 1e8}, {"mu": 0.2, "R_p": 0.2})
     z = np.exp([point.z - prior.mean for point in sigma_points(prior)])
     moments = transform(sigma_points(prior), np.column_stack([z, z[:, 0] ** 3 + z[:, 1]]))
@@ -116,7 +116,7 @@ def test_more_observations_than_parameters_without_noise_are_said() -> None:
     assert not update(prior, moments, named(moments.mean), 0.01 * np.eye(3)).notes
 
 
-def test_a_long_step_is_said() -> None:
+def test_a_long_step_is_reported() -> None:
     prior, a, z, _ = linear(3, 3, 4)
     far = a @ (prior.mean + np.array([4.0, 0, 0]) * prior.sd) + 1.0
     posterior = update(prior, transform(sigma_points(prior), z), named(far))
@@ -142,7 +142,7 @@ def test_whichever_beats_fail_the_closed_form_is_met_or_the_update_refuses(lost:
     assert posterior.failed == tuple(f"{labels[i]} (inverted)" for i in failed)
 
 
-def test_failed_beats_are_left_out_and_said() -> None:
+def test_failed_beats_are_excluded_and_reported() -> None:
     prior, a, z, observed = linear(4, 3, 9)
     outcomes = [named(row) for row in z]
     outcomes[2] = "beat 1: at 0.3 s: an element collapsed"
@@ -154,7 +154,7 @@ def test_failed_beats_are_left_out_and_said() -> None:
     )
 
 
-def test_no_beat_may_be_missing_nor_any_observation() -> None:
+def test_missing_beats_and_missing_observations_are_refused() -> None:
     prior, _, z, observed = linear(4, 3, 9)
     outcomes = [named(row) for row in z]
     with pytest.raises(ValueError, match=r"\b8 outcomes.*\b9 points"):

@@ -37,7 +37,7 @@ def test_an_unknown_setting_is_refused(capsys):
     assert "no setting 'fisical'; known are paper, physical" in capsys.readouterr().err
 
 
-def test_a_plan_without_costs_says_what_writes_them(capsys, tmp_path):
+def test_a_plan_without_costs_names_the_command_that_writes_them(capsys, tmp_path):
     assert main(["plan", "--costs", str(tmp_path)]) == 2
     assert "expected measured costs: `heartfit costs` writes them" in capsys.readouterr().err
 

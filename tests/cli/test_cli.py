@@ -47,7 +47,7 @@ def test_bad_input_is_one_line_and_exit_code_2(arguments, expected, capsys):
     assert message.count("\n") == 1
 
 
-def test_what_a_beat_does_without_is_not_imported():
+def test_a_beat_imports_no_library_that_it_does_not_use():
     slow = {
         "pandas",
         "matplotlib",
@@ -74,7 +74,7 @@ def test_tolerances_are_written_anew(tmp_path, capsys):
     assert "none.csv" in capsys.readouterr().err
 
 
-def test_check_says_what_is_left_out(tmp_path, capsys):
+def test_check_lists_what_is_left_out(tmp_path, capsys):
     (tmp_path / "no_heart.yaml").write_text(f"measured_heart: ['{tmp_path}/nowhere']\n")
     assert cli.main(["check", "--config", "config/config.yaml", str(tmp_path / "no_heart.yaml")]) == 0
     assert "patient1 left out" in capsys.readouterr().out
@@ -93,7 +93,7 @@ def test_a_beat_is_summed_up_in_clinical_units():
     assert [unit for unit in ("LV", "mL", "kPa", "%") if unit not in lines[1]] == []
 
 
-def test_a_failed_beat_says_why():
+def test_a_failed_beat_gives_its_reason():
     assert beat_summary(failed_beat("beat 1: inverted", 0.8, 0.1, {})) == ["failed: beat 1: inverted"]
 
 

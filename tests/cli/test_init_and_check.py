@@ -36,7 +36,7 @@ def record(folder, **columns):
     return str(file)
 
 
-def test_what_is_to_be_filled_in_is_refused_line_by_line(project, capsys):
+def test_unfilled_entries_are_refused_line_by_line(project, capsys):
     assert main(["init", "heart1"]) == 0
     assert main(["check", "heart1"]) == 2
     errors = "\n".join(lines(capsys))
@@ -47,7 +47,7 @@ def test_what_is_to_be_filled_in_is_refused_line_by_line(project, capsys):
     assert not (project / "results").exists()
 
 
-def test_nothing_is_overwritten(project, capsys):
+def test_no_file_is_overwritten(project, capsys):
     assert main(["init", "heart1", "--fit", "fit", "--rr", "0.8"]) == 0
     before = (project / "config" / "heart1.yaml").read_text()
     assert main(["init", "heart1"]) == 2
@@ -66,7 +66,7 @@ def test_nothing_is_overwritten(project, capsys):
         (["heart1", "--pressure", "a.csv"], "no source given for the wall"),
     ],
 )
-def test_options_that_contradict_write_nothing(project, capsys, options, expected):
+def test_contradicting_options_write_no_file(project, capsys, options, expected):
     assert main(["init", *options]) == 2
     assert expected in lines(capsys)[0]
     assert [file.name for file in (project / "config").iterdir()] == ["config.yaml"]
@@ -78,7 +78,7 @@ def test_paths_with_quotes_colons_and_other_letters_are_kept(project):
     assert read_configuration([Path("config/heart1.yaml")])["sources"]["heart1"]["fit"] == odd
 
 
-def test_every_mistake_is_said_at_once(project, capsys):
+def test_every_mistake_is_reported_at_once(project, capsys):
     """One each in the configuration, in the row, and in a file of the data."""
     times = np.arange(0.0, 0.8, 0.01)
     file = record(project, time_s=times, lv_pressure=8e3 + 7e3 * np.cos(8.0 * times))

@@ -42,7 +42,7 @@ def test_the_beat_that_compiles_them_is_a_whole_one():
     assert abs(beat.volume["lv"][0] - beat.volume["lv"]).max() > 1e-8, "the cube contracts"
 
 
-def test_its_mesh_is_laid_out_as_those_read_from_files():
+def test_the_mesh_has_the_memory_layout_of_meshes_read_from_files():
     block = cube(2, 0.02)
     assert all(array.flags.c_contiguous for array in (block.points, block.tets, block.fibres)), (
         "or numba compiles again"

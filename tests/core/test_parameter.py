@@ -78,6 +78,6 @@ def test_a_search_takes_a_prior_as_a_calibration_does() -> None:
         assert modulus.at(x) == pytest.approx(belief.physical(belief.mean + x * belief.sd)["c"])
 
 
-def test_what_has_neither_scale_nor_prior_cannot_be_searched() -> None:
+def test_a_parameter_without_scale_and_prior_cannot_be_searched() -> None:
     with pytest.raises(ValueError, match=r"\bK\b.*\bscale\b.*\bsd\b"):
         Parameter("K", 1.0, "Pa", "K", "a modulus").at(0.0)

@@ -12,7 +12,7 @@ RUN = [page for page in PAGES if any(block.run_here for block in blocks_of(page)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_what_is_not_run_here_says_where_it_is_or_why_not(page):
+def test_a_block_not_run_here_names_the_test_that_runs_it_or_a_reason(page):
     for block in blocks_of(page):
         assert not block.silent, f"console, or a comment above: {block.code}"
         if block.remark:
@@ -40,7 +40,7 @@ def test_a_block_that_fails_is_noticed(tmp_path):
         carry_out(page_of(tmp_path, "```console\n$ exit 3\n```\n"), tmp_path)
 
 
-def test_other_words_are_noticed_and_other_numbers_are_not(tmp_path):
+def test_changed_words_are_detected_and_changed_numbers_are_not(tmp_path):
     carry_out(page_of(tmp_path, "```console\n$ echo 4.2 kPa\n4.4 kPa\n$ echo x\nx\n```\n"), tmp_path)
     with pytest.raises(AssertionError, match=r"echo 4\.2 kPa: prints"):
         carry_out(page_of(tmp_path, "```console\n$ echo 4.2 kPa\n4.2 mmHg\n```\n"), tmp_path)

@@ -40,7 +40,7 @@ def test_the_sentences_of_a_page_are_those_of_its_template(name):
     assert re.fullmatch(sentences(name), page), f"write docs/{name}.md anew, or take its sentences over"
 
 
-def test_a_sentence_that_was_changed_by_hand_is_found():
+def test_a_sentence_changed_by_hand_is_detected():
     page = COMMITTED["mutations"].read_text()
     assert re.fullmatch(sentences("mutations"), page)
     assert not re.fullmatch(

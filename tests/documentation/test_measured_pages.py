@@ -45,7 +45,7 @@ def test_every_stored_result_is_printed(pages):
         assert file.read_text().startswith("# made by: "), file.name
 
 
-def test_a_number_changed_by_hand_is_found(pages, tmp_path, monkeypatch):
+def test_a_number_changed_by_hand_is_detected(pages, tmp_path, monkeypatch):
     page = tmp_path / "study.md"
     page.write_text(re.sub(r"\| 1\.7 \| 1\.8 \|", "| 1.6 | 1.8 |", pages.PAGES["study"].read_text()))
     monkeypatch.setitem(pages.PAGES, "study", page)

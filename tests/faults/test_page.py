@@ -11,7 +11,7 @@ def test_every_row_was_mended():
     assert all(row.endswith("| yes |") for row in rows)
 
 
-def test_a_fault_that_is_not_mended_is_told():
+def test_an_unmended_fault_is_reported():
     outcomes = [Outcome("a kill", "nothing", True), Outcome("a flood", "water", False)]
     text = page({"tables/table1.csv": "", "motion.npz": ""}, outcomes)
     rows = rows_of(text)

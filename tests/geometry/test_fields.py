@@ -36,7 +36,7 @@ def test_the_axes_of_a_heart_that_stands_upright(ventricle: VentricularMesh) -> 
 
 
 @pytest.mark.parametrize("angle", [-50.0, 0.0, 50.0])
-def test_one_angle_for_both_surfaces_is_met_throughout_the_free_wall(
+def test_equal_angles_of_both_surfaces_hold_throughout_the_free_wall(
     ventricle: VentricularMesh, angle: float
 ) -> None:
     fibres = FibreRule.from_mesh(ventricle, np.deg2rad(angle), np.deg2rad(angle)).fibres()
@@ -58,7 +58,7 @@ def test_the_angle_falls_from_endocardium_to_epicardium_and_passes_zero_midway(
     assert abs(np.median(angle[wall])) < 20.0
 
 
-def test_every_segment_is_there_and_lies_where_its_name_says(ventricle: VentricularMesh) -> None:
+def test_every_segment_lies_at_its_named_place(ventricle: VentricularMesh) -> None:
     segments = ventricle.segments
     assert segments is not None
     centres = ventricle.points[ventricle.tets].mean(axis=1)
@@ -82,7 +82,7 @@ def test_the_septum_is_the_side_of_the_right_cavity_that_touches_the_left_wall(
     assert ventricle.points[septum].mean(axis=1)[:, 0].max() < 0.8 * far
 
 
-def test_fields_of_the_wrong_length_are_refused(ventricle: VentricularMesh) -> None:
+def test_fields_of_wrong_length_are_refused(ventricle: VentricularMesh) -> None:
     with pytest.raises(ValueError, match=r"fibres.*shape"):
         VentricularMesh(ventricle.points, ventricle.tets, ventricle.surfaces, fibres=np.ones((3, 3)))
 
@@ -104,7 +104,7 @@ def test_a_wall_of_one_tetrahedron_has_the_longitudinal_fibres_of_a_fine_one(
     assert sampled < 0.75 * along
 
 
-def test_where_the_helix_does_not_turn_the_orientation_is_that_of_the_fibre(
+def test_without_rotation_of_the_helix_the_orientation_is_that_of_the_fibre(
     ventricle: VentricularMesh,
 ) -> None:
     rule = FibreRule.from_mesh(ventricle, 0.5, 0.5)
@@ -112,7 +112,7 @@ def test_where_the_helix_does_not_turn_the_orientation_is_that_of_the_fibre(
     assert np.median(abs(rule.orientation() - along)[free_wall(ventricle)]) < 0.01
 
 
-def test_no_fibre_is_what_rounding_leaves(ventricle):
+def test_no_fibre_direction_is_a_rounding_residue(ventricle):
     """A shift of every point by its last digit would show in vanishing gradients and in parallel ones."""
     nudged = ventricle.with_points(np.nextafter(ventricle.points, 9.0))
     here, there = FibreRule.from_mesh(ventricle), FibreRule.from_mesh(nudged)

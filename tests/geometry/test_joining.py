@@ -18,7 +18,7 @@ def parts(surface: LabelledSurface) -> dict[str, np.ndarray]:
     return {name: surface.surfaces[name] for name in OPEN_SURFACES}
 
 
-def test_the_base_is_found_again(ventricles: LabelledSurface) -> None:
+def test_the_base_is_recovered(ventricles: LabelledSurface) -> None:
     welded = weld_surfaces(ventricles.points, parts(ventricles))
     assert welded.volume() == pytest.approx(ventricles.volume(), rel=1e-12)
     assert np.ptp(welded.points[np.unique(welded.surfaces["base"]), 2]) < 1e-12

@@ -71,7 +71,7 @@ def test_a_right_ventricle_that_does_not_fit_is_refused() -> None:
         ParametricVentricles(**(HUMAN | {"edv": 20e-6, "rv_edv": 600e-6})).surface()
 
 
-def test_nodes_are_numbered_alike_for_all_shapes() -> None:
+def test_node_numbers_do_not_depend_on_the_shape() -> None:
     """The node at the apex of one heart is the node at the apex of another, and so all around."""
     small, large = (ParametricVentricles(**(HUMAN | {"edv": edv})).surface() for edv in (90e-6, 260e-6))
     assert np.array_equal(small.triangles, large.triangles)

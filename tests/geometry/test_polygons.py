@@ -21,7 +21,7 @@ def at_level(normal: Floats, offset: float) -> list[Polygon]:
     return list(tetrahedra_sections(TETRAHEDRON, np.arange(4)[None], TETRAHEDRON @ normal - offset))
 
 
-def test_what_is_kept_and_what_is_not_are_the_whole() -> None:
+def test_both_sides_of_a_cut_add_up_to_the_whole() -> None:
     height = TRIANGLE[:, 0] - 0.25
     kept, left = clip_polygon(TRIANGLE, height), clip_polygon(TRIANGLE, -height)
     assert area(kept) == pytest.approx(0.5 * 0.75**2)
@@ -29,7 +29,7 @@ def test_what_is_kept_and_what_is_not_are_the_whole() -> None:
     assert kept[:, 3] == pytest.approx(kept[:, 0]), "values go along"
 
 
-def test_nothing_is_left_below_and_everything_above() -> None:
+def test_a_polygon_below_the_plane_is_removed_and_one_above_is_kept() -> None:
     assert len(clip_polygon(TRIANGLE, -np.ones(3))) == 0
     assert clip_polygon(TRIANGLE, np.ones(3)) == pytest.approx(TRIANGLE)
 
@@ -54,5 +54,5 @@ def test_between_two_edges_the_section_is_a_square_and_does_not_cross_itself() -
     assert area(section) == pytest.approx(np.sqrt(0.5) * 0.5)
 
 
-def test_a_plane_beside_the_tetrahedron_cuts_nothing() -> None:
+def test_a_plane_beside_the_tetrahedron_gives_no_section() -> None:
     assert at_level(np.array([1.0, 0.0, 0.0]), 2.0) == []

@@ -40,7 +40,7 @@ def test_fine_triangles_count_no_more_than_coarse_ones() -> None:
     assert distances.mean() < 0.009
 
 
-def test_both_ways_count() -> None:
+def test_the_surface_distance_counts_both_directions() -> None:
     """A peak far from the other sheet is at a distance from its own side only."""
     points, triangles = sheet(0.0)
     peak = points.copy()

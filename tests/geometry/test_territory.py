@@ -24,13 +24,13 @@ def test_a_territory_has_the_declared_size(angle: float, share: float) -> None:
     assert ((weight >= 0.0) & (weight <= 1.0)).all()
 
 
-def test_it_grows_from_its_middle_and_never_gives_back() -> None:
+def test_a_territory_grows_monotonically_from_its_middle() -> None:
     grown = np.array([territory_weights(3.0, share) for share in np.linspace(0.0, 1.0, 41)])
     assert (np.diff(grown, axis=0) >= -1e-12).all()
     assert grown[8, 12] > grown[8, 9] == 0.0
 
 
-def test_its_middle_moves_it_continuously_and_a_turn_brings_it_back() -> None:
+def test_a_territory_moves_continuously_with_its_middle_and_has_the_period_of_a_turn() -> None:
     around = np.array([territory_weights(angle, 0.3) for angle in np.linspace(0.0, 2.0 * np.pi, 721)])
     assert abs(np.diff(around, axis=0)).max() < 0.04
     assert around[-1] == pytest.approx(around[0], abs=1e-9)

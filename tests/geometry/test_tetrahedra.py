@@ -38,7 +38,7 @@ def test_the_same_seed_gives_the_same_mesh_and_another_one_another(
 
 
 @pytest.mark.skipif(not SEEDABLE, reason="the random device can be set on Linux with x86-64 only")
-def test_the_last_digit_of_another_processor_changes_nothing(pebble: LabelledSurface) -> None:
+def test_round_off_of_another_processor_leaves_the_mesh_unchanged(pebble: LabelledSurface) -> None:
     nudged = LabelledSurface(np.nextafter(pebble.points, 9.0), pebble.triangles, pebble.labels)
     one, other = (tetrahedralise(surface, 1.5, 0.3, 0) for surface in (pebble, nudged))
     for array, repeated in zip(one, other, strict=True):

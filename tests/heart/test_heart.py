@@ -26,7 +26,7 @@ def test_parameters_of_mechanisms_and_of_nested_parts_are_reached() -> None:
     assert heart.tissue.active.starling.slope == 0.4
 
 
-def test_setting_all_parameters_to_their_own_values_changes_nothing() -> None:
+def test_setting_all_parameters_to_their_values_changes_no_parameter() -> None:
     heart = Heart() + MitralRegurgitation()
     assert heart.with_parameters(heart.parameters()) == heart
 

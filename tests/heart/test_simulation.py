@@ -34,7 +34,7 @@ def test_the_limit_cycle_is_reached_and_stated(beat: Beat) -> None:
         assert abs(curve[-1] - curve[0]) < NUMERICS.drift * np.ptp(curve)
 
 
-def test_what_flows_in_flows_out(beat: Beat) -> None:
+def test_inflow_equals_outflow(beat: Beat) -> None:
     """The net flow through a ventricle is its change of volume over the beat."""
     strokes = {name: per_beat(beat, name) for name in beat.flow}
     for inlet, outlet, side in (("mitral", "aortic", "lv"), ("tricuspid", "pulmonary", "rv")):
@@ -81,7 +81,7 @@ def test_the_beat_converges_with_the_time_step(
         assert np.polyfit(np.log(steps[1:]), np.log(abs(np.diff(values))), 1)[0] > order
 
 
-def test_a_failing_heart_says_when_and_why(spherical_heart: Heart, spheres: SphericalBody) -> None:
+def test_a_failing_heart_reports_time_and_reason(spherical_heart: Heart, spheres: SphericalBody) -> None:
     hopeless = Numerics(cuts=1, tolerances=Tolerances(iterations=1))
     beat = simulate(spherical_heart, spheres, hopeless)
     assert (beat.status, beat.completed) == ("failed", False)

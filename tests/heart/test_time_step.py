@@ -29,7 +29,7 @@ def test_starting_value_and_extrapolation_agree(lengths: tuple[float, float]) ->
 
 
 @pytest.mark.parametrize("step", [TimeStep(0.2, 5e-3, 1.0, False, 5e-3), TimeStep(0.2, 5e-3, 1.0)])
-def test_without_memory_it_is_backward_euler(step: TimeStep) -> None:
+def test_without_memory_the_scheme_is_backward_euler(step: TimeStep) -> None:
     assert (step.memory, step.effective, step.starting_value(1.0, 7.0), step.end_value(2.0, 9.0)) == (
         0.0,
         5e-3,

@@ -62,9 +62,7 @@ def cine(image: np.ndarray, grid: Grid) -> ImageSequence:
     return ImageSequence(grid, image + noise, 0.1 * np.arange(8), 0.8)
 
 
-def test_what_the_mesh_calls_blood_and_wall_has_its_volumes(
-    mesh: VentricularMesh, painted: np.ndarray
-) -> None:
+def test_blood_and_wall_of_the_mesh_have_their_volumes(mesh: VentricularMesh, painted: np.ndarray) -> None:
     cavities = sum(Cavity.from_endocardium(mesh, name).volume(mesh.points) for name in ("lv_endo", "rv_endo"))
     assert np.count_nonzero(painted == WALL) * VOXEL**3 == pytest.approx(mesh.wall_volume(), rel=0.01)
     assert np.count_nonzero(painted == BLOOD) * VOXEL**3 == pytest.approx(cavities, rel=0.01)
@@ -108,7 +106,7 @@ def test_a_mesh_with_other_signs_is_named(
         require_match(cine(clean, grid), mesh.with_points(mesh.points * signs))
 
 
-def test_other_images_are_refused(mesh: VentricularMesh, grid: Grid, clean: np.ndarray) -> None:
+def test_images_of_another_mesh_are_refused(mesh: VentricularMesh, grid: Grid, clean: np.ndarray) -> None:
     with pytest.raises(InputError, match=r"expected 0\.7: take the images of this mesh"):
         require_match(cine(np.random.default_rng(2).random(grid.shape).astype(np.float32), grid), mesh)
     with pytest.raises(InputError, match=r"expected 0\.7: take the images of this mesh"):
@@ -116,7 +114,7 @@ def test_other_images_are_refused(mesh: VentricularMesh, grid: Grid, clean: np.n
 
 
 @pytest.mark.parametrize(("axis", "side"), [(axis, side) for axis in range(3) for side in (0, 1)])
-def test_what_is_not_covered_is_told_in_millimetres(mesh: VentricularMesh, axis: int, side: int) -> None:
+def test_uncovered_tissue_is_reported_in_millimetres(mesh: VentricularMesh, axis: int, side: int) -> None:
     """A box along the patient's axes that ends 4 mm inside the mesh on one side and far away on the others."""
     low, high = mesh.points.min(axis=0) - 0.05, mesh.points.max(axis=0) + 0.05
     if side:

@@ -98,7 +98,7 @@ def test_a_wall_of_many_tetrahedra_has_no_holes(offset: float) -> None:
     np.testing.assert_array_equal(mask, ((place >= 0.0) & (place <= 12.0)).all(axis=-1))
 
 
-def test_a_flat_tetrahedron_paints_nothing() -> None:
+def test_a_flat_tetrahedron_paints_no_voxel() -> None:
     assert not painted(np.array([[2.0, 2, 2], [9, 2, 2], [2, 9, 2], [9, 9, 2]]), ONE_TETRAHEDRON).any()
 
 
@@ -146,7 +146,7 @@ def test_several_fields_are_sampled_as_one_is_and_only_where_they_weigh() -> Non
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_what_a_sphere_surrounds_is_inside(seed: int) -> None:
+def test_voxels_within_a_sphere_are_inside(seed: int) -> None:
     """But for voxels nearer to its surface than its facets are, on either side; and of just its volume."""
     rng = np.random.default_rng(seed)
     centre, radius = np.array([13.0, 12.0, 11.0]) + rng.random(3), 8.0

@@ -43,7 +43,7 @@ def test_a_cropped_image_holds_the_points_and_their_margin(sequence: ImageSequen
     assert_linear(cropped)
 
 
-def test_beyond_the_image_there_is_nothing_to_keep(sequence: ImageSequence) -> None:
+def test_a_margin_beyond_the_image_ends_at_its_border(sequence: ImageSequence) -> None:
     cropped = crop(sequence, sequence.grid.points(np.array([[0.5, 5.0, 3.0]])), 1.0)
     assert cropped.grid.size == sequence.grid.size
     assert_linear(cropped)

@@ -21,7 +21,7 @@ def content(grid):
     return {"grid": grid, "voxels": voxels, "times": 0.1 * np.arange(FRAMES), "period": 0.8}
 
 
-def test_the_axis_i_points_where_the_first_column_says(grid):
+def test_the_axis_i_points_along_the_first_column(grid):
     np.testing.assert_allclose(grid.points(np.array([1.0, 0.0, 0.0])), [0.1, -0.199, 0.3])
     np.testing.assert_allclose(grid.points(np.array([0.0, 0.0, 1.0])), [0.1, -0.2, 0.308])
 
@@ -47,7 +47,7 @@ def test_a_grid_that_cannot_be_is_refused(grid, change, message):
         )
 
 
-def test_end_diastole_comes_first_and_time_goes_on(content):
+def test_end_diastole_is_the_first_frame_and_times_increase(content):
     turned = ImageSequence(**content).starting_at(6)
     np.testing.assert_array_equal(turned.voxels[:3], content["voxels"][[6, 7, 0]])
     np.testing.assert_allclose(turned.times, content["times"], atol=1e-12)
@@ -63,7 +63,7 @@ def spoilt(content, **change):
     return ImageSequence(**content | change)
 
 
-def test_what_is_no_sequence_is_refused_with_the_frame_named(content):
+def test_an_invalid_sequence_is_refused_with_the_frame_named(content):
     hole, flat, glare = (content["voxels"].copy() for _ in range(3))
     hole[5, 1, 2, 3], flat[3], glare[2, 0, 0, 0], glare[2, 0, 0, 1] = np.nan, 7.0, 3e38, -3e38
     late = content["times"].copy()

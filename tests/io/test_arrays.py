@@ -22,7 +22,7 @@ def elsewhere(path):
     return path.parents[1] / path.name
 
 
-def test_what_was_written_is_read(path):
+def test_round_trip(path):
     assert read_arrays(path, "times")["times"].tolist() == list(range(9))
 
 
@@ -35,7 +35,7 @@ def test_what_was_written_is_read(path):
         (lambda whole: b"text", "pickled"),
     ],
 )
-def test_what_is_damaged_is_refused_with_and_without_its_sum(path, spoil, message):
+def test_a_damaged_file_is_refused_with_and_without_its_check_sum(path, spoil, message):
     whole = path.read_bytes()
     path.write_bytes(spoil(whole))
     with pytest.raises(InputError, match=r"motion\.npz: not what was written there"):
@@ -46,7 +46,7 @@ def test_what_is_damaged_is_refused_with_and_without_its_sum(path, spoil, messag
     assert "\n" not in str(refused.value)
 
 
-def test_a_changed_byte_is_found_by_the_sum_of_the_format(path):
+def test_a_changed_byte_is_detected_by_the_check_sum_of_the_format(path):
     whole = bytearray(path.read_bytes())
     whole[whole.find(b"times.npy") + 40] ^= 1  # of its compressed data
     elsewhere(path).write_bytes(whole)

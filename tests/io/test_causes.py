@@ -71,7 +71,7 @@ def test_every_key_is_asked_for(path):
         ("{", "", "Extra data|Expecting"),
     ],
 )
-def test_a_broken_file_is_told_in_a_line(path, old, new, expected):
+def test_a_broken_file_is_reported_in_one_line(path, old, new, expected):
     path.write_text(path.read_text().replace(old, new, 1))
     with pytest.raises(InputError, match=expected) as error:
         read_cause(path)

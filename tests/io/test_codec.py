@@ -82,7 +82,7 @@ def test_a_record_is_read_and_written_again_to_the_same_bytes(tmp_path, kind):
         assert (tmp_path / "once.json").read_bytes() == (tmp_path / "twice.json").read_bytes()
 
 
-def test_what_json_cannot_hold_is_null_and_read_as_nan(tmp_path):
+def test_nan_is_written_as_null_and_read_as_nan(tmp_path):
     record = Scatter(("K", "mu"), 20, np.array([np.nan, 1.0]), np.diag([np.inf, 2.0]))
     write_result(tmp_path / "g.json", record, "0123")
     assert read_result(tmp_path / "g.json") == {
@@ -111,7 +111,7 @@ def test_numbers_of_numpy_are_plain_numbers():
         (None, "SigmaPoint"),
     ],
 )
-def test_what_is_no_record_is_refused_in_one_line(content, says):
+def test_an_invalid_record_is_refused_in_one_line(content, says):
     with pytest.raises(
         InputError, match=rf"points\.json: .*{says}.*; delete it and run the stage again"
     ) as error:

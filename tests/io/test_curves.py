@@ -22,7 +22,7 @@ def sample() -> dict[str, Curve]:
     }
 
 
-def test_there_and_back(tmp_path: Path) -> None:
+def test_round_trip(tmp_path: Path) -> None:
     write_curves(tmp_path / "deep" / "measured.csv", sample())
     restored = read_curves(tmp_path / "deep" / "measured.csv")
     assert set(restored) == set(sample())
@@ -81,7 +81,7 @@ def test_bad_files_are_named(tmp_path: Path, old: str, new: str, message: str) -
         read_curves(path)
 
 
-def test_a_pressure_in_millimetres_of_mercury_is_told(tmp_path: Path) -> None:
+def test_a_pressure_in_millimetres_of_mercury_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "c.csv"
     rows = "\n".join(f"{t},{80 + 40 * np.cos(2 * np.pi * t / 0.825)}" for t in TIMES)
     path.write_text(f"# period_s = 0.825\ntime_s,lv_pressure_kpa\n{rows}\n")

@@ -32,7 +32,7 @@ def test_a_file_that_is_right_is_not_fetched_again(published):
     assert (folder / "part" / "file.txt").read_text() == "control points"
 
 
-def test_another_file_is_refused_and_leaves_nothing(published, tmp_path):
+def test_a_file_with_another_check_sum_is_refused_and_removed(published, tmp_path):
     address, manifest, folder = published
     (tmp_path / "there" / "source.txt").write_text("something else")
     with pytest.raises(InputError, match="it is not the published file"):

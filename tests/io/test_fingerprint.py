@@ -36,7 +36,7 @@ def test_the_modules_below_a_script(package):
 
 
 @pytest.mark.parametrize(("edited", "changes"), [("d.py", True), ("b/__init__.py", True), ("e.py", False)])
-def test_it_changes_when_and_only_when_something_below_does(package, edited, changes):
+def test_the_fingerprint_changes_only_with_the_modules_below(package, edited, changes):
     before = module.fingerprint(package.parent / "script.py")
     (package / edited).write_text("y = 2\n")
     assert (module.fingerprint(package.parent / "script.py") != before) is changes

@@ -61,7 +61,7 @@ def test_labels_of_every_frame_take_its_place_end_diastole_first(
     assert np.array_equal(images.times, cine.times)
 
 
-def test_other_frames_than_the_cine_are_refused(
+def test_frames_that_differ_from_the_cine_are_refused(
     tmp_path: Path, heart: tuple[Grid, Segmentation, Segmentation], cine: ImageSequence
 ) -> None:
     with pytest.raises(InputError, match="5 frames, the images have 8"):

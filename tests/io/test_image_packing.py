@@ -40,7 +40,7 @@ def test_sound_voxels_are_read(image: Path, voxels: np.ndarray) -> None:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_a_byte_that_is_another_is_seen(image: Path, seed: int) -> None:
+def test_a_changed_byte_is_detected(image: Path, seed: int) -> None:
     content = bytearray(holder(image).read_bytes())
     begin = HEADERS if holder(image) == image else 10  # the ten of gzip's own head may differ
     rng = np.random.default_rng(seed)
@@ -75,6 +75,8 @@ def test_a_length_that_leaves_voxels_out_is_refused(voxels: np.ndarray, tmp_path
 
 
 @pytest.mark.parametrize("length", [".0", "99999999999999", "9" * 30, "9" * 5000])
-def test_a_length_beyond_the_file_asks_for_no_memory(voxels: np.ndarray, tmp_path: Path, length: str) -> None:
+def test_a_length_beyond_the_file_allocates_no_memory(
+    voxels: np.ndarray, tmp_path: Path, length: str
+) -> None:
     with pytest.raises(InputError, match=r"x\.mha: cannot be read"):
         load(with_length(voxels, tmp_path / "x.mha", length))

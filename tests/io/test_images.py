@@ -36,7 +36,7 @@ def sequence(seed: int = 0, frames: int = 9, size: tuple[int, int, int] = (5, 4,
 @pytest.mark.parametrize("suffix", WRITTEN)
 @settings(max_examples=15, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**31), frames=st.integers(8, 12), size=st.tuples(*[st.integers(1, 6)] * 3))
-def test_there_and_back(
+def test_round_trip(
     tmp_path_factory: pytest.TempPathFactory, suffix: str, seed: int, frames: int, size: tuple[int, int, int]
 ) -> None:
     given_, path = (
@@ -61,7 +61,7 @@ def test_the_same_sequence_is_the_same_bytes(tmp_path: Path, suffix: str) -> Non
     assert set(first) == {f"cine{suffix}", "cine.json"}
 
 
-def test_other_suffixes_are_not_written(tmp_path: Path) -> None:
+def test_unknown_suffixes_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"written as \.nrrd"):
         write_images(tmp_path / "cine.png", sequence())
     assert not list(tmp_path.iterdir())
@@ -87,7 +87,7 @@ def test_a_nifti_that_states_its_unit_needs_no_sidecar(tmp_path: Path, unit: int
     assert restored.grid.spacing.tolist() == [1e-3] * 3
 
 
-def test_the_caller_goes_before_the_sidecar_and_that_before_the_header(tmp_path: Path) -> None:
+def test_times_of_the_caller_precede_the_sidecar_and_the_header(tmp_path: Path) -> None:
     path = nifti(tmp_path)
     (tmp_path / "cine.json").write_text('{"period_s": 0.9, "RepetitionTime": 0.0027}')
     assert read_images(path).period == 0.9
@@ -181,7 +181,7 @@ def sidecar(text: str) -> Callable[[Path], None]:
         (sidecar('{"period_s": 0.5}'), r"cine\.nii: .*times run from 0 to 0.72 s"),
     ],
 )
-def test_what_is_no_sequence_is_refused_in_one_line(
+def test_an_invalid_sequence_is_refused_in_one_line(
     tmp_path: Path, spoil: Callable[[Path], object], message: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     path = nifti(tmp_path)

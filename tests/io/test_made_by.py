@@ -26,7 +26,7 @@ def test_python_and_packages_are_named_with_their_versions():
     assert "not installed" not in versions().replace("heartfit not installed", "")
 
 
-def test_the_code_is_another_after_an_edit(tmp_path, monkeypatch):
+def test_an_edit_changes_the_fingerprint_of_the_code(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "PACKAGE", tmp_path)
     (tmp_path / "law.py").write_text("slope = 1\n")
     before = made_by()
@@ -37,12 +37,12 @@ def test_the_code_is_another_after_an_edit(tmp_path, monkeypatch):
     assert before.rsplit(" ", 1)[0] == after.rsplit(" ", 1)[0]
 
 
-def test_the_command_line_says_it(capsys):
+def test_the_command_line_prints_the_origin_of_a_result(capsys):
     with pytest.raises(SystemExit, match="0"):
         cli.main(["--version"])
     assert " ".join(capsys.readouterr().out.split()) == made_by()
 
 
-def test_a_result_says_it(tmp_path):
+def test_a_result_states_its_origin(tmp_path):
     write_result(tmp_path / "r.json", {}, "abc")
     assert f'"made_by": "{versions()}"' in (tmp_path / "r.json").read_text()

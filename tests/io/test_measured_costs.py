@@ -20,7 +20,7 @@ def study(folder: Path, **seconds: float) -> Path:
     return folder
 
 
-def test_of_a_job_that_several_studies_ran_the_first_one_counts(tmp_path):
+def test_a_job_run_by_several_studies_counts_in_the_first(tmp_path):
     first = study(tmp_path / "first", compile_kernels=3.0, heart1__build_mesh=5.0)
     second = study(tmp_path / "second", compile_kernels=9.0, make_tables=1.0)
     typical = {row.job: row.typical_s for row in measured_needs([first, second])}

@@ -52,7 +52,7 @@ def test_a_package_offers_its_own_by_an_entry_point(pump, monkeypatch):
         ("x = 1\n", "declares no mechanism"),
     ],
 )
-def test_what_is_wrong_with_a_file_is_said_in_a_line(tmp_path, capsys, text, complaint):
+def test_mistakes_in_a_file_are_reported_in_one_line(tmp_path, capsys, text, complaint):
     file = tmp_path / "mine.py"
     file.write_text(text)
     assert cli.main(["diagnose", "none.csv", "--mechanism", str(file)]) == 2
@@ -63,7 +63,7 @@ def test_what_is_wrong_with_a_file_is_said_in_a_line(tmp_path, capsys, text, com
 
 
 @pytest.mark.parametrize("name", ["missing.py", "folder", "mine.txt"])
-def test_what_is_no_file_of_python_is_refused(tmp_path, name):
+def test_a_file_that_is_no_python_is_refused(tmp_path, name):
     (tmp_path / "folder").mkdir()
     (tmp_path / "mine.txt").write_text(PUMP)
     with pytest.raises(InputError, match="no file of Python"):

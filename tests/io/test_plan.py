@@ -41,7 +41,7 @@ def test_measured_hearts_alone_are_a_study_and_a_recording_makes_seven_parameter
     assert [len(plan.study.setting("physical", case).estimate) for case in plan.cases.values()] == [4, 7]
 
 
-def test_what_table_and_sources_say_apart_is_refused_together(content, tmp_path):
+def test_contradictions_between_table_and_sources_are_refused(content, tmp_path):
     cases(tmp_path, "heart1\tmeasured\t0.83\thealthy\t\ttrue")
     content["sources"] = {"heart1": {"fit": "one"}, "heart_1": {"fit": "two"}}
     stranger, silent = problems(content)

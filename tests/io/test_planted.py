@@ -49,7 +49,7 @@ def test_a_changed_answer_breaks_the_seal(tmp_path):
     assert base64.b64decode(body)
 
 
-def test_a_missing_answer_is_told_in_one_line(tmp_path):
+def test_a_missing_answer_is_reported_in_one_line(tmp_path):
     with pytest.raises(InputError, match="no sealed answer") as error:
         open_seal(tmp_path / "none")
     assert "\n" not in str(error.value)

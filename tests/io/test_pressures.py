@@ -45,7 +45,7 @@ def test_the_zero_of_the_line_is_taken_off_in_its_own_unit(tmp_path):
     assert read(path, zero=5.0).values == pytest.approx(PASCALS, abs=0.5)
 
 
-def test_the_left_ventricle_is_told_from_others_by_its_name_or_by_the_user(tmp_path):
+def test_the_left_ventricle_is_identified_by_its_name_or_by_the_user(tmp_path):
     columns = TIMES, PASCALS / 1e3, 0.2 * PASCALS / 1e3
     named = table(tmp_path, "time_s,lv_pressure_kpa,rv_pressure_kpa", *columns)
     assert read(named).values.max() == pytest.approx(PASCALS.max(), rel=1e-3)
@@ -69,7 +69,7 @@ def test_the_left_ventricle_is_told_from_others_by_its_name_or_by_the_user(tmp_p
         ("time_ms,lv_pressure_kpa", {}, "is the unit of time right|the beats are"),
     ],
 )
-def test_what_is_not_said_is_refused(tmp_path, header, options, message):
+def test_missing_statements_are_refused(tmp_path, header, options, message):
     path = table(tmp_path, header, TIMES, PASCALS / 1e3)
     with pytest.raises(InputError, match=message) as refused:
         read(path, **options)
@@ -92,6 +92,6 @@ def test_a_cell_that_is_no_number_is_named(tmp_path):
         ({"upstroke": 0.1, "delay": 0.01}, "leave delay out"),
     ],
 )
-def test_what_contradicts_itself_is_refused(content, message):
+def test_contradictions_are_refused(content, message):
     with pytest.raises(InputError, match=message):
         validate(RecordedPressure, {"file": "x.csv", **content}, "config.yaml")

@@ -39,7 +39,7 @@ def rows(beat: Beat) -> np.ndarray:
 
 
 @pytest.mark.parametrize("way", [{"trigger": "ecg"}, {"upstroke": None}], ids=["with an ECG", "without one"])
-def test_what_was_recorded_is_what_was_simulated(tmp_path, beat, rows, way):
+def test_the_averaged_recording_is_the_simulated_pressure(tmp_path, beat, rows, way):
     true = beat_curves(beat)["lv_pressure"]
     if "upstroke" in way:
         rate = PressureFeatures().rate(true)

@@ -46,7 +46,7 @@ def test_empty_cells_are_other_times_and_beats_may_follow(tmp_path):
         ("time_s,lv_volume_ml", [(k * 0.05, 100) for k in range(3)], 0.9, "3 samples"),
     ],
 )
-def test_what_is_wrong_is_said_in_a_line(tmp_path, header, rows, period, expected):
+def test_mistakes_are_reported_in_one_line(tmp_path, header, rows, period, expected):
     path = written(tmp_path / "m.csv", table(header, rows))
     with pytest.raises(InputError, match=expected) as problem:
         read_recording(path, period)

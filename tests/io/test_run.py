@@ -34,7 +34,7 @@ def put_in_order(results, state):
         return run.put_in_order()
 
 
-def test_nothing_is_said_where_nothing_is_amiss(results, state):
+def test_a_run_in_order_reports_no_line(results, state):
     write_text(results / "beat.json", "{}")
     assert put_in_order(results, state) == []
     assert (results / "beat.json").read_text() == "{}"
@@ -46,7 +46,7 @@ def test_the_lock_of_a_killed_run_is_taken_away(results, state):
     assert not list((state / "locks").iterdir())
 
 
-def test_a_run_beside_another_touches_nothing(results, state):
+def test_a_concurrent_run_changes_no_file(results, state):
     write_text(results / "beat.json", "{}")
     first = Run(results, state)
     assert first.put_in_order() == []
@@ -102,7 +102,7 @@ def test_a_file_from_the_future_is_dated_now_and_an_old_one_keeps_its_date(resul
     assert (results / "old").stat().st_mtime < time.time() - 3000
 
 
-def test_where_nothing_can_be_written_one_line_says_so(tmp_path, monkeypatch):
+def test_an_unwritable_folder_is_reported_in_one_line(tmp_path, monkeypatch):
     (tmp_path / "file").touch()
     with pytest.raises(InputError, match="File exists"):
         Run(tmp_path / "results", tmp_path / "file")

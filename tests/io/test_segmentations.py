@@ -23,9 +23,7 @@ def frames() -> tuple[Segmentation, ...]:
 
 @pytest.mark.parametrize("suffix", [".nii.gz", ".nrrd", ".mha"])
 @pytest.mark.parametrize("count", [1, 8])
-def test_what_is_written_is_read(
-    tmp_path: Path, frames: tuple[Segmentation, ...], suffix: str, count: int
-) -> None:
+def test_round_trip(tmp_path: Path, frames: tuple[Segmentation, ...], suffix: str, count: int) -> None:
     file = tmp_path / f"labels{suffix}"
     write_segmentation(file, frames[:count], LABELS)
     restored = read_segmentation(file, LABELS)

@@ -11,7 +11,7 @@ from heartfit.imaging.sequence import Grid
 from heartfit.io.meshes import read_slice_motion, write_slice_motion
 
 
-def test_what_is_written_is_read_back_to_single_precision(tmp_path: Path) -> None:
+def test_round_trip_to_single_precision(tmp_path: Path) -> None:
     rng = np.random.default_rng(3)
     axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     grid = Grid((30, 20, 2), np.array([1e-3, 2e-3, 1e-2]), rng.normal(size=3), axes)

@@ -64,7 +64,7 @@ def test_the_length_of_the_beat_is_the_images_or_the_row_s(segmented: Source, tm
     assert read_source_images(CASE, segmented).period == PERIOD
 
 
-def test_what_cannot_be_read_does_not_hide_the_rest(segmented: Source, tmp_path: Path) -> None:
+def test_an_unreadable_source_does_not_hide_further_mistakes(segmented: Source, tmp_path: Path) -> None:
     (tmp_path / "labels.nrrd").write_text("no image")
     (tmp_path / "cine.nrrd").unlink()
     problems = examine(CASE, segmented).problems
@@ -72,7 +72,7 @@ def test_what_cannot_be_read_does_not_hide_the_rest(segmented: Source, tmp_path:
     assert all(problem.startswith(f"heart1: {tmp_path}/") for problem in problems)
 
 
-def test_other_frames_than_the_images_are_refused(segmented: Source, tmp_path: Path) -> None:
+def test_frames_that_differ_from_the_images_are_refused(segmented: Source, tmp_path: Path) -> None:
     codes = np.random.default_rng(2).integers(0, 4, (5, *GRID.shape))
     frames = [Segmentation(GRID, {name: code == n for name, n in LABELS.items()}) for code in codes]
     write_segmentation(tmp_path / "labels.nrrd", frames, LABELS)

@@ -17,7 +17,7 @@ def results(tmp_path):
     return tmp_path / "results"
 
 
-def test_a_file_that_is_written_elsewhere_leaves_nothing_beside_it(tmp_path):
+def test_a_file_written_elsewhere_leaves_no_other_file(tmp_path):
     write_text(tmp_path / "folder" / "beat.json", "{}\n")
     assert [file.name for file in tmp_path.rglob("*")] == ["folder", "beat.json"]
     assert is_as_written(tmp_path / "folder" / "beat.json")
@@ -31,7 +31,7 @@ def test_the_sum_is_that_of_sha256sum(results):
 
 
 @pytest.mark.parametrize("spoil", [b"", b"time_s\n0\n", b"time_s\n0\n2\n", b"time_s\n0\n1\n2\n"])
-def test_a_file_cut_off_changed_or_longer_is_found(results, spoil):
+def test_a_truncated_changed_or_longer_file_is_detected(results, spoil):
     file = results / "curves.csv"
     write_text(file, "time_s\n0\n1\n")
     write_text(results / "whole.csv", "time_s\n0\n1\n")

@@ -33,13 +33,13 @@ def test_the_suffix_decides(tmp_path: Path, suffix: str, content: str) -> None:
 
 
 @pytest.mark.parametrize(("suffix", "line"), [("csv", 0), ("md", -1), ("tex", 0)])
-def test_every_table_says_what_it_was_made_by(tmp_path: Path, suffix: str, line: int) -> None:
+def test_every_table_states_its_origin(tmp_path: Path, suffix: str, line: int) -> None:
     write_table(tmp_path / f"table.{suffix}", render_table(TABLE))
     header = (tmp_path / f"table.{suffix}").read_text().splitlines()[line]
     assert re.match(r"(# |<!-- |% )made by heartfit \S+, Python \d.*, code [0-9a-f]{16}", header)
 
 
-def test_what_is_written_as_csv_is_read_without_that_line(tmp_path: Path) -> None:
+def test_a_csv_is_read_without_its_line_of_origin(tmp_path: Path) -> None:
     write_csv(tmp_path / "numbers.csv", TABLE)
     for read in (read_numbers, read_published, read_shape):
         assert read(tmp_path / "numbers.csv").columns.tolist() == TABLE.columns.tolist()

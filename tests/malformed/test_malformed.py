@@ -41,7 +41,7 @@ def test_sound_input_is_read(source: str, here: Path, capsys: pytest.CaptureFixt
 
 
 @pytest.mark.parametrize("entry", each_but_most_when_asked_for())
-def test_it_is_refused_in_one_clear_line(
+def test_malformed_input_is_refused_in_one_clear_line(
     entry: Malformed, here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     entry.lay(here)
@@ -55,6 +55,6 @@ def test_it_is_refused_in_one_clear_line(
     assert files_in(here) == before
 
 
-def test_there_are_enough_and_none_is_there_twice() -> None:
+def test_names_of_malformed_inputs_are_unique_and_many() -> None:
     names = [entry.name for entry in MALFORMED]
     assert len(names) == len(set(names)) >= 150

@@ -79,14 +79,14 @@ def assert_beat_or_reason(
 
 
 @pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS.keys())
-def test_spheres_beat_or_say_why_not(kind: type[Mechanism]) -> None:
+def test_spheres_beat_or_give_a_reason(kind: type[Mechanism]) -> None:
     assert_beat_or_reason(
         kind, parameters_of(kind), lambda heart: simulate_spheres(heart, [LEFT, RIGHT], ONE_BEAT)
     )
 
 
 @pytest.mark.parametrize("kind", MUSCLES.values(), ids=MUSCLES.keys())
-def test_ventricles_of_elements_beat_or_say_why_not(
+def test_finite_element_ventricles_beat_or_give_a_reason(
     kind: type[Mechanism], ventricle: VentricularMesh
 ) -> None:
     """With the stress-free reference found for this very muscle."""

@@ -67,7 +67,7 @@ def test_a_delay_of_whole_samples_moves_any_curve_as_it_is() -> None:
     assert shown == pytest.approx(np.roll(values, 8), abs=1e-12)
 
 
-def test_a_filter_asks_for_equidistant_samples_of_a_whole_period() -> None:
+def test_a_filter_needs_equidistant_samples_of_a_whole_period() -> None:
     skewed = TIMES + 1e-3 * np.linspace(0.0, 1.0, COUNT) ** 2
     for times in (skewed, 0.9 * TIMES):
         with pytest.raises(InputError, match="equidistant"):

@@ -54,7 +54,7 @@ def test_the_folder_is_the_registry() -> None:
 
 
 @parametrize_kinds(KINDS)
-def test_one_switch_turns_it_off(kind: type[Mechanism]) -> None:
+def test_one_parameter_turns_a_mechanism_off(kind: type[Mechanism]) -> None:
     assert sum(declared.off is not None for declared in parameters_of(kind)) == 1
     off = {declared.name: declared.value for declared in parameters_of(kind().turned_off())}
     assert off[kind.switch().name] == kind.switch().off
@@ -159,7 +159,7 @@ def sampled() -> tuple[np.ndarray, np.ndarray]:
 
 
 @parametrize_kinds(SENSORS)
-def test_a_sensor_that_is_off_changes_nothing(
+def test_a_sensor_that_is_off_changes_no_curve(
     kind: type[Sensor], sampled: tuple[np.ndarray, np.ndarray]
 ) -> None:
     times, values = sampled

@@ -15,7 +15,7 @@ def volume(times: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize("stretch", [0.25, -0.2])
-def test_it_shows_the_longer_beat_over_the_stated_period(stretch: float) -> None:
+def test_a_longer_beat_is_shown_over_the_stated_period(stretch: float) -> None:
     """The curve of the breath-hold, sampled in its own time, over the stated one."""
     shown = RateMismatch(stretch, SYSTOLE).distort(TIMES, volume(TIMES), PERIOD)
     longer = SYSTOLE + (1.0 + stretch) * (PERIOD - SYSTOLE)

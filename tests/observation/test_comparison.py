@@ -51,7 +51,7 @@ def test_a_motion_is_itself(ventricle: VentricularMesh, compared: Callable) -> N
     assert comparison.end_systole == 6
 
 
-def test_a_rigid_shift_is_a_point_error_of_its_length_and_nothing_else(
+def test_a_rigid_shift_is_only_a_point_error_of_its_length(
     ventricle: VentricularMesh, compared: Callable
 ) -> None:
     matrix = np.diag([0.8, 0.8, 0.85])
@@ -63,7 +63,7 @@ def test_a_rigid_shift_is_a_point_error_of_its_length_and_nothing_else(
     assert list(comparison.observation_errors().values()) == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
 
 
-def test_a_rigid_turn_strains_nothing(ventricle: VentricularMesh) -> None:
+def test_a_rigid_rotation_has_no_strain(ventricle: VentricularMesh) -> None:
     cosine, sine = np.cos(0.4), np.sin(0.4)
     turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
     motion = affine(ventricle, turn)
@@ -93,7 +93,7 @@ def test_each_direction_sees_its_own_stretch(ventricle: VentricularMesh) -> None
         assert row == pytest.approx(np.full(16, 0.5 * (expected[direction] ** 2 - 1.0)))
 
 
-def test_circumference_and_radius_are_told_apart(ventricle: VentricularMesh) -> None:
+def test_circumference_and_radius_are_distinguished(ventricle: VentricularMesh) -> None:
     """A stretch in one direction across the axis: radial where the segment faces it, circumferential beside it.
 
     Of segments 7 to 12, the septal and lateral ones face it. E_nn = (s^2 - 1)/2 (n.e)^2 in each tetrahedron.

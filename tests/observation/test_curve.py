@@ -16,7 +16,7 @@ def test_is_periodic_and_shifts_its_zero() -> None:
     assert curve.shifted(0.033)(np.array([0.0])) == pytest.approx(VOLUME[1])
 
 
-def test_resampling_at_its_own_frames_changes_nothing() -> None:
+def test_resampling_at_the_original_frames_changes_no_value() -> None:
     assert Curve(TIMES, VOLUME, 0.825).resampled(25).values == pytest.approx(VOLUME, rel=1e-12)
 
 

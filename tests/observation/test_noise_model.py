@@ -61,7 +61,7 @@ def test_planted_bias_and_covariance_are_found_within_their_sampling_error() -> 
     assert together == pytest.approx(0.02**2 / (0.02**2 + 0.005**2), abs=0.01)
 
 
-def test_what_is_known_of_the_error_is_taken_off_exactly() -> None:
+def test_the_known_error_is_subtracted_exactly() -> None:
     """Sequences that all err alike: the corrected observations and curve are the truth, whatever its size."""
     share = 0.1 * np.sin(np.pi * np.arange(FRAMES) / FRAMES)
 
@@ -85,7 +85,7 @@ def test_what_is_known_of_the_error_is_taken_off_exactly() -> None:
         assert high == pytest.approx(fresh.true.observations[name])
 
 
-def test_a_shrunken_motion_has_one_error_whatever_the_heart() -> None:
+def test_a_shrunken_motion_has_the_same_error_for_every_heart() -> None:
     """V' = V_0 - (1 - s)(V_0 - V): all errors are s / (1 - s) of the stroke at end systole, ln(1 - s) of the rates."""
     features, s = {"lv_volume": VolumeFeatures(FRAMES)}, 0.2
 
@@ -116,7 +116,7 @@ def test_the_covariance_is_that_of_the_truth_and_in_the_order_asked_for() -> Non
     assert list(known.corrected(reordered).values()) == pytest.approx(np.median(truths, axis=1), rel=0.01)
 
 
-def test_few_sequences_widen_everything_as_their_number_says() -> None:
+def test_few_sequences_widen_intervals_by_their_number() -> None:
     few, reading = model(20), pair(99).measured
     volume = reading.curves["lv_volume"]
     stroke, scatter = np.ptp(volume.values), few.observations
@@ -149,7 +149,7 @@ def test_a_peak_pressure_is_compared_with_the_range_of_the_pressure() -> None:
     assert known.corrected(fresh.measured)["P_max"] == pytest.approx(fresh.true.observations["P_max"])
 
 
-def test_intervals_hold_the_truth_of_fresh_sequences_as_often_as_they_say() -> None:
+def test_intervals_cover_the_truth_of_new_sequences_at_their_nominal_rate() -> None:
     """300 models of 20 sequences with one fresh one each: within the binomial's 99 % of 95 %."""
     held = [coverage(model(20, 1000 * trial), [pair(1000 * trial + 999)]) for trial in range(300)]
     for name in (*NAMES, "lv_volume"):
@@ -184,7 +184,7 @@ def test_the_interval_of_a_share_is_clopper_and_pearsons(covered: int) -> None:
     assert (share.low, share.high) == pytest.approx((exact.low, exact.high))
 
 
-def test_what_the_model_cannot_know_is_refused() -> None:
+def test_observations_unknown_to_the_noise_model_are_refused() -> None:
     with pytest.raises(InputError, match=r"\b19\b.*\b20\b"):
         model(19)
     with pytest.raises(InputError, match=r"\b0\b.*\b20\b"):
@@ -201,7 +201,7 @@ def test_what_the_model_cannot_know_is_refused() -> None:
     known.require_protocol(dict(PROTOCOL))
 
 
-def test_sequences_that_were_not_observed_alike_are_refused() -> None:
+def test_sequences_with_different_observations_are_refused() -> None:
     pairs = [pair(seed) for seed in range(20)]
     wrong = replace(pairs[3].measured, observations=pairs[3].measured.observations | {"q_max": -1e-4})
     with pytest.raises(InputError, match=r"\b3\b.*q_max.*-0\.0001"):

@@ -47,9 +47,7 @@ def displaced(surface: LabelledSurface, sinking: float = 0.0) -> np.ndarray:
     return surface.points + GRID.vectors(steps) - [0.0, 0.0, sinking] * SHARE[:, None, None]
 
 
-def test_a_registration_that_is_right_leaves_nothing_between_the_outlines(
-    surface: LabelledSurface, motion: SliceMotion
-) -> None:
+def test_an_exact_registration_has_no_outline_errors(surface: LabelledSurface, motion: SliceMotion) -> None:
     compared = outlines(surface, displaced(surface), motion)
     assert {outline.surface for outline in compared} == {"lv_endo", "rv_endo", "epi"}
     for outline in compared:

@@ -57,7 +57,7 @@ def test_averaging_lowers_the_noise():
     assert noise[1] < 0.5 * noise[0]
 
 
-def test_without_an_ecg_the_steepest_rise_says_when_a_beat_began():
+def test_without_an_ecg_a_beat_begins_at_the_steepest_rise():
     steepest = np.linspace(0.0, 0.3, 3001)[np.gradient(wave(np.linspace(0.0, 0.3, 3001) / PERIOD)).argmax()]
     averaged = average_beats(trace(np.full(6, PERIOD), with_ecg=False), PERIOD, float(steepest))
     assert error(averaged) < 0.02 * 15e3
@@ -97,7 +97,7 @@ def test_zero_is_the_trigger():
         (lambda: PressureTrace(np.arange(9) * 0.01, np.linspace(0.0, 16.0, 9)), "kPa or mmHg.*Pa"),
     ],
 )
-def test_what_is_no_recording_is_refused(make, message):
+def test_an_invalid_recording_is_refused(make, message):
     with pytest.raises(InputError, match=message):
         make()
 

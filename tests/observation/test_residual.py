@@ -54,7 +54,7 @@ def test_the_volume_falls_in_ejection_only_and_rises_in_filling(beat: dict[str, 
     assert np.abs(rate[np.char.startswith(named, "isovolumic")]).max() < 60e-6
 
 
-def test_a_beat_leaves_nothing_of_itself(beat: dict[str, Curve], measured: dict[str, Curve]) -> None:
+def test_a_beat_has_no_residual_to_itself(beat: dict[str, Curve], measured: dict[str, Curve]) -> None:
     left = residuals(measured, {"same": beat}, [])
     assert [residual.curve for residual in left] == ["lv_volume", "lv_pressure"]
     assert max(np.abs(residual.difference("same")).max() for residual in left) < 1e-12
@@ -116,7 +116,7 @@ def test_strain_is_compared_at_end_systole_and_in_the_noise_of_registration(
     assert residual.score() == pytest.approx(residual.difference / noise)
 
 
-def test_a_strain_whose_noise_nobody_knows_is_in_percent(ventricle: VentricularMesh) -> None:
+def test_a_strain_of_unknown_noise_is_in_percent(ventricle: VentricularMesh) -> None:
     residual = strain_residual(ventricle, shrunk(ventricle, 0.10), shrunk(ventricle, 0.12), [])
     assert residual is not None
     assert residual.noise is None

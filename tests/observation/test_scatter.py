@@ -26,7 +26,7 @@ def test_mean_and_covariance_are_found_within_their_sampling_error() -> None:
     assert (np.abs(scatter.covariance - SPREAD) < 3.0 * error).all()
 
 
-def test_the_next_vector_is_where_it_is_said_to_be() -> None:
+def test_the_next_vector_lies_in_its_interval_at_the_nominal_rate() -> None:
     """2000 samples of 24 with one fresh vector each: within the binomial's 99 % of 95 %, and 68 %."""
     samples = draw(2000 * 25, 1).reshape(2000, 25, 3)
     for level in (0.95, 0.68):

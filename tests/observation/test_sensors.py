@@ -86,7 +86,7 @@ def test_planted_sensors_are_found(true: Curve, parameters: dict[str, float]) ->
     assert fit_sensors(true, planted(true, parameters)) == pytest.approx(parameters, rel=1e-3, abs=1e-6)
 
 
-def test_without_distortion_nothing_is_found() -> None:
+def test_without_distortion_the_sensors_are_zero() -> None:
     sensors = fit_sensors(TRUE, TRUE)
     assert sensors == pytest.approx({"shrinkage": 0.0, "smoothing": 0.0, "delay": 0.0}, abs=1e-3)
 

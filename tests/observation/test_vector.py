@@ -35,7 +35,7 @@ def measured(frames: int = 25) -> dict[str, Curve]:
     return {"lv_volume": Curve(times, 120e-6 + 50e-6 * np.cos(2 * np.pi * times / PERIOD), PERIOD)}
 
 
-def test_a_beat_and_its_own_frames_are_observed_alike() -> None:
+def test_a_beat_and_its_frames_have_the_same_observations() -> None:
     features = operators(measured())
     assert features["lv_volume"].frames == 25
     observed = observe(beat_curves(beat()), features)

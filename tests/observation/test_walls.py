@@ -45,7 +45,7 @@ def test_a_flash_is_found_with_its_size_its_time_and_its_rebound() -> None:
     assert flash.rebound == pytest.approx(0.5e-3)
 
 
-def test_a_septum_that_goes_on_to_end_systole_does_not_flash() -> None:
+def test_a_septum_moving_until_end_systole_does_not_flash() -> None:
     assert septal_flash(walls(STEADY)) is None
 
 
@@ -73,7 +73,7 @@ def test_the_beat_is_seen_starting_before_trigger_in_order() -> None:
 
 
 @pytest.mark.parametrize("shift", [0.002, -0.003])
-def test_what_moves_to_the_left_moves_the_septum_inward_and_the_lateral_wall_outward(
+def test_a_shift_to_the_left_moves_the_septum_inward_and_the_lateral_wall_outward(
     ventricle: VentricularMesh, shift: float
 ) -> None:
     axes, share = LeftVentricularAxes.from_mesh(ventricle), np.linspace(0.0, 1.0, 10)
@@ -84,7 +84,7 @@ def test_what_moves_to_the_left_moves_the_septum_inward_and_the_lateral_wall_out
     assert motion.septal_strain == pytest.approx(np.zeros(10), abs=1e-12)
 
 
-def test_what_shrinks_about_the_axis_shortens_both_walls_as_much(ventricle: VentricularMesh) -> None:
+def test_shrinking_about_the_axis_shortens_both_walls_equally(ventricle: VentricularMesh) -> None:
     axes, shares = LeftVentricularAxes.from_mesh(ventricle), np.linspace(0.0, 1.0, 10)
     away = axes.away(ventricle.points)
     positions = np.array([ventricle.points - 0.2 * share * away for share in shares])

@@ -28,7 +28,7 @@ def beat() -> Beat:
 
 
 @pytest.mark.parametrize("smoothing", [0.0135, 0.0165])
-def test_a_sigma_point_is_seen_through_the_sensors_of_its_own_parameters(smoothing: float) -> None:
+def test_a_sigma_point_is_observed_through_the_sensors_of_its_parameters(smoothing: float) -> None:
     """All points have the same beat, so all that is known of the sensor comes from what it shows of each."""
     setting = Setting(
         element="sphere",
@@ -90,7 +90,7 @@ def test_noise_takes_off_the_bias_and_weighs_by_the_whole_covariance_and_the_pap
     )
 
 
-def test_what_is_held_fixed_is_noise_where_noise_is_known_and_nothing_where_numbers_are_met() -> None:
+def test_fixed_parameters_add_noise_only_where_noise_is_known() -> None:
     independent = Measurement.independent(OBSERVATIONS)
     slopes = Slopes(
         ("sigma_0", "delay"), ("V_min", "q_max", "q_min"), np.array([[0.5, 0.2, -0.3], [9.0, 9.0, 9.0]])

@@ -74,7 +74,7 @@ def test_the_anterior_wall_is_on_top_and_the_septum_on_the_left() -> None:
     assert places["17"] == (0.0, 0.0)
 
 
-def test_the_title_tells_onset_and_duration(ventricle: VentricularMesh) -> None:
+def test_the_title_gives_onset_and_duration(ventricle: VentricularMesh) -> None:
     figure = plot_activation(ventricle, "healthy", "volunteer1")
     total = 1e3 * np.max(np.asarray(ventricle.activation))
     assert ONSETS["healthy"] in figure.get_suptitle()

@@ -36,7 +36,7 @@ def test_each_motion_is_drawn_in_its_colour_and_phase(ventricle: VentricularMesh
             assert np.reshape(line.get_segments(), segments.shape) == pytest.approx(segments)
 
 
-def test_the_title_says_how_far_apart_they_are(ventricle: VentricularMesh) -> None:
+def test_the_title_gives_the_distance_of_the_outlines(ventricle: VentricularMesh) -> None:
     motion = beating(ventricle)
     same = plot_overlay(images(ventricle), ventricle, motion, motion, "a heart")
     assert numbers_in(same.get_suptitle()) == [0.0, 0.0]

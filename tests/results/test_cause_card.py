@@ -110,7 +110,7 @@ def test_a_departure_has_size_sign_phase_and_time():
     assert {4.7, 1.0, 480.0} <= set(numbers_in(text))
 
 
-def test_a_departure_upwards_within_noise_or_without_phases_is_told_apart():
+def test_departures_upwards_within_noise_and_without_phases_are_distinguished():
     (higher,) = departures(diagnosis("unknown", traces=(replace(TRACE, lacking=-BUMP),)))
     assert higher.deviations == pytest.approx(4.70, abs=1e-2)
     assert " high" in departure_sentence(higher)
@@ -147,7 +147,7 @@ def test_the_card_lists_alternatives_gains_and_withdrawn_names():
     assert spaced_name("CatheterDelay") not in markdown_card(diagnosis("unknown"), "case 1")
 
 
-def test_where_the_cause_is_unknown_the_best_of_the_library_is_named():
+def test_an_unknown_cause_is_listed_with_the_best_of_the_library():
     assert spaced_name("MitralRegurgitation") in alternatives_text(diagnosis("unknown"))
     assert spaced_name("MitralRegurgitation") not in alternatives_text(diagnosis("none"))
 

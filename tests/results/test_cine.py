@@ -60,7 +60,7 @@ def test_errors_of_outlines_are_in_per_cent_of_the_first_area_and_in_mm(cine: Ci
     assert right["error RMS (% of ED)"] == pytest.approx(0.0)
 
 
-def test_points_of_the_wall_are_told_apart_in_and_through_the_plane(cine: CineComparison) -> None:
+def test_point_errors_of_the_wall_are_split_into_in_plane_and_through_plane(cine: CineComparison) -> None:
     (row,) = wall_table(cine).to_dict("records")
     assert row["ES (mm)"] == row["motion in plane ES (mm)"] == pytest.approx(ES * 5.0**0.5)
     assert row["beat (mm)"] == pytest.approx(4.0 * 5.0**0.5)

@@ -53,7 +53,9 @@ def test_an_animation_is_small_and_the_same_again(ventricle: VentricularMesh, tm
         assert shown.info["duration"] == 100
 
 
-def test_other_suffixes_and_other_times_are_refused(ventricle: VentricularMesh, tmp_path: Path) -> None:
+def test_unknown_suffixes_and_mismatched_times_are_refused(
+    ventricle: VentricularMesh, tmp_path: Path
+) -> None:
     sequence, motion = images(ventricle), beating(ventricle)
     animation = animate_contours(sequence, ventricle, motion, "a heart")
     with pytest.raises(ValueError, match=r"\.gif, \.png"):

@@ -30,7 +30,7 @@ STAGES = {
 """Stage of a job by its name."""
 
 
-def test_a_job_belongs_to_the_stage_that_its_name_says() -> None:
+def test_a_job_belongs_to_the_stage_of_its_name() -> None:
     assert {job: stage_of(job) for job in STAGES} == STAGES
 
 

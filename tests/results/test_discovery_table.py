@@ -24,7 +24,7 @@ TRUTH = {"sigma_0": 200e3, "R_p": 1e8}
 PLANTED = [("MitralRegurgitation", 0.45e-4, "m^2")]
 
 
-def test_a_row_says_what_was_planted_what_was_named_and_what_it_gains() -> None:
+def test_a_row_gives_the_planted_effect_the_named_effect_and_the_gain() -> None:
     before = {"sigma_0": 220e3, "R_p": 1e8 * np.exp(0.2), "K": 5e5}
     case = DiscoveryResult("leak1", "physical", CAUSE, before, dict(TRUTH), PLANTED, TRUTH)
     row = discovery_table([case]).iloc[0]
@@ -36,7 +36,7 @@ def test_a_row_says_what_was_planted_what_was_named_and_what_it_gains() -> None:
     assert row["bias after (%)"] == 0.0
 
 
-def test_where_nothing_is_named_the_best_of_the_ranking_is_told() -> None:
+def test_without_a_named_effect_the_best_of_the_ranking_is_listed() -> None:
     cause = CAUSE | {"verdict": "none", "mechanisms": [], "ranking": {"unknown": 1.5, "Pericardium": 0.3}}
     row = discovery_table([DiscoveryResult("sound1", "physical", cause, {}, {}, [], {})]).iloc[0]
     assert (row["planted"], row["named"], row["best of the ranking"], row["ln BF"]) == (

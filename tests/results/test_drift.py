@@ -26,14 +26,14 @@ def tolerances(*rows: tuple[str, str, float, float]) -> pd.DataFrame:
     return pd.DataFrame([("table1", "physical", *row, "mesh") for row in rows], columns=TOLERANCE_COLUMNS)
 
 
-def test_what_is_within_its_tolerance_passes():
+def test_numbers_within_their_tolerance_pass():
     drift = require_no_drift(
         NUMBERS, tolerances(("mean of 7", "V_min", 1.5, 0.21), ("v1", "V_min", 0.4, 0.0))
     )
     assert drift["measured"].tolist() == [1.3, 0.4]
 
 
-def test_all_that_drifted_or_is_missing_is_listed_with_advice():
+def test_drifted_and_missing_numbers_are_listed_with_advice():
     rows = (("mean of 7", "V_min", 1.5, 0.1), ("v1", "V_min", 0.4, 0.1), ("v9", "V_min", 1.0, 9.0))
     with pytest.raises(DriftError) as error:
         require_no_drift(NUMBERS, tolerances(*rows))
@@ -59,6 +59,6 @@ def test_renewing_keeps_rows_tolerances_and_what_is_not_there():
 
 
 @pytest.mark.parametrize("table", [tolerances(), tolerances(("v1", "V_min", 1.0, 0.1)).drop(columns="why")])
-def test_a_table_that_holds_nothing_is_refused(table):
+def test_an_empty_table_is_refused(table):
     with pytest.raises(InputError, match=f"{len(table)} rows.*{', '.join(TOLERANCE_COLUMNS)}"):
         require_no_drift(NUMBERS, table)

@@ -22,14 +22,14 @@ GAIN = Gain("lv_volume", "frames", 2e-6, 1e-6, 0.5, (0.4, 0.7))
 RIVALS = [comparison("p1", -60.0, 330e3), comparison("mixed", -40.0, 255e3, (GAIN,))]
 
 
-def test_what_a_rival_gains_is_told_beside_none():
+def test_the_gain_of_an_extension_is_listed_beside_the_baseline():
     table = element_table(RIVALS, {"sigma_0": 250e3})
     assert table["ln Bayes factor"].tolist() == [0.0, 20.0]
     assert table["lv_volume, error ratio"].fillna("").tolist() == ["", "0.50 (0.40 to 0.70)"]
     assert table["sigma_0 (%)"].round().tolist() == [32.0, 2.0]
 
 
-def test_it_is_drawn(tmp_path):
+def test_the_figure_is_drawn(tmp_path):
     errors = {"lv_volume": np.full(25, 1e-6), "lv_pressure": np.full(25, 100.0)}
     write_figure(tmp_path / "figure.png", plot_element(CURVES, errors, RIVALS))
     assert (tmp_path / "figure.png").stat().st_size > 5_000

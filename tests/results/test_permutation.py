@@ -19,7 +19,7 @@ def test_labelings_that_are_as_extreme_count():
     assert (test.less, test.greater, test.p) == (0.25, 1.0, 0.5), "4 is as far above as 1 is below"
 
 
-def test_equal_members_say_nothing():
+def test_equal_members_give_a_p_value_of_one():
     test = permutation_test([0.1, 0.1], [0.1] * 5)
     assert (test.p, test.less, test.greater) == (1.0, 1.0, 1.0)
 

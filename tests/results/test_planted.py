@@ -66,7 +66,7 @@ def test_rates_are_counts_with_intervals_and_targets():
     assert "singles in their group, of the groups" not in table.index
 
 
-def test_a_mechanism_has_its_size_in_its_unit_and_the_amplitudes_that_were_told():
+def test_a_mechanism_has_its_size_in_its_unit_and_the_named_amplitudes():
     table = mechanisms_table(CASES).set_index("planted")
     leak = table.loc["Leak"]
     assert (leak["size"], leak["cases"], leak["detected"], leak["named right"]) == ("0.2 cm^2", 2, 2, 1)
@@ -104,7 +104,7 @@ def test_claims_that_the_counts_allow_are_held():
     assert held["doubt"].tolist() == pytest.approx([1.0 - 0.94**2])
 
 
-def test_refuted_claims_are_told_one_a_line():
+def test_refuted_claims_are_listed_one_per_line():
     many = [scored(seed, "none", (), "unknown") for seed in range(6)]
     with pytest.raises(ClaimError, match=r"false alarms of nulls.* 6 of 6.* at most 0\.06") as error:
         require_claims(many, claims(("false alarms of nulls", 0.06, "at most")))
@@ -112,12 +112,12 @@ def test_refuted_claims_are_told_one_a_line():
 
 
 @pytest.mark.parametrize("row", [("no rate", 0.1, "at most"), ("false alarms of nulls", 0.1, "about")])
-def test_a_claim_of_nothing_is_refused(row):
+def test_an_empty_claim_is_refused(row):
     with pytest.raises(ValueError, match="rate, claim, bound, why"):
         require_claims(CASES, claims(row))
 
 
-def test_the_page_tells_seeds_refusals_and_gain():
+def test_the_page_lists_seeds_refusals_and_gain():
     page = planted_page(CASES, 7, "abc", LEAST)
     numbers = numbers_in(outside_tables(page))
     assert {7.0, 1.0} <= set(numbers[:4]), "seven cases of the seeds 1 to 7"
@@ -137,6 +137,6 @@ def test_effects_that_cannot_show_are_not_counted_as_missed():
 
 
 @pytest.mark.parametrize("plot", [plot_rates, plot_confusion, plot_power])
-def test_it_is_drawn(plot, tmp_path):
+def test_the_figure_is_drawn(plot, tmp_path):
     write_figure(tmp_path / "figure.png", plot(CASES))
     assert (tmp_path / "figure.png").stat().st_size > 5_000

@@ -26,7 +26,7 @@ CASES = [
 ]
 
 
-def test_the_page_tells_cases_seeds_and_amplitudes():
+def test_the_page_lists_cases_seeds_and_amplitudes():
     text = outside_tables(ventricles_page(CASES, 2601, LEAST))
     numbers = numbers_in(text)
     assert {3.0, 2601.0, 907.0, 909.0} <= set(numbers)
@@ -49,6 +49,6 @@ def test_without_a_right_name_there_is_no_amplitude():
     assert "nan" not in outside_tables(page)
 
 
-def test_it_is_drawn(tmp_path):
+def test_the_figure_is_drawn(tmp_path):
     write_figure(tmp_path / "figure.png", plot_ventricles(CASES))
     assert (tmp_path / "figure.png").stat().st_size > 5_000

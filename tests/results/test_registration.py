@@ -68,7 +68,7 @@ def test_errors_are_those_of_the_curves_and_signs_cancel_in_the_bias_alone(
     assert table["folded"].tolist()[:3] == [3, 0, 0]
 
 
-def test_each_segment_is_told_with_its_true_strain() -> None:
+def test_each_segment_is_listed_with_its_true_strain() -> None:
     one = comparison(0.1, strain=0.03)
     one.registered_strain[6, 0, 4] += 0.04  # segment 5, at end systole
     table = segment_table([one, comparison(0.1, strain=0.01)]).set_index("segment")

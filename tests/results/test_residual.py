@@ -41,7 +41,7 @@ def test_one_row_per_sample_and_beat_and_one_per_segment_and_direction() -> None
     assert table[table.unit == "%"].score.tolist() == pytest.approx([2.0] * 48)
 
 
-def test_the_sentence_says_which_curve_when_and_which_sign() -> None:
+def test_the_sentence_names_curve_phase_and_sign() -> None:
     larger, smaller = (
         misfit_sentence(Misfit("lv_pressure", "ejection", sign * 512.0, sign * 3.21)) for sign in (1, -1)
     )
@@ -71,7 +71,7 @@ def test_the_figure_has_a_strip_per_curve_and_names_the_worst() -> None:
     assert {line.get_label() for line in lines} >= {ONE_STEP, CONVERGED}
 
 
-def test_a_beat_that_failed_is_said_so() -> None:
+def test_a_failed_beat_is_reported() -> None:
     nothing = CaseResidual((), None, None)
     assert residual_table(nothing).empty
     figure = plot_residual(nothing, "volunteer1")

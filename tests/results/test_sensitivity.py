@@ -62,7 +62,7 @@ def test_a_row_of_sensitivities_holds_prior_covariance_and_shares() -> None:
     assert table[["volume (%)", "all (%)"]].sum().tolist() == pytest.approx([100.0, 100.0])
 
 
-def test_what_the_bulk_modulus_does_stands_in_per_cent_of_a_per_cent() -> None:
+def test_sensitivity_to_the_bulk_modulus_is_in_per_cent_per_per_cent() -> None:
     whole = sensitivity()
     table = bulk_modulus_table({"paper": whole}, {"K": "Pa"})
     assert table["K (kPa)"].tolist() == pytest.approx([1.0])
@@ -106,7 +106,7 @@ def test_the_prior_of_the_rule_stands_beside_the_one_in_use() -> None:
     assert table["parameter"].iloc[-1] == "not kept: dPdt_min"
 
 
-def test_indices_say_that_a_sphere_has_no_bulk_modulus_and_what_was_lost() -> None:
+def test_sobol_indices_of_a_sphere_have_no_bulk_modulus_and_list_lost_points() -> None:
     table = sobol_table(indices()).set_index("parameter")
     assert table["q_max T (%)"]["mu"] == pytest.approx(100.0, abs=2)
     assert "incompressible" in table["note"]["K"]

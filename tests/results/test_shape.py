@@ -53,7 +53,7 @@ def test_end_systole_is_where_the_ventricle_is_smallest(ventricle: VentricularMe
     assert table["measured"].iloc[0] == pytest.approx(0.4)
 
 
-def test_what_is_written_is_drawn(tmp_path: Path) -> None:
+def test_the_written_table_is_drawn(tmp_path: Path) -> None:
     write_csv(tmp_path / "shape.csv", shape_table(SHAPE))
     shapes = {"measured": shape_table(SHAPE), "calibrated": read_shape(tmp_path / "shape.csv")}
     figure = plot_shape(shapes, "patient")

@@ -26,7 +26,7 @@ def test_only_what_is_estimated_in_everybody_is_compared(compared):
     ]
 
 
-def test_true_ratios_are_those_the_cohort_was_made_with(compared):
+def test_true_ratios_are_those_of_the_cohort(compared):
     healthy = np.mean([1.1, 0.76, 0.95, 1.2])
     assert compared.ratios("truth", "sigma_0")["lbbb2"] == pytest.approx(0.55 / healthy)
 
@@ -98,7 +98,9 @@ def test_one_patient_and_one_volunteer_are_compared_as_well(cohort, groups):
     assert specificity_table([]).empty
 
 
-def test_the_figure_has_a_panel_per_parameter_and_grey_where_nothing_is_seen(cohort, groups, compared):
+def test_the_figure_has_a_panel_per_parameter_and_grey_where_the_data_are_uninformative(
+    cohort, groups, compared
+):
     figure = plot_specificity([compared])
     assert sum(axes.get_visible() for axes in figure.axes) == 4
     assert {axes.get_facecolor()[0] for axes in figure.axes} == {1.0}

@@ -41,7 +41,7 @@ def test_coverage_is_in_percent_with_its_interval_and_its_failures() -> None:
     assert table[table["parameter"] == "all"]["covered (%)"].iloc[0] == pytest.approx(50.0)
 
 
-def test_both_are_drawn(tmp_path: Path) -> None:
+def test_both_figures_are_drawn(tmp_path: Path) -> None:
     race = plot_race(race_table({"volume": MARKS, "volume and pressure": MARKS}))
     assert [len(axes.get_lines()) > 0 for axes in race.axes] == [True] * 4
     coverage = plot_sphere_coverage({"volume": COVERAGES})

@@ -27,7 +27,7 @@ def texts(figure: Figure) -> list[str]:
     return [text.get_text() for axes in figure.axes for text in (axes.title, *axes.texts)]
 
 
-def test_all_that_was_read_is_drawn(ventricle: VentricularMesh) -> None:
+def test_all_imported_data_are_drawn(ventricle: VentricularMesh) -> None:
     times = np.arange(0.0, PERIOD, 0.004)
     curve = Curve(times, 8e3 + 7e3 * np.sin(8.0 * times), PERIOD)
     pressure = AveragedPressure(curve, np.tile(curve.values, (3, 1)), np.array([True, False, True]))
@@ -40,7 +40,7 @@ def test_all_that_was_read_is_drawn(ventricle: VentricularMesh) -> None:
     assert all(isinstance(part, LineCollection) and part.get_segments() for part in drawn)
 
 
-def test_what_is_not_there_is_said(ventricle: VentricularMesh) -> None:
+def test_missing_data_are_named(ventricle: VentricularMesh) -> None:
     figure = plot_imported_case(ImportedCase("mine", "lbbb", ventricle, None, None, None))
     absent = [axes for axes in figure.axes if axes.texts and not axes.lines and not axes.collections]
     assert len(absent) == 3, "volume, pressure and their loop"

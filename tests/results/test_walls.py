@@ -47,7 +47,7 @@ def test_settings_go_with_their_case_and_a_failed_beat_is_left_out() -> None:
     assert [list(motions)[2:] for motions in cases.values()] == [["paper"], ["physical"]]
 
 
-def test_the_table_has_the_flash_in_mm_and_ms_or_nothing() -> None:
+def test_the_table_has_the_flash_in_mm_and_ms_or_is_empty() -> None:
     cases = walls_by_case(
         ["a", "b"], [], [walls(FLASH), walls(5e-3 * WAVE)], [walls(FLASH), walls(5e-3 * WAVE)], []
     )
@@ -59,7 +59,7 @@ def test_the_table_has_the_flash_in_mm_and_ms_or_nothing() -> None:
     assert table["case"].tolist() == ["a", "a", "b", "b"]
 
 
-def test_the_figure_says_what_flashes() -> None:
+def test_the_figure_marks_the_septal_flash() -> None:
     cases = walls_by_case(
         ["a", "b"], ["physical"], [walls(FLASH), walls(5e-3 * WAVE)], [walls(FLASH)] * 2, [NOTHING] * 2
     )

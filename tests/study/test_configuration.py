@@ -141,12 +141,12 @@ def test_the_heart_stands_at_the_mean_of_the_prior(content):
     assert heart.tissue.active.mu == pytest.approx(8e3)
 
 
-def test_a_virtual_case_lacks_nothing():
+def test_a_virtual_case_needs_all_its_columns():
     row = {"case": "anna", "kind": "virtual", "period": 0.9}
     assert re.search(r"\banna\b.*\bseed, edv\b", complaint(Case, row))
 
 
-def test_a_patient_says_how_long_depolarisation_takes():
+def test_a_patient_states_the_duration_of_depolarisation():
     row = {"case": "anna", "kind": "measured", "period": 0.9, "conduction": "lbbb"}
     assert re.search(r"\banna\b.*\bqrs_ms\b", complaint(Case, row))
     assert not Case(**row, qrs=0.15).healthy
@@ -206,7 +206,7 @@ def test_a_bad_table_of_cases_is_refused(tmp_path, text, expected):
         read_cases(tmp_path / "cases.tsv")
 
 
-def test_without_the_measured_heart_virtual_cases_remain_and_one_line_says_so(content, tmp_path):
+def test_without_the_measured_heart_virtual_cases_remain_and_one_line_reports_it(content, tmp_path):
     content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": [str(tmp_path / "nowhere")]}
     plan = plan_study(content)
     assert {case.kind for case in plan.cases.values()} == {"virtual"}
@@ -216,7 +216,7 @@ def test_without_the_measured_heart_virtual_cases_remain_and_one_line_says_so(co
 
 
 @pytest.mark.measured
-def test_without_its_images_the_measured_heart_remains_and_one_line_says_so(
+def test_without_its_images_the_measured_heart_remains_and_one_line_reports_it(
     content, tmp_path, measured_heart_folder
 ):
     for part in ("control_points", "template"):
@@ -254,7 +254,7 @@ def test_the_schema_is_in_step():
     )
 
 
-def test_hearts_of_the_sphere_study_are_seen_by_volume_or_by_both(content):
+def test_hearts_of_the_sphere_study_are_observed_by_volume_or_by_both(content):
     study = validate(Study, content, "config.yaml")
     hearts = study.known_hearts()
     assert {name: len(heart.prior.names) for name, heart in hearts.items()} == {
@@ -265,7 +265,7 @@ def test_hearts_of_the_sphere_study_are_seen_by_volume_or_by_both(content):
     assert hearts["volume"].model.cavity == study.sphere_study.cavity
 
 
-def test_a_sphere_study_tells_the_noise_of_every_observation(content):
+def test_a_sphere_study_states_the_noise_of_every_observation(content):
     del content["sphere_study"]["noise"]["P_max"]
     with pytest.raises(InputError, match=r"\['P_max'"):
         validate(Study, content, "config.yaml")

@@ -59,13 +59,13 @@ def test_other_acquisitions_differ_from_the_cohort_s_in_one_setting():
         ("registration", {"knot": 1.0}, r"registration\.knot\b.*knots"),
     ],
 )
-def test_what_cannot_be_is_refused_in_one_line(content, table, change, message):
+def test_inadmissible_configurations_are_refused_in_one_line(content, table, change, message):
     with pytest.raises(InputError, match=message) as refused:
         validate(Study, content | {table: content[table] | change}, "config")
     assert "\n" not in str(refused.value)
 
 
-def test_the_protocol_tells_every_setting_and_changes_with_each(content):
+def test_the_protocol_states_every_setting_and_changes_with_each(content):
     study = validate(Study, content, "config")
     other = validate(Study, content | {"registration": content["registration"] | {"reach": 5e-3}}, "config")
     assert len(study.protocol()) == len(flat({"": study.cohort.scanner})) + 3 + len(Registration.model_fields)

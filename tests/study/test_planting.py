@@ -42,7 +42,7 @@ def test_seeds_of_tuning_are_refused():
 @pytest.mark.parametrize(
     "change", [{"effects": ["Nose"]}, {"outsiders": ["Nose"]}, {"pairs": [["Scar", "Nose"]]}]
 )
-def test_what_nobody_can_plant_in_3d_is_refused_by_name(change):
+def test_an_effect_that_cannot_be_planted_in_3d_is_refused_by_name(change):
     content = read_configuration([CONFIG / "config.yaml"])["discovery_benchmark"]["ventricles"]
     with pytest.raises(InputError, match="'Nose'"):
         validate(VentricularBenchmark, content | change, "here")

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "config" / "config.yaml"
 
 
-def test_all_fourteen_surround_the_prior_of_each_setting_by_one_deviation():
+def test_all_fourteen_parameters_are_perturbed_by_one_prior_deviation():
     study = read_study([CONFIG])
     prior = study.perturbation_setting("paper").gaussian()
     assert prior.names == PAPER_PARAMETERS
@@ -33,7 +33,7 @@ def test_the_sphere_has_its_own_contractility_and_else_the_same_prior():
     assert study.sphere_setting().base_heart(0.9).tissue.element == "sphere"
 
 
-def test_what_a_setting_fixes_is_the_mean_where_it_is_freed():
+def test_a_fixed_value_is_the_prior_mean_of_the_freed_parameter():
     setting = Setting(element="mixed", estimate=("mu",), heart={"alpha": 6.0, "slope": 0.3})
     freed = setting.with_estimated(("alpha", "mu"))
     assert freed.heart == {"slope": 0.3}
@@ -49,7 +49,7 @@ def test_what_a_setting_fixes_is_the_mean_where_it_is_freed():
         ({"parameters": ["sigma_0", "mu", "c_1", "R_p", "K", "alpha", "beta"]}, "beta"),
     ],
 )
-def test_what_cannot_be_is_refused(change, expected):
+def test_inadmissible_configurations_are_refused(change, expected):
     content = read_configuration([CONFIG])
     content["sensitivity"] |= change
     with pytest.raises(InputError, match=expected):

@@ -36,7 +36,7 @@ def test_each_kind_of_wall_is_taken(content):
         ({"segmentation": "a", "labels": {"lv_cavity": 1, "lv_wall": 2}}, "labels.rv_cavity"),
     ],
 )
-def test_what_is_not_said_or_said_twice_is_refused(content, message):
+def test_missing_and_repeated_statements_are_refused(content, message):
     with pytest.raises(InputError, match=message):
         validate(Source, content, "x.yaml")
 

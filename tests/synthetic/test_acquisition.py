@@ -46,7 +46,7 @@ def test_both_readings_have_six_observations_and_the_truth_is_the_motion_s(trial
     assert true.observations["P_max"] == pytest.approx(11e3, rel=1e-3)
 
 
-def test_most_of_the_motion_is_found(trial):
+def test_most_of_the_motion_is_recovered(trial):
     """Over meshes and seeds 11 % of the stroke is missed, with a standard deviation of 3 %."""
     comparison = trial(1)
     assert abs(comparison.observation_errors()["V_min"]) * SMALLEST < MISSED * (1.0 - SMALLEST)

@@ -33,7 +33,7 @@ def test_a_plan_gives_the_same_case_and_another_seed_another():
     assert not np.array_equal(values(other)[:20], values(plant(LEAK))[:20])
 
 
-def test_the_answer_says_what_was_planted_and_the_curves_do_not():
+def test_the_answer_holds_the_planted_effect_and_the_curves_do_not():
     planted = plant(LEAK)
     (effect,) = planted.answer.effects
     switch = registered()["MitralRegurgitation"].switch()
@@ -86,7 +86,7 @@ def test_the_kick_that_every_heart_has_is_not_planted():
 
 
 @pytest.mark.parametrize("effect", OUT_OF_LIBRARY, ids=lambda cls: cls.__name__)
-def test_an_outsider_is_not_in_the_library_and_is_seen(effect):
+def test_an_out_of_library_effect_is_not_registered_and_is_observable(effect):
     assert effect.__name__ not in registered()
     without = plant(PlantedPlan(3, "none"))
     planted = plant(PlantedPlan(3, "outside", (effect.__name__,), 2.5))
@@ -98,7 +98,7 @@ def test_an_outsider_is_not_in_the_library_and_is_seen(effect):
 
 
 @pytest.mark.parametrize("effect", OUT_OF_LIBRARY, ids=lambda cls: cls.__name__)
-def test_an_outsider_that_is_off_changes_no_bit_of_a_heart(effect):
+def test_an_out_of_library_effect_that_is_off_changes_no_bit_of_a_heart(effect):
     hidden = draw_hidden(np.random.default_rng(2))
     off = effect().turned_off()
     beat = hidden.with_effects([off]).beat()
@@ -115,7 +115,7 @@ def test_a_second_twitch_is_a_second_share_of_the_depolarisation():
     assert np.allclose(second, 0.4 * control.k_ATP)
 
 
-def test_what_no_patient_resembles_is_counted_and_drawn_anew(monkeypatch):
+def test_implausible_hearts_are_counted_and_redrawn(monkeypatch):
     monkeypatch.setattr(cases, "EJECTION_FRACTION", (0.55, 0.8))
     planted = [plant(PlantedPlan(seed, "none")) for seed in range(6)]
     assert sum(case.answer.rejected.get("ejection fraction", 0) for case in planted) > 0
@@ -123,7 +123,7 @@ def test_what_no_patient_resembles_is_counted_and_drawn_anew(monkeypatch):
     assert min(fractions) > 0.5
 
 
-def test_a_seed_that_never_gives_a_patient_is_told(monkeypatch):
+def test_a_seed_that_never_gives_a_patient_is_reported(monkeypatch):
     monkeypatch.setattr(cases, "PEAK", (0.0, 1.0))
     monkeypatch.setattr(cases, "ATTEMPTS", 3)
     with pytest.raises(RuntimeError, match=r"seed 1\b.*\b3\b"):
@@ -136,7 +136,7 @@ def test_a_mechanism_that_refuses_its_draw_is_inadmissible():
         draw_effect(shrinkage, 1e3, np.random.default_rng(0))
 
 
-def test_a_campaign_plants_what_it_says_with_a_seed_each():
+def test_a_campaign_plants_its_declared_cases_each_with_its_seed():
     plans = PlantingCampaign(1000, 4, 2, 1, 3, (2.0, 2.5), 2.5).plans(("A", "B", "C"), ("X",))
     kinds = [plan.kind for plan in plans]
     assert {kind: kinds.count(kind) for kind in set(kinds)} == {

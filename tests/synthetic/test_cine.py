@@ -88,9 +88,7 @@ def test_a_plate_shows_by_the_part_of_the_slice_that_it_fills(plan: ScanPlan) ->
         assert np.ptp(mean, axis=(1, 2)).max() == 0.0
 
 
-def test_a_frame_is_the_mean_of_what_is_seen_within_its_window(
-    ventricle: VentricularMesh, beating: Motion
-) -> None:
+def test_a_frame_is_the_mean_image_over_its_window(ventricle: VentricularMesh, beating: Motion) -> None:
     """Here of three instants which are frames of a faster scanner, the first one's before the trigger."""
     fast = image_beat(ventricle, beating, replace(CLEAN, frames=24), 0)
     slow = image_beat(ventricle, beating, replace(CLEAN, window=3.0 * PERIOD / 24.0, subframes=3), 0)
@@ -100,7 +98,7 @@ def test_a_frame_is_the_mean_of_what_is_seen_within_its_window(
     assert slow.times == pytest.approx(np.arange(8) * 0.1)
 
 
-def test_in_air_noise_is_that_of_rayleigh(clean: ImageSequence, noisy: ImageSequence) -> None:
+def test_noise_in_air_is_rayleigh_distributed(clean: ImageSequence, noisy: ImageSequence) -> None:
     """Mean s sqrt(pi/2), standard deviation s sqrt(2 - pi/2), within 4 standard errors."""
     sigma, air = 1.0 / 20.0, noisy.voxels[clean.voxels == 0.0].astype(float)
     spread = sigma * np.sqrt(2.0 - np.pi / 2.0)
@@ -108,7 +106,7 @@ def test_in_air_noise_is_that_of_rayleigh(clean: ImageSequence, noisy: ImageSequ
     assert air.std() == pytest.approx(spread, abs=4.0 * spread / np.sqrt(2.0 * air.size))
 
 
-def test_in_blood_noise_is_that_of_one_channel(clean: ImageSequence, noisy: ImageSequence) -> None:
+def test_noise_in_blood_is_that_of_one_channel(clean: ImageSequence, noisy: ImageSequence) -> None:
     """Mean sqrt(A^2 + s^2) to order s^4 and standard deviation s to order s^3, within 4 standard errors."""
     sigma, blood = 1.0 / 20.0, noisy.voxels[clean.voxels == 1.0].astype(float)
     assert blood.size > 10000

@@ -66,7 +66,7 @@ def test_a_hidden_block_starts_where_the_calibrator_s_does_but_runs_at_other_spe
     assert (hidden.speed, hidden.ratio) != (known.speed, known.ratio)
 
 
-def test_the_motion_begins_at_the_trigger_and_goes_on_between_the_steps(beat: Beat) -> None:
+def test_the_motion_begins_at_the_trigger_and_is_interpolated_between_steps(beat: Beat) -> None:
     motion = nodal_motion(beat)
     steps = np.asarray(beat.positions)
     for time in np.linspace(0.0, PERIOD, FRAMES, endpoint=False):

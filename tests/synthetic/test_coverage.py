@@ -21,13 +21,13 @@ def test_the_noise_suffices_where_nothing_else_is_unknown(pooled) -> None:
     assert share.low < 0.95 < share.high
 
 
-def test_what_is_fixed_must_be_told_where_it_scatters(pooled) -> None:
+def test_scatter_of_fixed_parameters_must_enter_the_noise(pooled) -> None:
     without, stated = (pooled["parameters", way] for way in ("R of the measurement", "R and R_fixed"))
     assert without.high < 0.9
     assert stated.low < 0.95 < stated.high
 
 
-def test_a_second_step_changes_nothing_on_a_linear_map(pooled) -> None:
+def test_a_second_step_on_a_linear_map_changes_no_estimate(pooled) -> None:
     one, two = (pooled["parameters", f"R and R_fixed{steps}"] for steps in ("", ", 2 steps"))
     assert two.covered == pytest.approx(one.covered, abs=0.01)
 

@@ -17,7 +17,7 @@ def test_a_heart_follows_from_its_number_and_has_one_truth_in_all_worlds() -> No
     assert drawn[0].observed != drawn[1].observed
 
 
-def test_where_nothing_is_unknown_the_observations_are_the_model_s_but_for_noise() -> None:
+def test_without_unknown_parameters_the_observations_are_the_model_s_plus_noise() -> None:
     hearts = linear_twins()
     errors = []
     for number in range(200):
@@ -35,5 +35,5 @@ def test_truths_scatter_as_the_prior() -> None:
     assert truths.std(axis=0) == pytest.approx(hearts.prior.sd, rel=0.12)
 
 
-def test_what_is_fixed_is_what_scatters_and_is_not_estimated() -> None:
+def test_fixed_parameters_are_those_that_scatter_and_are_not_estimated() -> None:
     assert linear_twins().fixed == OTHERS

@@ -18,7 +18,7 @@ def test_a_seed_draws_the_same_heart_and_another_one_another():
     assert HEARTS[4].heart != HEARTS[3].heart
 
 
-def test_it_shares_neither_integrator_nor_valves_nor_inertia_nor_length_dependence():
+def test_the_hidden_heart_shares_neither_integrator_nor_valves_nor_inertia_nor_length_dependence():
     standard = Numerics()
     for hidden in HEARTS:
         assert (NUMERICS.second_order, NUMERICS.time_step) != (standard.second_order, standard.time_step)

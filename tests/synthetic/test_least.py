@@ -32,7 +32,7 @@ def test_a_size_is_held_against_the_limit_of_its_own_sign(monkeypatch):
     assert not least.is_detectable(hiding("CatheterDelay", 4.0, -1.0))
 
 
-def test_what_is_not_single_is_not_counted():
+def test_cases_without_a_single_effect_are_not_counted():
     least = DetectableSizes.of([], 7.0)
     assert not least.is_detectable(Scored(Answer(1, "none", (), {}, {}, 0.02), ScoredDiagnosis("none")))
     assert least.describe("SecondTwitch") == ""

@@ -17,7 +17,7 @@ HEART = Heart().with_parameters({"sigma_0": 150e3})
 MODEL = SphericalCase(HEART, 150e-6, 120e-6, 1300.0, FEATURES, Numerics(max_beats=2))
 
 
-def test_it_is_the_sphere_of_its_volumes_seen_by_the_operators() -> None:
+def test_the_forward_model_is_the_sphere_of_its_volumes_observed_by_the_operators() -> None:
     heart = HEART.with_parameters({"c_1": 7e3})
     sphere = Sphere.unloaded(150e-6, 120e-6, 1300.0, require_isotropic(heart.tissue.passive))
     (expected,) = observe_beats([simulate_spheres(heart, [sphere], MODEL.numerics)], FEATURES)

@@ -108,7 +108,7 @@ def test_the_blood_in_the_cavities_has_their_volume(ventricle: VentricularMesh) 
     assert volume == pytest.approx(sum(cavity.volume(ventricle.points) for cavity in cavities), rel=0.01)
 
 
-def test_texture_goes_where_the_tissue_goes(ventricle: VentricularMesh) -> None:
+def test_texture_moves_with_the_tissue(ventricle: VentricularMesh) -> None:
     scene = scene_of(ventricle, Contrast())
     steps = np.array([2.0, -1.0, 3.0])
     displaced = ventricle.with_points(ventricle.points + scene.grid.vectors(steps))

@@ -68,7 +68,7 @@ def test_every_rate_counts_its_cases():
     assert counts == COUNTS
 
 
-def test_a_rate_of_no_case_says_nothing():
+def test_a_rate_without_cases_is_undefined():
     assert {rate.share_of([]) for rate in RATES} == {None}
 
 
@@ -101,6 +101,6 @@ def test_amplitudes_are_compared_from_where_the_effect_is_off():
     assert not scored.covered(Effect("Leak", 2.6, 1.0, "m^2", 2.0))
 
 
-def test_what_is_said_is_the_name_where_one_is_given():
+def test_the_conclusion_is_the_named_effect_or_the_verdict():
     assert [case.conclusion for case in CASES[:5]] == ["none", "insufficient", "unknown", "Leak", "Leak"]
     assert CASES[9].conclusion == "two"

@@ -22,7 +22,7 @@ def observed(subject: SphericalCase, **parameters: float) -> dict[str, float]:
     return outcome
 
 
-def test_all_six_observations_answer_the_parameters(subject: SphericalCase) -> None:
+def test_all_six_observations_depend_on_the_parameters(subject: SphericalCase) -> None:
     usual, strong = observed(subject), observed(subject, sigma_0=180e3)
     assert tuple(usual) == (*VolumeFeatures.names, *PressureFeatures.names)
     assert strong["V_min"] < usual["V_min"]
@@ -33,7 +33,7 @@ def test_an_incompressible_wall_has_no_bulk_modulus(subject: SphericalCase) -> N
     assert observed(subject, K=1e5) == observed(subject, K=1e7)
 
 
-def test_what_cannot_be_unloaded_is_a_reason(subject: SphericalCase) -> None:
+def test_a_failure_to_unload_is_a_stated_reason(subject: SphericalCase) -> None:
     assert subject({"c_1": 1.0, "c_2": 1.0}) == UNFILLED
 
 

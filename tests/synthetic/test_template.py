@@ -35,7 +35,7 @@ def other() -> Template:
     return built(0.02, 1.3e-3)
 
 
-def test_in_the_average_wall_the_template_stays_where_it_is(template: Template) -> None:
+def test_the_template_of_the_average_wall_does_not_move(template: Template) -> None:
     assert template.deformed_to(AVERAGE).points == pytest.approx(template.mesh.points, abs=1e-12)
 
 
@@ -69,7 +69,7 @@ def test_the_other_template_refills_the_same_wall_with_other_nodes(
     assert len(refilled.points) != len(acquired.points)
 
 
-def test_where_moving_spoils_it_the_wall_is_meshed_anew(template: Template) -> None:
+def test_a_wall_spoilt_by_morphing_is_remeshed(template: Template) -> None:
     points, tets = template.mesh.points.copy(), template.mesh.tets
     top, *foot = tets[smallest_dihedral_angles(points, tets).argmin()]
     points[top] = 0.01 * points[top] + 0.99 * points[foot].mean(axis=0)

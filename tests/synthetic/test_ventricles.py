@@ -61,7 +61,7 @@ def test_the_volume_is_that_of_the_mesh_that_followed_the_images(sound):
     assert 0.0 < case.answer.volume_noise < 0.05
 
 
-def test_what_registration_cannot_follow_is_counted_and_drawn_anew(hidden, monkeypatch):
+def test_hearts_that_cannot_be_registered_are_counted_and_redrawn(hidden, monkeypatch):
     calls, follow = [], imaging.track
 
     def folding_once(*arguments):

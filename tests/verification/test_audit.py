@@ -54,7 +54,7 @@ def test_the_fibres_close_with_the_series_spring_and_not_without() -> None:
     )
 
 
-def test_lost_blood_is_found_where_it_was_lost() -> None:
+def test_lost_blood_is_located() -> None:
     states = list(watched(LONG_STEP).states)
     states[-1] = replace(states[-1], volumes=states[-1].volumes - np.array([0.0, 1e-9]))
     assert lost_blood(Heart(), states) == pytest.approx([0.0, -1e-9, 0.0, 0.0], abs=1e-13)

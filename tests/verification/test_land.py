@@ -71,7 +71,7 @@ def test_the_change_removes_the_residual_to_first_order_with_the_pressure_s_own_
         assert np.linalg.norm(left) < 0.03 * share * np.linalg.norm(residual)
 
 
-def test_a_small_load_bends_the_beam_as_the_theory_of_slender_beams_says():
+def test_a_small_load_bends_the_beam_as_in_slender_beam_theory():
     """q L^4 / 8 E I, with the modulus along the fibre of the incompressible law at rest, C (b_f + b_t / 2)."""
     loading = bent_beam((40, 2, 8)).share(1e-3)
     x = equilibrium(loading)

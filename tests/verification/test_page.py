@@ -31,7 +31,7 @@ def numbers(line: str) -> list[float]:
     return [float(number) for number in NUMBER.findall(line)]
 
 
-def test_a_stale_number_is_found():
+def test_a_stale_number_is_detected():
     row = "| V_min | 41.20 | 41 | ± 2 | met | mL | it |\n"
     assert not stale_lines(row, row.replace("41.20", "41.25"))
     assert stale_lines(row, row.replace("41.20", "44.20"))

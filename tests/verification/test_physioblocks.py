@@ -49,7 +49,7 @@ def test_the_reference_case_is_reproduced(theirs: Curves) -> None:
 
 
 @pytest.mark.physioblocks
-def test_it_takes_the_inertia_of_wall_and_valves(theirs: Curves) -> None:
+def test_the_comparison_includes_the_inertia_of_wall_and_valves(theirs: Curves) -> None:
     """Without any of these the rates are 3 to 7 % off."""
     for less in (
         replace(INERTIA, density=0.0),

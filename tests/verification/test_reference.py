@@ -37,7 +37,7 @@ def test_the_table_has_a_row_per_finding():
     assert reference_table(row).splitlines()[-1] == "| own | +2.0 % / -2.0 % | 40 | 400 | -500 |"
 
 
-def test_every_reference_that_is_its_own_fills_alike():
+def test_every_own_reference_configuration_fills_to_the_measured_volumes():
     """Both cavities, whatever c_1, to what was measured; the paper's overfills both."""
     beats = first_beats()
     for name in ("own", "own, c_1 up", "own, c_1 down"):

@@ -50,7 +50,7 @@ def test_the_same_seed_gives_the_same_hearts():
     assert list(SPHERES.hearts()) != list(replace(SPHERES, seed=5).hearts())
 
 
-def test_what_cannot_be_unloaded_or_filled_ends_with_its_reason(monkeypatch):
+def test_failures_to_unload_or_fill_end_with_a_reason(monkeypatch):
     heart = next(SPHERES.hearts())
     impatient = Numerics(max_beats=1, cuts=0, tolerances=Tolerances(iterations=1))
     hopeless = attempt(heart, specimen(COARSE), impatient)
@@ -83,7 +83,7 @@ def volumes(text):
     return [(float(most), float(least)) for most, least in re.findall(r"(-?\d+) to (-?\d+) mL", centre)]
 
 
-def test_the_committed_page_meets_what_was_promised():
+def test_the_committed_page_meets_its_targets():
     """Of the prior at least 99 % complete, and so does the paper's scale; regenerate by `heartfit robustness`."""
     text = COMMITTED.read_text()
     rows = {

@@ -113,7 +113,7 @@ def test_a_spoilt_measured_heart_is_refused_in_one_line_before_anything_runs(wor
     assert not (workflow.folder / "results").exists()
 
 
-def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(planned):
+def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_reports_it(planned):
     assert planned.returncode == 0, planned.stdout
     assert "build_measured_mesh" not in job_counts(planned.stdout)
     assert job_counts(planned.stdout)["simulate_point"] == POINTS_OF_COHORT
@@ -122,7 +122,7 @@ def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_says_so(p
     assert "fetch_measured_heart" in lines[0]
 
 
-def test_an_edit_of_the_library_repeats_what_rests_on_it_and_nothing_else(drawn):
+def test_an_edit_of_the_library_repeats_only_the_jobs_that_import_it(drawn):
     workflow, points = drawn
     assert "Nothing to be done" in workflow.snakemake("-n", points).stdout
     with workflow.edited("src/heartfit/geometry/carry.py", "# elsewhere\n"):
@@ -131,7 +131,7 @@ def test_an_edit_of_the_library_repeats_what_rests_on_it_and_nothing_else(drawn)
         assert job_counts(workflow.snakemake("-n", points).stdout)["draw_sigma_points"] == 1
 
 
-def test_an_edit_of_the_configuration_repeats_what_it_concerns_and_nothing_else(drawn):
+def test_an_edit_of_the_configuration_repeats_only_the_jobs_it_concerns(drawn):
     workflow, points = drawn
     elsewhere, here = "observation: {window: 5}\n", "prior: {sigma_0: {mean: 2.9e+5}}\n"
     for text, expected in ((elsewhere, "Nothing to be done"), (here, "draw_sigma_points")):

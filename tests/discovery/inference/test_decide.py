@@ -48,6 +48,6 @@ def test_the_rules(evidence, expected) -> None:
     assert decide(evidence) == expected
 
 
-def test_a_model_of_another_structure_asks_for_more() -> None:
+def test_a_model_of_another_structure_needs_stricter_rules() -> None:
     assert decide(evidences(9.9), STRICT_RULES) == Decision("none")
     assert decide(evidences(10.0), STRICT_RULES) == Decision("named", A)

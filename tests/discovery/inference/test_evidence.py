@@ -18,14 +18,14 @@ def taken_at(x: np.ndarray, matrix: np.ndarray, one_sided: list[bool]) -> object
 
 
 @pytest.mark.parametrize("x", [np.zeros(3), np.array([1.0, -2.0, 0.5])])
-def test_it_is_the_marginal_density_averaged_over_the_levels(x) -> None:
+def test_the_evidence_is_the_marginal_density_averaged_over_the_levels(x) -> None:
     J = slopes(3)
     exact = [multivariate_normal(cov=noise + J @ J.T).pdf(Y) for noise in covariances()]
     assert taken_at(x, J, [False] * 3).log_evidence == pytest.approx(np.log(np.mean(exact)), rel=1e-9)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_one_sided_it_is_the_integral_over_the_half(sign) -> None:
+def test_a_one_sided_evidence_is_the_integral_over_the_half_line(sign) -> None:
     """Also where the data pull the amplitude below its bound."""
     J = slopes(1) * sign
 
@@ -40,7 +40,7 @@ def test_one_sided_it_is_the_integral_over_the_half(sign) -> None:
     assert taken_at(np.zeros(1), J, [True]).log_evidence == pytest.approx(np.log(exact), rel=1e-6)
 
 
-def test_an_amplitude_that_no_datum_sees_changes_nothing() -> None:
+def test_an_unobserved_amplitude_leaves_the_evidence_unchanged() -> None:
     J = slopes(3)
     J[:, 2] = 0.0
     without = taken_at(np.zeros(2), J[:, :2], [False] * 2).log_evidence

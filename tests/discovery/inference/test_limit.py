@@ -20,7 +20,7 @@ def log_evidence(matrix: np.ndarray, values: np.ndarray) -> float:
     return -0.5 * (np.linalg.slogdet(covariance)[1] + values @ np.linalg.solve(covariance, values))
 
 
-def test_of_a_linear_model_it_is_the_difference_of_two_gaussians() -> None:
+def test_the_expected_evidence_of_a_linear_model_is_the_difference_of_two_gaussians() -> None:
     values = J @ X
     exact = log_evidence(J, values) - log_evidence(J[:, :2], values)
     assert expected_log_bayes_factor(NONE, SINGLE, BLOCKS, X) == pytest.approx(exact, abs=0.01)
@@ -33,7 +33,7 @@ def test_noise_adds_less_than_one_on_average() -> None:
     assert 0.0 < noisy - expected_log_bayes_factor(NONE, SINGLE, BLOCKS, X) < 1.0
 
 
-def test_what_cannot_be_simulated_is_not_expected() -> None:
+def test_failed_simulations_have_no_expected_evidence() -> None:
     dead = Hypothesis(("a",), SINGLE.coordinates, lambda x: None)
     assert expected_log_bayes_factor(NONE, dead, BLOCKS, X) is None
 

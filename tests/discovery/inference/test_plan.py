@@ -51,13 +51,13 @@ def test_divergence_is_the_mean_log_ratio() -> None:
     assert divergence(means[0], covariances[0], means[0], covariances[0]) == pytest.approx(0.0, abs=1e-12)
 
 
-def test_what_looks_alike_again_adds_nothing_and_what_differs_adds() -> None:
+def test_a_repeated_measurement_adds_no_separation_and_a_different_one_does() -> None:
     group = [explained("a"), explained("b")]
     assert evaluate(group, seen_as(ALIKE)).gain == pytest.approx(0.0, abs=1e-9)
     assert evaluate(group, seen_as(OPPOSED)).gain > 3.0
 
 
-def test_what_is_unknown_of_the_measurement_lowers_its_worth() -> None:
+def test_unknown_parameters_of_a_measurement_lower_its_expected_gain() -> None:
     group, flat = [explained("a"), explained("b")], {"a": np.ones(TIMES.size), "b": -np.ones(TIMES.size)}
     known, unknown = (evaluate(group, seen_as(flat, own=own)) for own in (0, 1))
     assert unknown.gain < 0.1 * known.gain

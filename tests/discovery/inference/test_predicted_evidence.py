@@ -17,7 +17,7 @@ FURTHER = hypothesis(J, Coordinate("a", one_sided=True, amplitude=True))
 Y = J @ np.array([0.5, -1.0, 0.8])
 
 
-def test_it_is_the_evidence_of_a_linear_model_for_one_simulation() -> None:
+def test_the_predicted_evidence_of_a_linear_model_is_exact_and_takes_one_simulation() -> None:
     context = FitContext(data(Y))
     base = context.explain(hypothesis(J[:, :2]), np.zeros(2))
     runs = context.simulations
@@ -28,13 +28,13 @@ def test_it_is_the_evidence_of_a_linear_model_for_one_simulation() -> None:
     assert promised.start[2] == pytest.approx(explanation.posterior.mean[2], rel=1e-6)
 
 
-def test_an_effect_that_is_not_there_starts_where_it_can_still_be_seen() -> None:
+def test_an_absent_effect_starts_at_an_observable_amplitude() -> None:
     context = FitContext(data(-Y))
     base = context.explain(hypothesis(J[:, :2]), np.zeros(2))
     assert predict_evidence(context, base, FURTHER).start[2] == 0.3
 
 
-def test_where_the_typical_size_fails_a_smaller_one_does() -> None:
+def test_a_failing_typical_size_is_replaced_by_a_smaller_one() -> None:
     context = FitContext(data(Y))
     base = context.explain(hypothesis(J[:, :2]), np.zeros(2))
     whole = predict_evidence(context, base, FURTHER)
@@ -55,7 +55,7 @@ def test_an_effect_starts_on_the_side_on_which_it_acts(side) -> None:
     assert start[2:] == pytest.approx([2.0, side])
 
 
-def test_only_pairs_that_promise_enough_are_fitted() -> None:
+def test_only_pairs_with_enough_predicted_evidence_are_fitted() -> None:
     truth = oscillator.combined(("delay", "pulse")).forward(np.array([0.5, 0.2, -0.3, 0.1, 2.0, 1.0]))
     context = FitContext(oscillator.observed(truth, 1))
     singles = [context.explain(single, single.at(1.0)) for single in oscillator.SINGLES]

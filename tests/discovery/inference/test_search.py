@@ -35,7 +35,7 @@ def test_two_hidden_effects_are_both_named() -> None:
     assert result.decision.effects == ("delay", "pulse")
 
 
-def test_what_no_effect_explains_is_unknown_and_its_place_is_shown() -> None:
+def test_a_departure_without_an_effect_is_unknown_and_is_located() -> None:
     truth = oscillator.curves(base(2))
     truth[:24] += 0.4 * np.exp(-0.5 * ((oscillator.TIMES - 0.35) / 0.05) ** 2)
     result = searched(truth, 2)
@@ -72,7 +72,7 @@ def test_the_simulations_are_counted() -> None:
     assert result.simulations == runs
 
 
-def test_data_and_models_without_which_nothing_can_be_said() -> None:
+def test_invalid_data_and_failing_models_are_refused() -> None:
     dead = Hypothesis((), oscillator.BASE, lambda x: None)
     with pytest.raises(InputError, match=r"centre.*prior"):
         search(

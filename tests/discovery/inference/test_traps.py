@@ -85,7 +85,7 @@ def bent(x: float) -> np.ndarray:
     return oscillator.curves(np.array([0.0, frequency, 0.0, 0.0]))
 
 
-def test_a_base_fit_in_a_side_minimum_is_found_out() -> None:
+def test_a_base_fit_in_a_local_minimum_is_detected() -> None:
     """None alone ends on the hump; an effect that does the same starts beyond the valley, and all others follow."""
     frequency, lure = Coordinate("frequency"), Coordinate("lure", amplitude=True)
     none = Hypothesis((), (frequency,), lambda x: bent(x[0]))

@@ -46,7 +46,7 @@ def test_the_element_is_named_and_no_leak(rivals: Mapping[str, CompetingModel]) 
     assert factors[ELEMENT] > factors[LEAK] + 5.0
 
 
-def test_the_right_element_gains_where_nothing_was_fitted(rivals: Mapping[str, CompetingModel]) -> None:
+def test_the_right_element_gains_on_held_out_data(rivals: Mapping[str, CompetingModel]) -> None:
     assert not rivals[NONE].gains
     assert all(gain.ratio < 0.8 for gain in rivals[ELEMENT].gains)
 

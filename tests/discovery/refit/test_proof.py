@@ -61,7 +61,7 @@ def refits(case: MeasuredCase) -> tuple[Refit, Refit]:
     return refit(none, run, target(case), 20), refit(extended, run, target(case), 20)
 
 
-def test_no_sample_is_fitted_and_held_out_at_once(case: MeasuredCase) -> None:
+def test_no_sample_is_both_fitted_and_held_out(case: MeasuredCase) -> None:
     split = case.split
     for name, samples in split.fitted.items():
         assert not set(samples.times) & set(split.held[name].times)
@@ -107,7 +107,7 @@ def test_the_refit_finds_the_leak_and_the_heart_that_has_it(refits: tuple[Refit,
     assert extended.parameters["sigma_0"] == pytest.approx(160e3, rel=0.05)
 
 
-def test_one_unscented_step_then_a_beat_a_step_until_none_promises_more(
+def test_a_refit_takes_one_unscented_step_then_one_beat_per_step_until_convergence(
     case: MeasuredCase, refits: tuple[Refit, Refit]
 ) -> None:
     none, extended = refits
@@ -120,7 +120,7 @@ def test_one_unscented_step_then_a_beat_a_step_until_none_promises_more(
     assert not hasty.converged
 
 
-def test_what_a_setting_holds_fixed_is_freed_about_its_heart() -> None:
+def test_fixed_parameters_of_a_setting_are_freed_about_its_heart() -> None:
     freed = Extension.from_names(PLAIN, "MitralRegurgitation").with_free_parameters()
     held, heart = (
         {freed_parameter.name for freed_parameter in freed.freed},
@@ -157,7 +157,7 @@ def test_a_heart_that_contracts_for_shorter_is_given_a_leak_where_that_is_frozen
     assert freed[1] - freed[0] < 1.0
 
 
-def test_an_extension_is_found_from_where_the_model_without_it_ended(
+def test_a_refit_from_the_end_of_the_baseline_finds_the_extension(
     case: MeasuredCase, refits: tuple[Refit, Refit]
 ) -> None:
     none, extended = refits
@@ -170,7 +170,7 @@ def test_an_extension_is_found_from_where_the_model_without_it_ended(
     assert continued.simulations < extended.simulations + 5
 
 
-def test_an_effect_that_is_not_there_ends_off_where_the_model_without_it_ended() -> None:
+def test_an_absent_effect_ends_at_zero_at_the_optimum_of_the_baseline() -> None:
     plain = Extension(PLAIN)
     curves = beat_curves(run(plain, plain.parameters(np.array([0.5, -0.5]))))
     sound = MeasuredCase.from_curves(

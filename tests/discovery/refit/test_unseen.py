@@ -46,7 +46,7 @@ def proof(ventricle: VentricularMesh) -> Proof:
     return Proof(case, ventricle, shrunk(ventricle, 0.10), none, extended)
 
 
-def test_ratios_are_those_of_the_errors_where_nothing_was_fitted(proof: Proof) -> None:
+def test_ratios_are_those_of_the_errors_on_held_out_data(proof: Proof) -> None:
     gains = {gain.curve: gain for gain in proof.gains()}
     assert gains["lv_volume"].ratio == pytest.approx(0.25)
     assert gains["rv_volume"].ratio == pytest.approx(1.0)
@@ -113,7 +113,7 @@ def conclusion(beats: Sequence[Mapping[str, Curve]]) -> tuple[str, float, float 
 
 
 @pytest.mark.usefixtures("searched")
-def test_a_search_without_a_centre_asks_for_more(
+def test_a_search_without_a_nominal_heart_has_stricter_rules(
     monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve]
 ) -> None:
     def following(*arguments: object) -> NominalHeart:
@@ -132,7 +132,7 @@ def test_a_search_without_a_centre_asks_for_more(
 
 @pytest.mark.usefixtures("searched")
 @pytest.mark.parametrize(("tested", "rules"), [(0.4, CENTRED_RULES), (3.1, STRICT_RULES)])
-def test_a_sphere_that_finds_what_nobody_hid_asks_for_more(
+def test_a_sphere_that_fails_its_self_test_has_stricter_rules(
     monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve], tested: float, rules: Rules
 ) -> None:
     tested_beats: list[object] = []

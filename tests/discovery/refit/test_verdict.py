@@ -37,12 +37,12 @@ def tried(diagnosis: Diagnosis) -> list[tuple[str, ...]]:
     return [extension.effects for extension in propose_extensions(diagnosis, PLAIN)]
 
 
-def test_what_is_named_is_tried_and_else_the_best_of_the_ranking() -> None:
+def test_named_effects_are_tried_and_otherwise_the_best_of_the_ranking() -> None:
     assert tried(FOUND) == tried(GROUP) == [("MitralRegurgitation",)]
     assert tried(NOTHING) == [("AorticStenosis",)]
 
 
-def test_of_two_the_stronger_is_tried_alone_before_both() -> None:
+def test_the_stronger_of_two_effects_is_tried_alone_before_both() -> None:
     assert tried(TWO) == [("AorticStenosis",), ("AorticStenosis", "MitralRegurgitation")]
 
 
@@ -136,7 +136,7 @@ def test_a_group_stands_or_falls_with_the_one_that_was_tried() -> None:
     assert withdraw_unhelpful(GROUP, ()).withdrawn == ("MitralRegurgitation",)
 
 
-def test_where_nothing_is_named_a_trial_changes_no_verdict() -> None:
+def test_without_a_named_effect_a_trial_changes_no_verdict() -> None:
     assert withdraw_unhelpful(NOTHING, ()) is NOTHING
     assert withdraw_unhelpful(NOTHING, ("AorticStenosis",)) is NOTHING
 
@@ -171,7 +171,7 @@ def test_a_proved_diagnosis_has_the_sizes_and_evidence_of_the_refits() -> None:
     assert spaced_name("MitralRegurgitation") in shown
 
 
-def test_an_attempt_asks_no_search() -> None:
+def test_an_attempt_needs_no_search() -> None:
     judge = Judge({1: 4.0}, ())
     judge.setting, judge.baseline = PLAIN, Extension(PLAIN)
     judge.proof = lambda *_: Helped()

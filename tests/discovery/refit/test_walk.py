@@ -69,7 +69,7 @@ def test_an_amplitude_that_the_data_push_below_its_bound_stays_there() -> None:
     assert walk.x[1] == 0.0
 
 
-def test_what_goes_with_an_amplitude_is_found_anew_where_that_meets_its_bound() -> None:
+def test_other_parameters_are_refitted_where_an_amplitude_meets_its_bound() -> None:
     """A step that is merely cut off at the bound would promise nothing here, and be taken for the end."""
     alike = SLOPES + np.array([3.0, 0.0, 3.0]) * SLOPES[:, 1:2]
     target = Target({"lv_volume": Samples(np.arange(12.0), alike @ np.array([0.6, -1.5, 1.0]))}, NOISE)
@@ -83,13 +83,13 @@ def test_what_goes_with_an_amplitude_is_found_anew_where_that_meets_its_bound() 
     assert walk.x == pytest.approx(best, abs=0.01)
 
 
-def test_no_step_is_longer_than_slopes_hold() -> None:
+def test_no_step_is_longer_than_the_slopes_are_valid() -> None:
     walk = started(lambda x: 0.1 * linear(x), 0.1 * SLOPES)
     walk.advance()
     assert np.abs(walk.x).max() <= LONGEST_STEP
 
 
-def test_a_beat_that_fails_shortens_the_step_and_changes_nothing_else() -> None:
+def test_a_failed_beat_only_shortens_the_step() -> None:
     points: list[Floats] = []
 
     def failing(x: Floats) -> Floats | None:

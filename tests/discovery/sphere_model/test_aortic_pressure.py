@@ -34,7 +34,7 @@ def stenosed() -> Recording:
     return Recording(aorta.period, {**samples, "aorta_pressure": Samples(aorta.times, noisy)})
 
 
-def test_it_is_a_block_with_the_noise_of_a_catheter(stenosed):
+def test_aortic_pressure_is_a_block_with_the_noise_of_a_catheter(stenosed):
     *_, aorta = search_data(stenosed).blocks
     assert (aorta.curve, aorta.unit) == ("aorta_pressure", "Pa")
     assert aorta.noise.levels == pytest.approx(PRESSURE_LEVELS, rel=0.01)
@@ -47,7 +47,7 @@ def test_the_catheter_in_the_ventricle_does_not_act_on_it():
     assert change == pytest.approx(np.repeat([500.0, 0.0], 20))
 
 
-def test_it_speaks_for_a_stenosis(stenosed, monkeypatch):
+def test_aortic_pressure_raises_the_evidence_of_a_stenosis(stenosed, monkeypatch):
     monkeypatch.setattr(searching, "candidates", one)
     ventricle = {name: curve for name, curve in stenosed.curves.items() if name != "aorta_pressure"}
     without, complete = (

@@ -35,7 +35,7 @@ def arguments(tmp_path, monkeypatch):
     ]
 
 
-def test_it_names_the_cause_and_says_what_it_did_not_search(arguments, tmp_path, capsys):
+def test_the_command_names_the_cause_and_the_curves_it_did_not_search(arguments, tmp_path, capsys):
     assert cli.main(["diagnose", *arguments]) == 0
     printed, content = capsys.readouterr().out, read_cause(tmp_path / "out" / "cause.json")
     assert printed.count("\n") == 1

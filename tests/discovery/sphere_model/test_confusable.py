@@ -13,7 +13,7 @@ def competing_candidates(model: SphereForwardModel) -> dict[str, library.Candida
     return {"SlowRelaxation": library.candidates(model)["SlowRelaxation"]}
 
 
-def test_a_late_activation_is_not_called_slow_relaxation_even_where_nothing_else_is_known(monkeypatch):
+def test_a_late_activation_is_not_named_slow_relaxation(monkeypatch):
     assert "spread" in {parameter.name for parameter in SPHERE_PARAMETERS}
     monkeypatch.setattr(searching, "candidates", competing_candidates)
     result = SearchedRecording.search(recorded(PlantedPlan(712, "single", ("DelayedActivation",), 2.0)))

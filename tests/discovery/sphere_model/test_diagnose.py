@@ -28,13 +28,13 @@ def test_a_planted_leak_is_named_and_its_interval_covers(diagnosis):
     assert cause.unit == "m^2"
 
 
-def test_it_gains_under_a_loading_that_was_never_fitted(diagnosis):
+def test_the_diagnosis_gains_under_a_held_out_loading(diagnosis):
     assert {gain.on for gain in diagnosis.gain} == {"legs raised"}
     assert all(gain.ratio < 1.0 for gain in diagnosis.gain)
     assert all(gain.interval[0] < gain.ratio < gain.interval[1] for gain in diagnosis.gain)
 
 
-def test_the_card_says_it_in_words(diagnosis):
+def test_the_card_states_the_verdict_in_words(diagnosis):
     assert verdict_sentence(diagnosis).startswith("Missing mechanism: mitral regurgitation, 0.")
     text = markdown_card(diagnosis, "case 1")
     assert "cm²" in text
@@ -51,7 +51,7 @@ def test_the_card_is_written_and_read(diagnosis, tmp_path):
     assert (tmp_path / "deep" / "cause.png").stat().st_size > 10_000
 
 
-def test_every_model_that_was_tried_is_told_with_its_criteria(diagnosis):
+def test_every_tried_model_is_listed_with_its_criteria(diagnosis):
     none, *others = diagnosis.tried
     assert none.effects == ()
     singles = {tried_model.effects[0]: tried_model for tried_model in others if len(tried_model.effects) == 1}
@@ -64,7 +64,7 @@ def test_every_model_that_was_tried_is_told_with_its_criteria(diagnosis):
     assert diagnosis.samples == sum(trace.times.size for trace in diagnosis.traces)
 
 
-def test_what_another_condition_adds_tells_members_of_a_group_apart():
+def test_another_condition_separates_members_of_a_group():
     leak, delay, shrunk = ("Leak",), ("Delay",), ("Shrunk",)
     assert near_best({leak: 9.0, delay: 12.5, shrunk: 10.0}, 3.0) == [delay, shrunk]
     assert near_best({leak: 9.0, delay: 12.5, shrunk: 9.5}, 3.0) == [delay]
@@ -72,7 +72,7 @@ def test_what_another_condition_adds_tells_members_of_a_group_apart():
 
 
 @pytest.mark.parametrize("seed", [1, 4, 6])
-def test_nothing_is_found_where_nothing_is(seed):
+def test_no_effect_is_found_in_a_healthy_heart(seed):
     diagnosis = diagnose(healthy(seed))
     assert diagnosis.verdict == "none"
     assert diagnosis.mechanisms == diagnosis.gain == ()

@@ -54,7 +54,7 @@ def test_the_trigger_moves_the_recording_and_not_the_heart():
     assert model.simulations == 1
 
 
-def test_nothing_that_is_free_is_held_by_a_centre_without_length_dependence():
+def test_every_free_parameter_acts_on_a_nominal_heart_without_length_dependence():
     centre = replace(ADULT, heart=ADULT.heart.with_parameters({"slope": 0.0}))
     model = SphereForwardModel(centre, TIMES)
     beat = model.predict(CENTRE, ())
@@ -63,7 +63,7 @@ def test_nothing_that_is_free_is_held_by_a_centre_without_length_dependence():
         assert np.abs(shifted / beat - 1.0).max() > 1e-3, parameter.name
 
 
-def test_coordinates_beyond_what_a_heart_can_be_predict_nothing():
+def test_coordinates_outside_the_admissible_range_have_no_prediction():
     assert (
         SphereForwardModel(ADULT, TIMES).predict(
             np.where(np.arange(len(FREE_PARAMETERS)) == len(FREE_PARAMETERS) - 3, 60.0, 0.0), ()

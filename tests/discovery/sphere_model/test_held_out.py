@@ -21,7 +21,7 @@ def test_errors_that_are_the_same_have_the_ratio_one():
     assert (ratio, *interval) == pytest.approx((1.0, 1.0, 1.0))
 
 
-def test_one_bad_phase_widens_the_interval():
+def test_one_outlying_phase_widens_the_interval():
     phase = np.arange(80) / 80
     none, extended = np.ones(80), np.full(80, 0.5)
     extended[:10] = 3.0

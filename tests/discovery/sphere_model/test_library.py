@@ -15,7 +15,7 @@ FRAMES = np.arange(26) / 30
 BOTH = SphereForwardModel(ADULT, {"lv_volume": FRAMES, "lv_pressure": FRAMES})
 
 
-def test_whatever_the_heart_has_not_and_the_recording_shows_is_a_candidate():
+def test_every_observable_mechanism_that_the_heart_lacks_is_a_candidate():
     assert set(candidates(BOTH)) == set(registered()) - {"AtrialKick"}
     alone = candidates(SphereForwardModel(ADULT, {"lv_volume": FRAMES}))
     assert set(candidates(BOTH)) - set(alone) == {"CatheterDamping", "CatheterDelay", "CatheterOffset"}

@@ -42,7 +42,7 @@ def _few(monkeypatch: pytest.MonkeyPatch) -> None:
     )
 
 
-def test_nothing_is_found_in_beats_of_the_sphere_itself(
+def test_no_effect_is_found_in_beats_of_the_sphere_model(
     recording: Recording, beats: list[dict[str, Curve]]
 ) -> None:
     assert self_test(recording, ADULT, beats) < SELF_TEST_LIMIT

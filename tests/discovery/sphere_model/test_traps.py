@@ -92,7 +92,7 @@ def chi_square(judge: FitContext, predicted: Floats) -> float:
     return float(np.mean(white**2))
 
 
-def test_a_severe_leak_drags_the_fit_without_it_to_where_the_leak_is_not_seen():
+def test_a_severe_leak_moves_the_baseline_fit_to_where_the_leak_is_not_observable():
     """It is named all the same, for every effect starts from the centre of the priors as well."""
     recording = recorded(PlantedPlan(301, "single", ("MitralRegurgitation",), 3.0))
     data = search_data(recording)

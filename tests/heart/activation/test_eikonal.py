@@ -82,7 +82,7 @@ def test_a_late_site_is_reached_by_the_wave_before() -> None:
     assert activation_times(points, tets, fibres, {0: 0.0, 9: 1.0}) == pytest.approx(alone)
 
 
-def test_no_site_bad_speeds_and_islands_are_refused() -> None:
+def test_missing_sites_bad_speeds_and_islands_are_refused() -> None:
     points, tets, fibres = block(1)
     with pytest.raises(ValueError, match=r"\b0 sites"):
         activation_times(points, tets, fibres, {})

@@ -85,7 +85,7 @@ def test_a_blocked_heart_is_active_right_then_septum_then_lateral_wall(blocked: 
     assert order[2] - order[1] > 0.040
 
 
-def test_its_last_place_is_the_lateral_base(blocked: VentricularMesh) -> None:
+def test_the_lateral_base_is_activated_last(blocked: VentricularMesh) -> None:
     assert blocked.segments is not None
     assert blocked.segments[times_of(blocked).argmax()] in (POSTEROLATERAL_BASE, ANTEROLATERAL_BASE)
     assert 0.100 < times_of(blocked).max() < 0.180

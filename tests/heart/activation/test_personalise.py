@@ -9,7 +9,7 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.activation.conduction import HEALTHY, LAYER_SPEEDS, LBBB, fit_conduction, total_duration
 
 
-def test_without_a_duration_nothing_changes(ventricle: VentricularMesh) -> None:
+def test_without_a_duration_the_mesh_is_unchanged(ventricle: VentricularMesh) -> None:
     assert fit_conduction(ventricle, HEALTHY, None) is HEALTHY
 
 
@@ -37,6 +37,8 @@ def test_beyond_its_reach_the_wall_changes_too(
 
 
 @pytest.mark.parametrize("duration", [0.02, 0.6])
-def test_a_duration_out_of_reach_says_what_is_within(ventricle: VentricularMesh, duration: float) -> None:
+def test_an_unreachable_duration_is_refused_with_the_reachable_range(
+    ventricle: VentricularMesh, duration: float
+) -> None:
     with pytest.raises(InputError, match=r"QRS.*\d+ ms.*\d+.*\d+ ms"):
         fit_conduction(ventricle, LBBB, duration)

@@ -23,18 +23,18 @@ def test_the_drop_drives_flow_and_its_rate(law: Branch, drop: float) -> None:
 
 @laws
 @pytest.mark.parametrize("drop", DROPS)
-def test_its_slope_is_the_derivative(law: Branch, drop: float) -> None:
+def test_the_slope_is_the_derivative_of_the_flow(law: Branch, drop: float) -> None:
     table, x, step = np.array([[law]]), np.array([drop]), np.array([0.1 * drop])
     slope = inertial_flow(table, 0, 0, drop, 1e6, 0.0)[1] * step
     assert_derivative(lambda p: np.array([inertial_flow(table, 0, 0, p[0], 1e6, 0.0)[0]]), slope, x, step)
 
 
-def test_without_inertance_it_is_the_law() -> None:
+def test_without_inertance_the_flow_is_that_of_the_law() -> None:
     table = np.array([[ORIFICE]])
     assert inertial_flow(table, 0, 0, 500.0, 0.0, 1e-3) == branch_flow(table, 0, 0, 500.0)
 
 
-def test_flow_that_nothing_drives_decays_with_inertance_times_conductance() -> None:
+def test_undriven_flow_decays_with_inertance_times_conductance() -> None:
     """L K = 40 ms: after as long, a fraction 1/e of it is left, of first order in the step."""
     table, inertance = np.array([[LINEAR]]), 1e4
 

@@ -41,13 +41,13 @@ def test_narrowings_one_behind_the_other_add_up(law: Branch) -> None:
 
 @laws
 @pytest.mark.parametrize("drop", DROPS)
-def test_its_slope_is_the_derivative(law: Branch, drop: float) -> None:
+def test_the_slope_is_the_derivative_of_the_flow(law: Branch, drop: float) -> None:
     narrow, x, step = law.with_narrowing(AREA**-2), np.array([drop]), np.array([0.1 * drop])
     assert_derivative(lambda p: np.array([narrow.flow(p[0])[0]]), narrow.flow(drop)[1] * step, x, step)
 
 
 @laws
-def test_it_lets_less_through_the_narrower_it_is_and_closes_as_before(law: Branch) -> None:
+def test_a_narrower_valve_has_less_flow_and_closes_as_before(law: Branch) -> None:
     drops = np.linspace(-2e4, 2e4, 401)
     flows = [[law.with_narrowing(a).flow(drop)[0] for drop in drops] for a in (0.0, 1e7, 1e8)]
     assert (np.diff(flows, axis=1) > 0.0).all()
@@ -74,7 +74,7 @@ def test_a_conductance_beside_an_orifice_has_no_closed_form() -> None:
         Branch(conductance=1e-6, area=1e-4).with_narrowing(1e7)
 
 
-def test_it_narrows_the_valve_that_it_names_and_no_other() -> None:
+def test_stenosis_narrows_only_the_valve_that_it_names() -> None:
     @dataclass(frozen=True)
     class Tight(Narrowing):
         valve = "tricuspid"

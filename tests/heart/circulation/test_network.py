@@ -26,7 +26,7 @@ def random_pressures(count: int) -> np.ndarray:
 
 
 @networks
-def test_what_leaves_one_compartment_enters_another(circulation: Circulation) -> None:
+def test_flow_out_of_one_compartment_enters_another(circulation: Circulation) -> None:
     network = NetworkStep(circulation, (AtrialKick(), LEAK), 0.05, 5e-3, 0.8)
     for pressures in random_pressures(50):
         net = np.zeros(len(COMPARTMENTS))

@@ -21,7 +21,7 @@ def test_flow_increases_with_the_drop_and_is_continuous(valve: Valve) -> None:
 
 
 @valves
-def test_a_closed_valve_leaks_next_to_nothing(valve: Valve) -> None:
+def test_a_closed_valve_leaks_less_than_its_tolerance(valve: Valve) -> None:
     """0.1 mL in a systole of 0.3 s under 15 kPa."""
     assert 0.0 > valve.law().flow(-15e3)[0] * 0.3 > -0.1e-6
 

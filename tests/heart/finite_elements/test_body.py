@@ -75,7 +75,7 @@ def test_turned_tissue_has_turned_forces(block: Callable, element: str) -> None:
 
 
 @elements
-def test_forces_add_up_to_nothing(block: Callable, element: str) -> None:
+def test_forces_sum_to_zero(block: Callable, element: str) -> None:
     """Newton's third law: internal forces have neither sum nor moment."""
     body = FiniteElementBody(block(), Tissue(support=FREE, element=element))
     step, x = contracting(body, 5)

@@ -43,5 +43,5 @@ def test_the_mixed_element_does_not(deflection: Callable[[str, float], float]) -
     assert stiffer == pytest.approx(stiff, rel=0.005)
 
 
-def test_both_agree_where_nothing_locks(deflection: Callable[[str, float], float]) -> None:
+def test_both_elements_agree_for_compressible_tissue(deflection: Callable[[str, float], float]) -> None:
     assert deflection("mixed", 1.0) == pytest.approx(deflection("p1", 1.0), rel=0.1)

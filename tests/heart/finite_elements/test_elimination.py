@@ -58,7 +58,7 @@ def test_the_parent_eliminates_the_first_row(dissected: tuple[np.ndarray, Fronts
             assert fronts.starts[parent] <= rows[0] < fronts.starts[parent + 1]
 
 
-def test_a_single_node_per_front_wastes_nothing(dissected: tuple[np.ndarray, Fronts]) -> None:
+def test_fronts_of_single_nodes_have_the_minimal_fill(dissected: tuple[np.ndarray, Fronts]) -> None:
     """Merging may add rows, never lose one; without it, the fill is that of the definition."""
     tets, fronts = dissected
     entries = np.diff(fronts.row_starts).sum()

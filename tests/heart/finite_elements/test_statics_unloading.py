@@ -83,7 +83,7 @@ def test_the_tangent_at_fixed_loaded_positions_is_exact_but_for_the_supports(
     assert_derivative(residual, tangent @ direction, x.ravel(), direction)
 
 
-def test_no_pressure_unloads_nothing(ventricle: VentricularMesh) -> None:
+def test_without_pressure_unloading_changes_no_node(ventricle: VentricularMesh) -> None:
     assert unload(ventricle, Tissue(), np.zeros(2)).points == pytest.approx(ventricle.points, abs=1e-9)
 
 

@@ -32,7 +32,7 @@ def test_half_a_slope_takes_half_of_what_the_table_lacks() -> None:
 
 
 @pytest.mark.parametrize("slope", [1.0, 1.15, 3.0])
-def test_no_slope_leaves_fewer_bridges_than_none(slope: float) -> None:
+def test_a_length_dependence_leaves_no_fewer_bridges_than_none(slope: float) -> None:
     e_c = green_lagrange(np.linspace(-0.6, 2.0, 200))
     n_0, table = (Starling(slope=s).available_fraction(e_c) for s in (slope, 1.0))
     assert n_0 == pytest.approx(np.maximum(1.0 - slope * (1.0 - table), 0.0))

@@ -91,7 +91,7 @@ def test_a_sphere_feels_the_law_of_the_wall(kind: type[Stress]) -> None:
 
 
 @all_stresses
-def test_it_adds_to_the_base_law(kind: type[Stress]) -> None:
+def test_the_stiffening_adds_to_the_base_law(kind: type[Stress]) -> None:
     base, stretch = MooneyRivlin(), np.array([0.9, 1.1])
     both, alone = Stiffened(base, (kind(),)), strained(kind)
     assert stress(both, CAUCHY) == pytest.approx(stress(Stiffened(base, ()), CAUCHY) + stress(alone, CAUCHY))

@@ -22,7 +22,7 @@ def test_springs_and_dampers_are_symmetric_and_take_no_energy(mesh: VentricularM
         assert (np.linalg.eigvalsh(matrices) >= -1e-12 * abs(matrices).max()).all()
 
 
-def test_rings_are_held_alike_in_every_direction(mesh: VentricularMesh) -> None:
+def test_rings_are_supported_equally_in_every_direction(mesh: VentricularMesh) -> None:
     support = Support(k_b=3e4, c_b=2e3, k_p=0.0)
     assert support.stiffness(mesh).sum(axis=0) == pytest.approx(3e4 * EDGE**2 * np.eye(3))
     assert support.damping(mesh).sum(axis=0) == pytest.approx(2e3 * EDGE**2 * np.eye(3))

@@ -78,7 +78,7 @@ def departures(beat: Beat, other: Beat) -> dict[str, float]:
 
 
 @BOTH
-def test_it_is_the_beat_of_the_coupled_path(
+def test_the_compiled_beat_is_that_of_the_coupled_path(
     heart: Heart, second_order: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Volumes, pressures and flows of every branch, over two beats with a shift between them."""
@@ -157,7 +157,7 @@ def test_a_step_taken_in_halves_ends_where_the_whole_one_does(
         assert halved.signals()[name] == pytest.approx(curve, abs=2e-2 * np.ptp(curve))
 
 
-def test_a_failing_heart_says_when_and_why(inviscid: Heart) -> None:
+def test_a_failing_heart_reports_time_and_reason(inviscid: Heart) -> None:
     beat = simulate_spheres(inviscid, [LEFT], replace(TWO_BEATS, time_step=0.02, cuts=0))
     assert (beat.status, beat.completed) == ("failed", False)
     assert beat.reason.startswith("beat 1: at 0.")

@@ -52,7 +52,7 @@ def test_a_diagonal_quadratic_takes_one_step() -> None:
     assert minimum == pytest.approx(np.array([1.0, -2.0, 3.0, 4.0]), rel=1e-5)
 
 
-def test_what_no_term_sees_stays() -> None:
+def test_coefficients_outside_all_terms_stay() -> None:
     """A knot of the lattice beyond the images."""
     matrix = np.diag([1.0, 0.0, 2.0])
     minimum = minimise([line(matrix, np.array([3.0, 0.0, 4.0]))], np.full((3,), 7.0, np.float32), 5)
@@ -60,7 +60,7 @@ def test_what_no_term_sees_stays() -> None:
 
 
 @pytest.mark.parametrize("start", [0.5, 1.5, 3.0, 10.0, 100.0])
-def test_it_never_goes_uphill(start: float) -> None:
+def test_the_objective_never_increases(start: float) -> None:
     """On atan(x)^2, whose whole steps leap over the minimum and away from it beyond x = 1.39."""
     steep = Squares(np.arctan, lambda x: np.diag(1.0 / (1.0 + x**2)))
     x, values = np.array([start, -start]), []
@@ -78,7 +78,7 @@ def test_steps_are_as_many_as_asked_at_most() -> None:
     assert x == pytest.approx([8.0 * (2.0 / 3.0) ** 3], rel=1e-5)
 
 
-def test_it_stops_where_nothing_is_gained() -> None:
+def test_the_minimisation_stops_without_improvement() -> None:
     flat = line(np.eye(3), np.zeros(3))
     flat.residual = lambda x: np.concatenate([x, [1.0]])
     flat.jacobian = lambda x: np.vstack([np.eye(3), np.zeros(3)])

@@ -114,7 +114,7 @@ def test_the_transpose_is_the_transpose(shape: tuple[int, ...], along: int | Non
 
 
 @pytest.mark.parametrize("shape", SHAPES[1:])
-def test_what_is_straight_does_not_bend(shape: tuple[int, ...]) -> None:
+def test_an_affine_displacement_has_no_bending_energy(shape: tuple[int, ...]) -> None:
     lattice, rng = Lattice(shape, KNOTS), np.random.default_rng(4)
     dimension = len(shape)
     straight = lattice.zeros().astype(float)

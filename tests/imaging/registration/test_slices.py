@@ -70,7 +70,7 @@ def test_smoothing_holds_back_what_contracts(motion: SliceMotion) -> None:
     assert abs(relative_areas(motion, 0)[FRAMES // 2] - 1.0) < 0.1 * (smooth - 1.0)
 
 
-def test_the_first_frame_stays_and_nothing_folds(motion: SliceMotion) -> None:
+def test_the_first_frame_stays_and_no_element_folds(motion: SliceMotion) -> None:
     assert np.array_equal(motion.carry(circle(0))[0], circle(0))
     assert motion.least_jacobian()[0] == pytest.approx(1.0)
     require_unfolded(motion)

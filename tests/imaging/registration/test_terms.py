@@ -133,7 +133,7 @@ def test_curvatures_of_voxels_add_up(lattice: Lattice) -> None:
             assert total == pytest.approx(sum(parts), abs=1e-5 * float(np.abs(total).max()))
 
 
-def test_what_keeps_every_volume_costs_nothing(lattice: Lattice) -> None:
+def test_a_volume_preserving_displacement_has_no_penalty(lattice: Lattice) -> None:
     """A rotation, a shear, and a stretch that thins as much as it lengthens."""
     stretch = np.diag([1.25, 0.8, 1.0])
     shear = np.array([[1.0, 0.4, -0.2], [0.0, 1.0, 0.3], [0.0, 0.0, 1.0]])

@@ -143,7 +143,7 @@ def test_voxels_need_not_be_cubes_nor_stand_along_the_axes(box: VentricularMesh)
         assert distance.mean() < 0.05
 
 
-def test_a_beat_told_in_other_order_is_the_same_beat(box: VentricularMesh) -> None:
+def test_frames_in_reverse_order_give_the_same_beat(box: VentricularMesh) -> None:
     """Frames are matched forwards up to the middle and backwards from the end: reversed, they give the same places."""
     images = imaged(shift)
     back = [0, *range(FRAMES - 1, 0, -1)]
@@ -171,7 +171,7 @@ def test_the_first_phase_is_the_mesh_itself_at_the_times_of_the_frames(box: Vent
     assert tracking.period == PERIOD
 
 
-def test_a_frame_is_sought_from_where_its_neighbour_was_found(box: VentricularMesh) -> None:
+def test_a_frame_starts_from_the_displacement_of_its_neighbour(box: VentricularMesh) -> None:
     """Three voxels away another wave of the texture is as near as the right one; coarse images are not asked here."""
     error = errors(track(imaged(travel), box, replace(STIFF, levels=((1, 10),))), box, travel)
     assert error.mean() < 0.1

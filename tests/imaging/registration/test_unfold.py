@@ -27,7 +27,7 @@ def compression(block: VentricularMesh, places: np.ndarray) -> float:
     return float((element_volumes(places, block.tets) / block.element_volumes()).min())
 
 
-def test_one_node_that_folds_the_wall_is_taken_back(block: VentricularMesh) -> None:
+def test_one_node_that_folds_the_wall_is_moved_back(block: VentricularMesh) -> None:
     places = pushed(block, 1)
     assert compression(block, places) < 0.0
     unfolded = unfold(block, places)
@@ -37,7 +37,7 @@ def test_one_node_that_folds_the_wall_is_taken_back(block: VentricularMesh) -> N
     assert abs(unfolded - block.points - np.array([3e-3, 0.0, -1e-3])).max() < 1.7e-3, "towards the others"
 
 
-def test_what_is_not_folded_stays_to_the_last_digit(block: VentricularMesh) -> None:
+def test_unfolded_nodes_are_unchanged_to_the_bit(block: VentricularMesh) -> None:
     places = block.points @ np.diag([1.1, 0.8, 1.0])
     np.testing.assert_array_equal(unfold(block, places), places)
 

@@ -101,9 +101,7 @@ def test_inflow_and_outflow_of_the_right_ventricle_leave_one_opening(segmentatio
     assert len(rim_loops(surface.surfaces["rv_endo"])) == 1
 
 
-def test_what_the_parts_enclose_in_a_slice_is_wall(
-    segmentation: Segmentation, surface: LabelledSurface
-) -> None:
+def test_gaps_enclosed_in_a_slice_are_wall(segmentation: Segmentation, surface: LabelledSurface) -> None:
     """A pit between the parts, as between aorta and right ventricle, would be a tunnel."""
     wall = segmentation.parts["lv_wall"].copy()
     j, i = np.unravel_index(distance_transform_edt(wall[11]).argmax(), wall[11].shape)

@@ -66,7 +66,7 @@ def test_a_forward_search_comes_to_the_choice_of_the_thresholds(tmp_path, capsys
 
 
 @pytest.mark.filterwarnings("ignore")
-def test_other_criteria_are_there_for_who_prefers_them(tmp_path):
+def test_a_model_search_by_other_criteria_is_possible(tmp_path):
     folder = exported(tmp_path, tried(4.0, 3.0))
     assert searched(folder, "likelihood.yaml", "BIC") == "MitralRegurgitation"
 

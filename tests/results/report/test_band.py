@@ -27,7 +27,7 @@ def test_a_linear_map_gives_its_own_band() -> None:
     )
 
 
-def test_one_lost_point_changes_nothing_and_too_many_leave_no_band() -> None:
+def test_one_lost_point_keeps_the_band_and_too_many_remove_it() -> None:
     points, whole = sigma_points(PRIOR), beats()
     one, none = [*whole[:4], {}], [whole[0], {}, {}, {}, {}]
     assert curve_deviation(PRIOR, points, one, POSTERIOR, whole[0])["lv_volume"].values == pytest.approx(

@@ -23,7 +23,7 @@ def test_quantities() -> None:
     assert quantity("<b>_<i> <u>") == "<i>&lt;b&gt;</i><sub>&lt;i&gt;</sub> &lt;u&gt;"
 
 
-def test_rows_are_told_apart() -> None:
+def test_rows_are_classified_as_study_mean_or_paper() -> None:
     table = pd.DataFrame(
         {
             "setting": ["paper", "paper", "Marchesseau et al. 2012"],

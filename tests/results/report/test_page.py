@@ -37,7 +37,7 @@ class Outline(HTMLParser):
         assert self.open.pop() == tag
 
 
-def test_every_tag_is_closed_every_link_leads_somewhere_and_every_picture_is_told(page: str) -> None:
+def test_every_tag_is_closed_every_link_has_a_target_and_every_picture_a_description(page: str) -> None:
     outline = Outline(page)
     assert not outline.open
     assert len(outline.ids) == len(set(outline.ids))
@@ -48,7 +48,7 @@ def test_every_tag_is_closed_every_link_leads_somewhere_and_every_picture_is_tol
     )
 
 
-def test_nothing_is_asked_of_the_network(page: str) -> None:
+def test_the_page_makes_no_network_request(page: str) -> None:
     assert not re.findall(r"""(?:src|href|action|url\()\s*=?\s*["']?(?:https?:)?//""", page)
     policy = re.search(r'Content-Security-Policy" content="([^"]*)"', page)[1]
     assert policy.startswith("default-src &#39;none&#39;; script-src &#39;sha256-")
@@ -64,7 +64,7 @@ def test_the_policy_allows_these_scripts_and_no_other() -> None:
     assert "'sha256-qKD34zzMFQMgxpImU8FoElsnsqzHWe+offuas9Vn+Uo='" in ASSETS.policy()
 
 
-def test_what_users_write_stays_text(page: str) -> None:
+def test_text_of_users_is_escaped(page: str) -> None:
     assert "<img src=x" not in page
     assert page.count("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;&amp;") == 2, "below title and table"
     assert json.loads(str(data([HOSTILE]))) == [HOSTILE]
