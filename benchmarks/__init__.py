@@ -1,1 +1,1 @@
-"""Cost of a beat, here and in other codes: a command, `python3 study.py benchmark`, not a test."""
+"""Cost of a beat in this and in other codes; `python3 study.py benchmark` runs it, the tests do not."""

@@ -1,4 +1,4 @@
-"""Measure everything and write docs/performance.md; `--small` leaves out the meshes above 10k tetrahedra."""
+"""Run all benchmarks and write docs/performance.md; `--small` omits the meshes above 10k tetrahedra."""
 
 import sys
 from collections.abc import Callable
@@ -44,7 +44,7 @@ def main(arguments: list[str]) -> None:
 
 
 def announced(what: str, work: Callable[[], T]) -> T:
-    """Say what is measured, measure it and say what came out."""
+    """Print the name of a measurement, run it and print its result."""
     sys.stdout.write(f"{what} ... ")
     sys.stdout.flush()
     result = work()

@@ -1,6 +1,6 @@
-"""Methods of calibration in 3-D, beside the spheres of a finished study; writes docs/alternatives.md, in ten minutes.
+"""Calibration methods in 3-D and on the spheres of a finished study; writes docs/alternatives.md, ten minutes.
 
-`--kept` takes the races in 3-D that are on disk, as after an interrupted run; `--small` leaves them out.
+`--kept` reuses the results in 3-D on disk, such as after an interrupted run; `--small` omits 3-D.
 """
 
 import json
@@ -50,7 +50,7 @@ def main(arguments: list[str]) -> None:
 
 
 def kept(study: Study, case: Case, again: bool) -> list[MethodScore]:
-    """The marks of a heart, from disk if they may be and are there."""
+    """Scores of a heart, from disk if allowed and available."""
     file = FOLDER / "alternatives" / f"{case.case}.json"
     if not (again and file.exists()):
         write_text(file, json.dumps([asdict(mark) for mark in raced(study, case)]))
@@ -58,13 +58,13 @@ def kept(study: Study, case: Case, again: bool) -> list[MethodScore]:
 
 
 def raced(study: Study, case: Case) -> list[MethodScore]:
-    """The race on one volunteer, whose volume is measured without images but with the noise of theirs."""
+    """Compare the methods on one volunteer, whose volume is measured without images but with their noise."""
     problem = problem_of(study, case)
     return compare_methods(problem, methods(SIMULATIONS, STEPS), SIMULATIONS, HEARTS.index(case.case))
 
 
 def problem_of(study: Study, case: Case) -> CalibrationProblem:
-    """The hidden heart of a case beats in the same mesh as the calibrator's, with other valves and a finer step."""
+    """Beat of the hidden heart of a case: the calibrator's mesh, but other valves and a finer time step."""
     setting, pressures = study.setting(SETTING), study.end_diastolic_pressure
     hidden = hide_heart(study.cohort.heart, case.hidden, case.period, case.seed or 0)
     volunteer = generate(

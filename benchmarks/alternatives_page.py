@@ -1,4 +1,4 @@
-"""The page of other methods and of coverage, in Markdown."""
+"""Page of other methods and of coverage, in Markdown."""
 
 import pandas as pd
 
@@ -8,13 +8,13 @@ from heartfit.results.text import to_markdown
 from heartfit.study.spheres import SphereStudy
 
 SOLID = "volume, in 3-D"
-"""The measurement of the race on two volunteers in 3-D, which may be left out."""
+"""Comparison on two volunteers in 3-D, which is optional."""
 
 
 def page(race: pd.DataFrame, shares: pd.DataFrame, spheres: SphereStudy) -> str:
-    """The page: what the methods are, where they stand, and how often intervals hold the truth.
+    """Render the page: methods, their comparison, and the coverage of intervals.
 
-    race, shares: as `race_table` and `sphere_coverage_table` make them.
+    race, shares: results of `race_table` and `sphere_coverage_table`.
     """
     pooled = shares[shares["parameter"] == POOLED].drop(columns=["parameter", "hearts"])
     return render_page(

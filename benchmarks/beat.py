@@ -1,8 +1,8 @@
-"""One beat: `python -m benchmarks.beat MESH SETTING` says in JSON what it costs, its memory with it.
+"""Cost of one beat, including its memory: `python -m benchmarks.beat MESH SETTING` prints it as JSON.
 
 The beat is the first one of a setting of the study, from the ventricles at rest, filled to the resting atrial
-pressures; it includes that filling, the order of elimination and the pattern of the matrix. Finding the
-stress-free reference is timed apart, and so is, by taking medians, the loading of compiled kernels.
+pressures. It includes this filling, the order of elimination and the pattern of the matrix. The stress-free reference
+is timed separately; medians exclude the loading of compiled kernels.
 """
 
 import json
@@ -30,12 +30,12 @@ REPEATS, LONGEST = 3, 30.0  # number of beats; CPU time after which none is star
 
 
 def cost(name: str, setting: str, *reference: str) -> dict[str, float]:
-    """Output of :func:`main` for a mesh by name, run in a process of its own."""
+    """Output of :func:`main` for a mesh by name, run in a separate process."""
     return ask("-m", "benchmarks.beat", mesh_file(name), setting, *reference)
 
 
 def main(mesh: str, setting: str, reference: str = "unloaded") -> None:
-    """Print the cost of a beat; with reference "as it is", the mesh is taken as stress-free."""
+    """Print the cost of a beat; with reference "as it is", the mesh is assumed to be stress-free."""
     study = read_study([ROOT / "config" / "config.yaml"])
     heart, loaded = study.setting(setting).base_heart(PERIOD), read_mesh(Path(mesh))
     loads = np.array([study.end_diastolic_pressure.lv, study.end_diastolic_pressure.rv])

@@ -1,6 +1,6 @@
-"""Fifty coarse virtual hearts in two shards, beside what was planned for them; writes docs/campaign.md in 15 minutes.
+"""Fifty coarse virtual hearts in two shards compared with their forecast; writes docs/campaign.md, 15 minutes.
 
-The plan rests on five others that are run before, and all is done by the commands that a user has: costs, shards, join.
+The forecast uses the costs of five other hearts, run before. All steps are user commands: costs, shards, join.
 """
 
 import shutil
@@ -35,7 +35,7 @@ DRAWN = ("sigma_0", "mu", "c_1", "R_p")
 
 
 def main() -> int:
-    """Run few, plan many, run many, and write the page."""
+    """Run a small study, forecast the large one, run it, and write the page."""
     shutil.rmtree(FOLDER, ignore_errors=True)
     few = ran(configured("few", SMALL))
     print(f"{SMALL} subjects took {few.wall:.0f} s", flush=True)
@@ -54,7 +54,7 @@ def main() -> int:
 
 
 def configured(name: str, number: int) -> Path:
-    """The configuration of a study of so many virtual hearts, the first of which is its reference."""
+    """Configuration of a study of virtual hearts, the first of which is the reference."""
     rows = [subject(seed) for seed in range(1, number + 1)]
     cases = FOLDER / f"{name}.tsv"
     write_text(cases, pd.DataFrame(rows).to_csv(sep="\t", index=False, float_format="%.4g"))
@@ -64,7 +64,7 @@ def configured(name: str, number: int) -> Path:
 
 
 def subject(seed: int) -> dict[str, object]:
-    """The row of a healthy heart: its anatomy, and parameters about the average heart's."""
+    """Row of a healthy heart: its anatomy, and parameters drawn around the average heart's."""
     anatomy = draw_anatomy(seed)
     shape, drawn = anatomy.shape, np.random.default_rng(seed).uniform(0.9, 1.1, len(DRAWN))
     return {
@@ -77,20 +77,20 @@ def subject(seed: int) -> dict[str, object]:
 
 
 def costs() -> tuple[list[Need], list[Footprint]]:
-    """Costs and files of the few subjects."""
+    """Costs and files of the small study."""
     folder = FOLDER / "costs"
     return read_table(Need, folder / NEEDS), read_table(Footprint, folder / FOOTPRINTS)
 
 
 def subjects(shard: Path) -> Subjects:
-    """Those of a shard."""
+    """Configuration files of a shard."""
     study = read_study([*CONFIGURATION, shard])
     cases = read_cases(Path(study.cases))
     return Subjects(len(cases), "virtual", 1, len(study.sigma_points(SETTING, cases[0])))
 
 
 def run_heartfit(*arguments: object) -> None:
-    """Carry out a command of heartfit; raises RuntimeError if it refuses."""
+    """Run a command of heartfit; raises RuntimeError if it fails."""
     if heartfit([*map(str, arguments)]):
         raise RuntimeError(f"heartfit {' '.join(map(str, arguments))} failed; what it said stands above")
 
@@ -126,7 +126,7 @@ def ran(file: Path) -> Ran:
 
 
 def own_time(process: int, before: float) -> float:
-    """CPU seconds of a process alone, or those of before if it has gone."""
+    """CPU time of a process without its children [s], or the previous value if it has ended."""
     try:
         used = psutil.Process(process).cpu_times()
     except psutil.NoSuchProcess:

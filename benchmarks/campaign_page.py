@@ -1,4 +1,4 @@
-"""The page of fifty subjects, in Markdown."""
+"""Page of fifty subjects, in Markdown."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,12 +8,12 @@ from heartfit.core.pages import render_page
 from heartfit.study.forecast import Part, total_of
 
 STUDY_S = 10.0
-"""Seconds of a mean job of the whole study, docs/cluster.md."""
+"""Mean duration of a job of the whole study [s], docs/cluster.md."""
 
 
 @dataclass(frozen=True)
 class Ran:
-    """A study that was run: its folder, what it came to, its time on the wall and Snakemake's own CPU time, s."""
+    """A completed study: its folder, its totals, its wall time and the CPU time of Snakemake [s]."""
 
     results: Path
     part: Part
@@ -22,7 +22,7 @@ class Ran:
 
 
 def campaign_page(few: Ran, planned: Sequence[Part], runs: Sequence[Ran], merged: int, cpus: int) -> str:
-    """Planned beside measured figures, and the time that Snakemake took for itself."""
+    """Compare forecast and measured figures, with the CPU time of Snakemake."""
     wanted, measured = total_of(planned), total_of([run.part for run in runs])
     rows = [
         ("jobs", wanted.jobs, measured.jobs),

@@ -1,4 +1,4 @@
-"""Beats on ever finer meshes with ever shorter steps; writes docs/convergence.md, in a quarter of an hour."""
+"""Beats on successively finer meshes with shorter time steps; writes docs/convergence.md, a quarter of an hour."""
 
 import sys
 from collections.abc import Iterator
@@ -24,7 +24,7 @@ def main() -> None:
 
 
 def announced(rows: Iterator[Row]) -> Iterator[Row]:
-    """The rows, each said as it comes."""
+    """Yield the rows and print each one."""
     for row in rows:
         sys.stdout.write(f"{row.size.tetrahedra} tetrahedra, {row.scheme}, {1e3 * row.time_step:g} ms\n")
         sys.stdout.flush()

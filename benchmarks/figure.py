@@ -1,11 +1,14 @@
-"""A figure of the page of performance beside its target."""
+"""Figure of the page of performance with its target."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Figure:
-    """``measured`` should be at most ``target``, or with ``at_least`` not less; ``tried`` is for where it is missed."""
+    """A measured value with its target: an upper limit, or with ``at_least`` a lower one.
+
+    tried: attempts to reach a missed target.
+    """
 
     name: str
     measured: float
@@ -20,6 +23,6 @@ class Figure:
         return self.measured >= self.target if self.at_least else self.measured <= self.target
 
     def row(self) -> str:
-        """The line of the table."""
+        """Return the row of the table."""
         sign, verdict = "≥" if self.at_least else "≤", "met" if self.met else "**missed**"
         return f"| {self.name} | {self.measured:.3g} | {sign} {self.target:g} | {self.unit} | {verdict} |\n"

@@ -5,5 +5,5 @@ from numpy.typing import ArrayLike
 
 
 def growth(sizes: ArrayLike, costs: ArrayLike) -> float:
-    """Exponent a of the cost c n^a that fits best in logarithms; 2 values or more."""
+    """Exponent a of the cost c n^a by least squares of logarithms, from 2 or more values."""
     return float(np.polyfit(np.log(sizes), np.log(costs), 1)[0])

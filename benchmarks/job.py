@@ -19,7 +19,7 @@ COMMAND = "import sys; from heartfit.cli.main import main; sys.exit(main())"
 
 @dataclass(frozen=True)
 class Job:
-    """Medians over a few runs of the whole process, and the same beat in a process that is warm; s."""
+    """Medians of some runs of the whole process, and of the same beat in a warm process [s]."""
 
     cpu: float
     wall: float
@@ -28,12 +28,12 @@ class Job:
 
     @property
     def overhead(self) -> float:
-        """CPU time beside the beat, s."""
+        """CPU time in addition to the beat [s]."""
         return self.cpu - self.beat
 
 
 def job(name: str, setting: str) -> Job:
-    """Cost of one beat on a mesh that is taken as stress-free; the kernels have been compiled."""
+    """Cost of one beat on a stress-free mesh, with compiled kernels."""
     with TemporaryDirectory() as folder:
         one_beat = Path(folder, "one_beat.yaml")
         one_beat.write_text(ONE_BEAT)
@@ -48,7 +48,7 @@ def job(name: str, setting: str) -> Job:
 
 
 def _snakemake_preamble() -> float:
-    """Time that Snakemake adds to a script [CPU s]: the module that its first line imports."""
+    """CPU time that Snakemake adds to a script [s], by the import in its first line."""
     costs = [
         np.median([run(sys.executable, "-c", line).cpu for _ in range(REPEATS)])
         for line in ("pass", "from snakemake import script")

@@ -1,4 +1,4 @@
-"""Our Newton step beside those of others on the same problem, in CPU seconds."""
+"""CPU time of our Newton step and of other programs on the same problem."""
 
 import json
 import sys
@@ -13,12 +13,12 @@ from heartfit.io.meshes import read_mesh
 
 PEERS = ("scikit_fem", "ngsolve")
 TOLERANCES = {"residual": 1e-9, "tangent": 1e-6}
-"""Largest relative differences; ours of the tangent comes from differences of forces."""
+"""Largest accepted relative differences; our tangent is compared by differences of forces."""
 
 
 @dataclass(frozen=True)
 class Newton:
-    """CPU s of the parts of a Newton step and how far the answers of the program are from ours."""
+    """CPU times of the parts of a Newton step [s], and deviations of a program's results from ours."""
 
     mesh: str
     element: str
@@ -29,12 +29,12 @@ class Newton:
 
     @property
     def total(self) -> float:
-        """Residual, tangent, factors and solution, s."""
+        """Time of residual, tangent, factorisation and solution [s]."""
         return sum(self.times.values())
 
 
 def newton_steps(mesh: str, element: str) -> list[Newton]:
-    """Ours first, then those of the others; raises RuntimeError for a program that solves another problem."""
+    """Return our step, then those of the others; raises RuntimeError if a program solves another problem."""
     problem = FOLDER / "problems" / f"{mesh}_{element}.npz"
     problem.parent.mkdir(parents=True, exist_ok=True)
     wall = read_mesh(mesh_file(mesh))
@@ -59,7 +59,7 @@ def _require_same(step: Newton) -> None:
 
 
 def main(mesh: str, element: str) -> None:
-    """Print the times of our own step."""
+    """Print the times of our step."""
     step, x = step_of(read_mesh(Path(mesh)), element)
     residual_s, residual = median_cpu(lambda: step.forces(x))
     tangent_s, factor = median_cpu(lambda: step.tangent(x))

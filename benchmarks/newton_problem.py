@@ -1,7 +1,7 @@
-r"""One Newton step that other programs can do as well.
+r"""One Newton step that other programs can compute.
 
-Mooney-Rivlin wall of bulk modulus K, fibres of constant tension, the nodes of the base held, no load: residual of the
-energy
+Mooney-Rivlin wall of bulk modulus K with fibres of constant tension, fixed nodes at the base and no load: residual of
+the energy
 
 .. math:: W = c_1 (\bar I_1 - 3) + c_2 (\bar I_2 - 3) + \tfrac\sigma2 (f \cdot C f - 1) + U(J)
 
@@ -22,14 +22,14 @@ from verification.block import ConstantTension
 
 TENSION = 30e3  # Pa
 HOLD = 1e7
-"""Springs, N/m, some thousand times a node's own stiffness: more would spoil factors in single precision."""
+"""Stiffness of the springs [N/m], about a thousand times that of a node; more would spoil single-precision factors."""
 PROBE = 1e-5
 STRAIN, PRESSURE = 0.1, 2e3  # of the state; pressure in Pa
 
 
 @dataclass(frozen=True)
 class HeldBase(Support):
-    """The nodes of the base are held, nothing else is."""
+    """Support that fixes the nodes of the base."""
 
     def stiffness(self, mesh: VentricularMesh) -> np.ndarray:
         blocks = np.zeros((len(mesh.points), 3, 3))
@@ -48,7 +48,7 @@ def base_nodes(mesh: VentricularMesh) -> np.ndarray:
 
 
 def state(mesh: VentricularMesh, dofs: int) -> np.ndarray:
-    """Smooth displacements, which vanish on the base z = 0, and wall pressures (n, dofs)."""
+    """Smooth displacements that vanish on the base z = 0, and wall pressures (n, dofs)."""
     X = (mesh.points - mesh.points.mean(axis=0)) / np.ptp(mesh.points, axis=0).max()
     x = np.zeros((len(X), dofs))
     x[:, :3] = STRAIN * mesh.points[:, 2:] * np.sin(np.pi * X[:, [1, 2, 0]] + 1.0)
@@ -58,7 +58,7 @@ def state(mesh: VentricularMesh, dofs: int) -> np.ndarray:
 
 
 def step_of(mesh: VentricularMesh, element: str) -> tuple[Step, np.ndarray]:
-    """The step of the wall, with one fibre in each tetrahedron, and the state at which it is asked."""
+    """Wall with one fibre in each tetrahedron, and the state of the Newton step."""
     active = ConstantTension(tension_of_fibres=TENSION)
     mesh = replace(mesh, orientation=None)
     body = FiniteElementBody(mesh, Tissue(MooneyRivlin(), active, support=HeldBase(), element=element))
@@ -66,8 +66,8 @@ def step_of(mesh: VentricularMesh, element: str) -> tuple[Step, np.ndarray]:
 
 
 def write_problem(path: Path, mesh: VentricularMesh, element: str) -> None:
-    """All that another program needs, and what to compare: our residual, our Newton direction, and the derivative
-    of our forces in some direction, by differences.
+    """Input for another program and our results: residual, Newton direction, and directional derivative
+    of our forces, by differences.
     """
     step, x = step_of(mesh, element)
     residual = step.forces(x)

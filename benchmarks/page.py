@@ -1,4 +1,4 @@
-"""The page of performance, in Markdown: every figure beside its target, then the tables they come from."""
+"""Page of performance, in Markdown: all figures with targets, then the tables of the measurements."""
 
 import platform
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ Cost = dict[str, float]
 
 @dataclass(frozen=True)
 class Measured:
-    """Everything that is measured in a run: beats by (mesh, setting), Newton steps, a job, spheres."""
+    """All measurements of a run: beats by (mesh, setting), Newton steps, a job, spheres."""
 
     beats: dict[tuple[str, str], Cost]
     newton: Sequence[Sequence[Newton]]
@@ -28,7 +28,7 @@ class Measured:
 
 
 def page(measured: Measured, figures: Sequence[Figure]) -> str:
-    """The page."""
+    """Render the page."""
     growths = " and ".join(f"{exponent(measured, s):.2f} (`{ELEMENTS[s]}`)" for s in ELEMENTS)
     smallest = next(iter(measured.beats.values()))
     newton = (
@@ -51,13 +51,13 @@ def page(measured: Measured, figures: Sequence[Figure]) -> str:
 
 
 def exponent(measured: Measured, setting: str) -> float:
-    """Growth of CPU seconds with the tetrahedra."""
+    """Growth exponents of the CPU time with the number of tetrahedra."""
     costs = [cost for (_, of), cost in measured.beats.items() if of == setting]
     return growth([c["tetrahedra"] for c in costs], [c["cpu_s"] for c in costs])
 
 
 def iteration(measured: Measured, step: Newton) -> float:
-    """Mean CPU s of an iteration in the beat on the mesh and with the element of a Newton step."""
+    """Mean CPU time of an iteration [s] in the beat with the mesh and the element of a Newton step."""
     setting = next(setting for setting, element in ELEMENTS.items() if element == step.element)
     beat = measured.beats[step.mesh, setting]
     return beat["cpu_s"] / max(beat["iterations"], 1.0)

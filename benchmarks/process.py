@@ -1,4 +1,4 @@
-"""Programs that are measured, each in a process of its own on one thread."""
+"""Measured programs, each in a separate single-threaded process."""
 
 import json
 import os
@@ -14,12 +14,12 @@ from benchmarks.ventricles import FOLDER, ROOT
 
 THREADS = ("OMP", "OPENBLAS", "MKL", "NUMBA")
 PYTHON = FOLDER / "peers" / ("Scripts" if os.name == "nt" else "bin") / "python"
-"""The interpreter of the environment that holds the other programs and nothing of ours."""
+"""Interpreter of the environment with the other programs, without ours."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """Time of a process from start to end, s, and what it printed."""
+    """Wall time of a process [s], and its output."""
 
     cpu: float
     wall: float
@@ -42,7 +42,7 @@ def ask(*arguments: str | Path, python: Path | str = sys.executable) -> dict[str
 
 
 def install_peers() -> None:
-    """Install the other programs of requirements.txt into their own environment, once."""
+    """Install the other programs of requirements.txt into a separate environment, once."""
     if not PYTHON.exists():
         run(sys.executable, "-m", "venv", PYTHON.parents[1])
     run(PYTHON, "-m", "pip", "install", "--quiet", "--requirement", ROOT / "benchmarks" / "requirements.txt")

@@ -1,4 +1,4 @@
-"""The compiled beat of spheres, alone and beside PhysioBlocks on its own case: `python -m benchmarks.sphere`."""
+"""Compiled beat of spheres, alone and compared with PhysioBlocks on its case: `python -m benchmarks.sphere`."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -27,11 +27,11 @@ REPEATS, SMALL, MANY = 100, 5, 25
 THEIRS = "PhysioBlocks, reference case of 1000 steps a beat"
 OURS = "ours, the same case"
 TOLERANCE = 0.02
-"""Largest relative L2 departure of volume and pressure; the tests hold their rates to it too."""
+"""Largest relative L2 deviation of volume and pressure; the tests also apply it to their rates."""
 
 
 def cost(run: Callable[[int], Beat]) -> tuple[float, float]:
-    """CPU s of a beat more in a run, and of what a run takes beside its beats: medians, kernels compiled."""
+    """CPU time of an additional beat and of the overhead of a run [s]: medians, with compiled kernels."""
     few, many = (_median(lambda n=n: run(n)) for n in (SMALL, MANY))
     beat = (many - few) / (MANY - SMALL)
     return beat, few - SMALL * beat
@@ -48,13 +48,13 @@ def _median(work: Callable[[], Beat]) -> float:
 
 
 def standard(spheres: Sequence[Sphere], activation: Floats, beats: int) -> Beat:
-    """So many beats of the standard heart at 5 ms, none of them taken as periodic."""
+    """Simulate a number of beats of the standard heart at 5 ms, without the criterion of periodicity."""
     heart = Heart().with_parameters({"sigma_0": 150e3})
     return simulate_spheres(heart, spheres, Numerics(max_beats=beats, drift=0.0), activation)
 
 
 def costs() -> dict[str, tuple[float, float]]:
-    """CPU s of a beat and beside the beats, by case; PhysioBlocks has one number."""
+    """CPU time of a beat and of the overhead [s], by case; PhysioBlocks has one number."""
     ours = {name: cost(lambda n, case=case: standard(*case, n)) for name, case in CASES.items()}
     theirs = physioblocks()
     differences = departures(theirs, reference_beat())
@@ -67,18 +67,18 @@ def costs() -> dict[str, tuple[float, float]]:
 
 
 def physioblocks() -> dict[str, Any]:
-    """CPU s of a beat of PhysioBlocks in its own environment, and its last cycle."""
+    """CPU time of a beat of PhysioBlocks in its environment [s], and its last cycle."""
     return ask(ROOT / "benchmarks" / "peers" / "physioblocks_beat.py", python=PYTHON)
 
 
 def departures(theirs: dict[str, Any], ours: Beat) -> dict[str, float]:
-    """Relative L2 departures of our volume and pressure from theirs."""
+    """Relative L2 deviations of our volume and pressure from theirs."""
     curves = {"volume": ours.volume["lv"], "pressure": ours.pressure["lv"]}
     return {name: departure(curve, np.array(theirs[name])) for name, curve in curves.items()}
 
 
 def figures(measured: dict[str, tuple[float, float]]) -> list[Figure]:
-    """The figures with targets."""
+    """Return the figures with targets."""
     first, ratio = measured[next(iter(CASES))][0], measured[THEIRS][0] / measured[OURS][0]
     return [
         Figure("beat of a sphere, 166 steps, 1 fibre class", 1e3 * first, 0.15, "CPU ms"),
@@ -87,7 +87,7 @@ def figures(measured: dict[str, tuple[float, float]]) -> list[Figure]:
 
 
 def rows(measured: dict[str, tuple[float, float]]) -> list[tuple[str, str, str]]:
-    """Name, CPU ms of a beat, CPU ms beside the beats."""
+    """Name, CPU time of a beat [ms], CPU time of the overhead [ms]."""
     return [(name, f"{1e3 * beat:.3f}", f"{1e3 * beside:.2f}") for name, (beat, beside) in measured.items()]
 
 

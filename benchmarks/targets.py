@@ -1,4 +1,4 @@
-"""Targets of the figures, and attempts where a target is missed."""
+"""Targets of the figures, and attempts for missed targets."""
 
 from collections.abc import Sequence
 
@@ -8,7 +8,7 @@ from benchmarks.newton import Newton
 from benchmarks.page import ELEMENTS, Measured, exponent
 
 LARGEST = {"3k": 0.6, "10k": 2.5}
-"""CPU s of a beat, `mixed`."""
+"""CPU time of a beat [s], `mixed`."""
 GROWTH, OVERHEAD = 1.3, 0.6
 FASTER = {"scikit-fem": 20.0, "NGSolve": 10.0}
 
@@ -31,7 +31,7 @@ START = (
 
 
 def figures(measured: Measured) -> list[Figure]:
-    """Every figure with a target."""
+    """Return all figures with targets."""
     beats = [
         Figure(
             f"beat of {mesh}, `mixed`", measured.beats[mesh, "physical"]["cpu_s"], most, "CPU s", tried=BEAT

@@ -1,4 +1,4 @@
-"""The same ventricles in four fillings, kept on disk: the mesher cannot be seeded."""
+"""Four meshes of the same ventricles, stored on disk."""
 
 from pathlib import Path
 
@@ -20,11 +20,11 @@ SIZES = {
     "30k": (3.5e-3, 0.25e-3),
     "100k": (2.34e-3, 0.25e-3),
 }
-"""Edge length and tolerance, m, that fill the wall with about so many tetrahedra."""
+"""Edge length and tolerance [m] by the approximate number of tetrahedra."""
 
 
 def mesh_file(name: str) -> Path:
-    """The file of the mesh with this name, filled now if there is none yet."""
+    """File of a named mesh, which is generated if it does not exist."""
     path = FOLDER / "meshes" / f"{name}.vtu"
     if not path.exists():
         write_mesh(path, assign_activation(prepare(fill_wall(SHAPE.surface(), *SIZES[name]))))

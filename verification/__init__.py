@@ -1,1 +1,1 @@
-"""Checks of the simulator against answers that nobody here produced, beside the package."""
+"""Checks of the simulator against closed forms and published results, outside the package."""

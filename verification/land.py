@@ -11,16 +11,16 @@ the normal, counted from the parallel to the meridian, and are taken at the cent
 
 The three problems of the N-version benchmark of cardiac mechanics, with the elements and the steps of the wall.
 
-1. A beam of 10 x 1 x 1 mm, clamped at x = 0, fibres along x, under 4 Pa from below; asked for is its tip, the point
+1. A beam of 10 x 1 x 1 mm, clamped at x = 0, fibres along x, under 4 Pa from below; the result is its tip, the point
    (10, 0.5, 1) mm. Half of it is solved, u_y = 0 in the plane of symmetry.
-2. A truncated ellipsoid of isotropic tissue, clamped at its base, under 10 kPa; asked for are its apices, the nodes on
-   the axis at endocardium and epicardium.
+2. A truncated ellipsoid of isotropic tissue, clamped at its base, under 10 kPa; the results are its apices, the nodes
+   on the axis at endocardium and epicardium.
 3. The same with fibres turning by 180 degrees, under 15 kPa and a second Piola-Kirchhoff stress of 60 kPa along them.
 
 The benchmark is incompressible; here K = 100 MPa. G, with which the wall pressure is stabilised, is of the order of the
-loaded tissue's shear modulus: the exponential law stiffens more than tenfold, and the modulus at rest would blur the
+loaded tissue's shear modulus: the exponential law stiffens more than tenfold, and the modulus at rest would smooth the
 pressure. In problem 3 on its middle mesh 8, 32 and 128 kPa put the endocardial apex at -12.02, -12.20 and -12.33 mm;
-the difference goes with the mesh. The expected numbers are those of the participant Simula-FEniCS,
+the difference vanishes with refinement. The expected numbers are those of the participant Simula-FEniCS,
 cubic to quintic elements, as published with the benchmark: converged to the digits given.
 Source: Land et al., Proc. R. Soc. A 471 (2015) 20150641, and the participants' results published with it.
 """
@@ -62,7 +62,7 @@ def half_beam(n_x: int, n_y: int, n_z: int) -> VentricularMesh:
 def ventricle(rings: int, sextant: int, layers: int, refined: float = 1.0) -> VentricularMesh:
     """The truncated ellipsoid with ``layers`` across the wall and ``rings`` from apex to base.
 
-    Up to ring ``sextant`` each has six nodes more than the one before. ``refined`` > 1 crowds rings at the apex
+    Up to ring ``sextant`` each has six nodes more than the one before. ``refined`` > 1 concentrates rings at the apex
     and layers at the endocardium. The apices are the first node of the first and of the last layer; ``rv_endo``
     is the epicardium once more: there is no second cavity.
     """
@@ -141,7 +141,7 @@ Size = tuple[int, int, int]
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A load for each mesh of ``sizes``, coarse to fine, and how the ``expected`` answers are read from it."""
+    """A load for each mesh of ``sizes``, coarse to fine, and the ``expected`` results with their evaluation."""
 
     title: str
     sizes: tuple[Size, Size, Size]
@@ -151,12 +151,12 @@ class Problem:
 
     @cache  # noqa: B019 the problems are constants
     def answers(self, size: Size) -> dict[str, float]:
-        """Measured on the mesh of ``size``, by the names of the expected; raises StepFailed."""
+        """Measured results on the mesh of ``size``, by the names of the expected ones; raises StepFailed."""
         loading = self.load(size)
         return dict(zip(self.expected, self.read(loading, equilibrium(loading)), strict=True))
 
     def deviation(self, name: str, size: Size) -> float:
-        """Deviation of an answer from the expected one [%]."""
+        """Deviation of a result from the expected one [%]."""
         return 100.0 * (self.answers(size)[name] / self.expected[name] - 1.0)
 
 
@@ -230,17 +230,17 @@ SOURCE = "Land et al. 2015, Simula-FEniCS"
 
 
 def coarse_land_checks() -> list[Check]:
-    """On the coarsest meshes, 2 s of computing."""
+    """Check the coarsest meshes, 2 s of computing."""
     return [row for problem in PROBLEMS for row in _rows(problem, problem.sizes[0], COARSE)]
 
 
 def fine_land_checks() -> list[Check]:
-    """On the finest meshes, half a minute of computing."""
+    """Check the finest meshes, half a minute of computing."""
     return [row for problem in PROBLEMS for row in _rows(problem, problem.sizes[-1], FINE)]
 
 
 def land_table() -> str:
-    """Answers of the meshes, coarse to fine, and their deviations from the expected ones."""
+    """Results on the meshes, coarse to fine, and their deviations from the expected ones."""
     return "".join(_line(problem, name) for problem in PROBLEMS for name in problem.expected)
 
 

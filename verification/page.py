@@ -1,4 +1,4 @@
-"""The page of verification, in Markdown: no dates, no times, numbers rounded to what every machine agrees on."""
+"""Page of verification, in Markdown, without dates and times; numbers are rounded to reproducible digits."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ MISSED = "**missed**"
 
 
 def all_checks() -> list[Check]:
-    """Every check on meshes of the usual size; takes some 40 s of computing."""
+    """Run the checks on meshes of the usual size, some 40 s of computing."""
     return (
         block_checks()
         + time_order_checks()
@@ -31,12 +31,12 @@ def all_checks() -> list[Check]:
 
 
 def page_checks() -> list[Check]:
-    """Every check of the page; takes a minute of computing."""
+    """Run all checks of the page, a minute of computing."""
     return all_checks() + fine_land_checks()
 
 
 def verification_page() -> str:
-    """The page."""
+    """Render the page."""
     return render_page(
         "verification",
         checks="".join(map(_row, page_checks())),

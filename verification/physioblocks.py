@@ -1,7 +1,7 @@
-r"""The reference case of PhysioBlocks 2.0.1, a left ventricle of its authors' law, in our sphere.
+r"""Reference case of PhysioBlocks 2.0.1, a left ventricle with its authors' law, in our sphere.
 
-Its passive law, series element, activation, valves with inertance, inertia of the wall and two-stage artery take the
-slots of the standard ones; the equations are those of BCS with
+Its passive law, series element, activation, valves with inertance, inertia of the wall and two-stage artery replace
+the standard ones; the equations are those of BCS with
 
 .. math:: W = C_0 e^{C_1 (2 C + C^{-2} - 3)^2} + C_2 e^{C_3 (C - 1)^2}, \qquad C = \Lambda^2 .
 
@@ -60,7 +60,7 @@ ATRIUM = np.array(
 
 @dataclass(frozen=True)
 class TwoExponentials:
-    """The passive law of the module, in the surface of a sphere, with the viscosity ``eta``."""
+    """Passive law of the module in the wall of a sphere, with the viscosity ``eta``."""
 
     constants: tuple[float, float, float, float] = (444.0, 2.9, 69.0, 6.5)
     eta: float = 70.0
@@ -87,7 +87,7 @@ def _exponential(size: float, growth: float, g: Floats, g_x: Floats, g_xx: Float
 
 @dataclass(frozen=True)
 class Waveform(Control):
-    """A piecewise linear u(t) with the given knots (k, 2), which include its zeros; ``ahead``, s, it is early."""
+    """A piecewise linear u(t) with the given knots (k, 2), which include its zeros, advanced by ``ahead`` [s]."""
 
     knots: tuple[tuple[float, float], ...] = ()
     ahead: float = 0.0
@@ -116,7 +116,7 @@ def _mean(t: Floats, u: Floats, start: Floats, dt: float, period: float) -> Floa
 
 @dataclass(frozen=True)
 class AtrialWave(Pressure):
-    """The case's atrial pressure, beside an atrium at rest of 0 Pa."""
+    """Atrial pressure of the case, added to a resting pressure of 0 Pa."""
 
     compartments = ("left_atrium",)
     scale: float = parameter(1.0, unit="1", symbol="s", meaning="scale of the wave", off=0.0)
@@ -127,9 +127,9 @@ class AtrialWave(Pressure):
 
 
 def reference_heart() -> Heart:
-    """The heart of the case.
+    """Heart of the case.
 
-    PhysioBlocks takes u at the end of its steps of 1 ms, so on average half a step early: so does ours.
+    PhysioBlocks evaluates u at the end of its steps of 1 ms, on average half a step early; so does this heart.
     """
     active = BestelClementSorine(
         sigma_0=90e3, k_0=273e3, alpha=12.0, mu=70.0, E_s=1e8, starling=Starling(1.0, 0.0), additive=True
@@ -147,13 +147,13 @@ def reference_heart() -> Heart:
 
 
 def reference_beat(beats: int = 10, drift: float = 1e-4, inertia: Inertia = INERTIA) -> Beat:
-    """The beat of the case on its limit cycle, or the last of so many ``beats``, at their step."""
+    """Beat of the case on its limit cycle, or the last of ``beats``, with the step of PhysioBlocks."""
     numerics = Numerics(time_step=THEIR_STEP, max_beats=beats, drift=drift)
     return simulate_spheres(reference_heart(), [SPHERE], numerics, np.zeros(1), inertia)
 
 
 def departure(measured: Floats, reference: Floats) -> float:
-    """Relative L2 distance of two curves, the reference's taken from its mean."""
+    """L2 distance of two curves over the norm of the reference less its mean."""
     return float(np.linalg.norm(measured - reference) / np.linalg.norm(reference - reference.mean()))
 
 
@@ -167,11 +167,11 @@ PUBLISHED = {
     "dP/dt max": (1778.0, "mmHg/s"),
     "dP/dt min": (-1929.0, "mmHg/s"),
 }
-"""Extremes of the tenth beat of its example spherical_heart_forward_sim as shipped, run with version 2.0.1 at 1 ms."""
+"""Extremes of the tenth beat of its example spherical_heart_forward_sim, unchanged, run with version 2.0.1 at 1 ms."""
 
 
 def physioblocks_checks() -> list[Check]:
-    """Each extreme within 2 %."""
+    """Check each extreme to 2 %."""
     beat = reference_beat()
     V, P = beat.volume["lv"] / MILLILITRE, beat.pressure["lv"] / MMHG
     q, dP = np.gradient(V, beat.time), np.gradient(P, beat.time)

@@ -1,8 +1,8 @@
 """Effect of the stress-free reference on a beat.
 
-The reference is found for the very parameters that beat ("own"), frozen at the standard c_1 while c_1 varies, or the
-end-diastolic mesh is taken as stress-free (the paper does not say which). c_1 varies as at its sigma points for four
-parameters.
+The reference is computed for the parameters of the beat ("own"), or for the standard c_1 while c_1 varies ("frozen"),
+or the end-diastolic mesh is assumed to be stress-free (the paper does not say which). c_1 varies as at its sigma
+points for four parameters.
 """
 
 from collections.abc import Mapping
@@ -31,7 +31,7 @@ SPREAD = 2.0
 
 @dataclass(frozen=True)
 class Variant:
-    """A heart whose ln c_1 is ``z`` standard deviations off, on one of three references."""
+    """A heart with ln c_1 shifted by ``z`` standard deviations, on one of three references."""
 
     name: str
     reference: str
@@ -55,7 +55,7 @@ VARIANTS = (
 
 @dataclass(frozen=True)
 class Finding:
-    """EDV of each ventricle over the measured one, and the observations of the left one's curve, SI."""
+    """EDV of each ventricle over the measured one, and the observations of the left one's curve [SI]."""
 
     filled: dict[str, float]
     observed: dict[str, float]
@@ -64,7 +64,7 @@ class Finding:
 def find(
     mesh: VentricularMesh, pressures: Floats, numerics: Numerics, variants: tuple[Variant, ...] = VARIANTS
 ) -> dict[str, Finding]:
-    """Findings by name of the variant; raises StepFailed if one cannot be unloaded, ValueError if it does not beat."""
+    """Results by name of the variant; raises StepFailed if one cannot be unloaded, ValueError if its beat fails."""
     return {variant.name: _find(variant, mesh, pressures, numerics) for variant in variants}
 
 
@@ -132,12 +132,12 @@ def refilled() -> float:
 
 @cache
 def first_beats() -> dict[str, Finding]:
-    """On the coarse specimen, one beat each, at 10 ms."""
+    """Run one beat of each variant of the coarse specimen at 10 ms."""
     return find(specimen(COARSE), END_DIASTOLIC_PRESSURE, Numerics(time_step=1e-2, max_beats=1))
 
 
 def reference_table(findings: Mapping[str, Finding]) -> str:
-    """A row for each finding, in Markdown."""
+    """Render a row for each result, in Markdown."""
     return HEADER + "".join(_row(name, finding) for name, finding in findings.items())
 
 

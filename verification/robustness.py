@@ -1,8 +1,8 @@
 r"""Beats of hearts drawn at random from the prior of the paper's fourteen parameters.
 
 Each parameter is log-normal about its declared value, :math:`\theta = \theta_0 e^{s z}` with its declared
-deviation s and :math:`|z| \le 3`: a normal variable cut there, or, to try the corners that a normal one hardly
-ever sees in fourteen dimensions, a uniform one.
+deviation s and :math:`|z| \le 3`: a truncated normal variable, or a uniform one, which reaches the corners that a
+normal one hardly ever does in fourteen dimensions.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -32,7 +32,7 @@ Law = Callable[[np.random.Generator, tuple[int, int]], Floats]
 
 
 def normal(rng: np.random.Generator, shape: tuple[int, int]) -> Floats:
-    """Standard normal numbers, drawn again while beyond the cut."""
+    """Draw standard normal numbers, again while beyond the cut."""
     z = rng.standard_normal(shape)
     while (far := np.abs(z) > CUT).any():
         z[far] = rng.standard_normal(int(far.sum()))
@@ -40,13 +40,13 @@ def normal(rng: np.random.Generator, shape: tuple[int, int]) -> Floats:
 
 
 def uniform(rng: np.random.Generator, shape: tuple[int, int]) -> Floats:
-    """Uniform numbers up to the cut."""
+    """Draw uniform numbers up to the cut."""
     return rng.uniform(-CUT, CUT, shape)
 
 
 @dataclass(frozen=True)
 class Campaign:
-    """``count`` hearts of an element, about the declared values or those of ``centre``, from one seed."""
+    """Draw ``count`` hearts of an element, around the declared values or those of ``centre``, from one seed."""
 
     name: str
     element: str
@@ -104,7 +104,7 @@ Say = Callable[[str], None]
 
 
 def robustness_page(campaigns: Sequence[Campaign] = CAMPAIGNS, say: Say = lambda _: None) -> str:
-    """The page; a quarter of an hour. ``say`` is told how far it is."""
+    """Render the page, a quarter of an hour; ``say`` receives messages of progress."""
     mesh = specimen()
     outcomes = [(campaign, _run(campaign, mesh, say)) for campaign in campaigns]
     return render_page(
@@ -172,7 +172,7 @@ def _far(z: np.ndarray) -> str:
 
 
 def _collapsed(outcomes: Sequence[tuple[Campaign, Sequence[Trial]]]) -> dict[str, int]:
-    """Number of completed beats with a negative volume, by campaign; none where there is none."""
+    """Number of completed beats with a negative volume, by campaign; omits campaigns without any."""
     counts = {campaign.name: sum(map(_inverted, trials)) for campaign, trials in outcomes}
     return {name: count for name, count in counts.items() if count}
 
