@@ -1,4 +1,4 @@
-"""The page of other methods has every row of its tables; the hearts in 3-D are problems as those of the spheres are."""
+"""Page of the competing methods: all rows of its tables; hearts in 3-D are problems like those of the spheres."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ def test_the_page_has_every_method_and_every_noise() -> None:
     shares = sphere_coverage_table({"volume": [Coverage("nothing", "R = 0", ("sigma_0",), np.zeros((8, 1)))]})
     study = read_study([ROOT / "config" / "config.yaml"]).sphere_study
     text = page(race, shares, study)
-    assert f"{study.covered} spheres each" in text
+    assert f"{study.covered} spheres" in text
     assert "| volume     | unscented, R = 0 | 9" in text
     assert "| volume     | nothing   | R = 0   | 100.0 " in text
     assert "{" not in text

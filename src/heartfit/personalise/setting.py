@@ -1,4 +1,4 @@
-"""Settings: which model, which parameters are estimated, and from which prior."""
+"""Settings: model, estimated parameters and prior."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
@@ -17,13 +17,13 @@ from heartfit.roles import Mechanism, Sensor, registered
 
 
 def declaration(name: str) -> Parameter:
-    """The declaration of a parameter by a name as Heart.with_parameters takes; raises KeyError as it does."""
+    """Return the declaration of a parameter, named as in Heart.with_parameters; raises KeyError for an unknown name."""
     return _declared(name, tuple(registered().values()))
 
 
 @cache
 def _declared(name: str, known: tuple[type[Mechanism], ...]) -> Parameter:
-    """Kept for a state of the registry: the jobs of a study ask for the same few names over and over."""
+    """Return a declaration, cached for a state of the registry: jobs repeatedly use the same few names."""
     heart = compose_heart(kind.__name__ for kind in known)
     *parts, last = heart.parameter_path(name).split(".")
     part: Any = heart
@@ -37,7 +37,7 @@ def _mechanism(heart: Heart, name: str) -> Any:
 
 
 def compose_heart(mechanisms: Iterable[str], heart: Heart | None = None) -> Heart:
-    """A heart (the standard one) plus mechanisms by name; raises KeyError naming the nearest known one."""
+    """Return a heart (the standard one) plus named mechanisms; raises KeyError with the nearest known name."""
     known, result = registered(), heart or Heart()
     for name in mechanisms:
         if name not in known:
@@ -50,7 +50,7 @@ def compose_heart(mechanisms: Iterable[str], heart: Heart | None = None) -> Hear
 
 
 def parameter_page() -> str:
-    """The reference page of all parameters, in Markdown."""
+    """Render the reference page of all parameters, in Markdown."""
     table = "".join(_row(path, entry) for path, entry in _all_parameters())
     return render_page("parameters", table=table)
 
@@ -78,27 +78,27 @@ Element = Literal["mixed", "p1", "sphere"]
 
 
 class Prior(Strict):
-    """Median and relative standard deviation of a parameter; where nothing is said, the declared ones."""
+    """Median and relative standard deviation of a parameter; by default the declared ones."""
 
     mean: PositiveFloat | None = None
     sd: Annotated[float | None, Field(gt=0, lt=1)] = None
 
     def over(self, other: "Prior | Parameter") -> "Prior":
-        """Fields of this prior, completed by those of `other`."""
+        """Return this prior, completed by the fields of `other`."""
         base = Prior(mean=other.value, sd=other.sd) if isinstance(other, Parameter) else other
         return Prior(mean=self.mean or base.mean, sd=self.sd or base.sd)
 
 
 class Setting(Strict):
-    """A model and what is estimated of it."""
+    """A model with its estimated and fixed parameters."""
 
     element: Element
     reference: Literal["unloaded", "end_diastolic"] = Field("unloaded", description="the stress-free state")
     mechanisms: tuple[str, ...] = Field((), description="added to the heart, by name")
     estimate: tuple[str, ...] = Field(min_length=1)
-    with_pressure: tuple[str, ...] = Field((), description="estimated too where the LV pressure is measured")
+    with_pressure: tuple[str, ...] = Field((), description="estimated, too, if the LV pressure is measured")
     heart: dict[str, float] = Field({}, description="parameters that differ from their declared value")
-    prior: dict[str, Prior] = Field({}, description="what differs from the study's prior")
+    prior: dict[str, Prior] = Field({}, description="differences from the study's prior")
 
     @model_validator(mode="after")
     def _names_are_sound(self) -> Self:
@@ -120,13 +120,13 @@ class Setting(Strict):
         return self
 
     def with_lv_pressure(self) -> "Setting":
-        """The setting of a case whose LV pressure is measured."""
+        """Return the setting of a case with a measured LV pressure."""
         return self.model_copy(
             update={"estimate": (*self.estimate, *self.with_pressure), "with_pressure": ()}
         )
 
     def with_estimated(self, names: Sequence[str]) -> "Setting":
-        """The setting with these parameters estimated instead; one that was fixed is the mean of its prior."""
+        """Return the setting with these parameters estimated instead; a fixed value becomes the mean of the prior."""
         freed = {name: Prior(mean=value) for name, value in self.heart.items() if name in names}
         prior = self.prior | {name: mean.over(self.prior.get(name, Prior())) for name, mean in freed.items()}
         fixed = {name: value for name, value in self.heart.items() if name not in names}
@@ -134,7 +134,7 @@ class Setting(Strict):
         return self.model_copy(update=changes)
 
     def with_prior(self, table: Mapping[str, Prior]) -> "Setting":
-        """The setting with the prior complete: its own, over the study's, over the declared one."""
+        """Return the setting with a complete prior: the setting's, then the study's, then the declared one."""
         signed = [name for name in self.estimate if declaration(name).low < 0.0]
         if signed:
             raise ValueError(
@@ -150,17 +150,17 @@ class Setting(Strict):
         return self.model_copy(update={"prior": merged})
 
     def gaussian(self) -> Gaussian:
-        """The complete prior."""
+        """Return the complete prior."""
         means = {name: self.prior[name].mean or 0.0 for name in self.estimate}
         return Gaussian.from_relative(means, {name: self.prior[name].sd or 0.0 for name in self.estimate})
 
     def base_heart(self, period: float) -> Heart:
-        """The heart at the mean of the prior."""
+        """Return the heart at the mean of the prior."""
         heart = compose_heart(self.mechanisms, Heart(tissue=Tissue(element=self.element), period=period))
         return heart.with_parameters({**self.heart, **self.gaussian().physical()})
 
     def sensors(self, parameters: Mapping[str, float]) -> tuple[Sensor, ...]:
-        """The sensors through which a beat with these parameters is observed; `parameters` by name, SI."""
+        """Return the sensors that observe a beat with these parameters; `parameters` by name [SI]."""
         return compose_heart(self.mechanisms).with_parameters({**self.heart, **parameters}).sensors
 
     def units(self) -> dict[str, str]:
@@ -169,7 +169,7 @@ class Setting(Strict):
 
 
 def require_known(name: str) -> None:
-    """Raise ValueError, as validation wants it, when no parameter has this name."""
+    """Raise ValueError, as required for validation, if no parameter has this name."""
     try:
         declaration(name)
     except KeyError as unknown:

@@ -1,10 +1,10 @@
-r"""The three-dimensional model of a case, and its extension by mechanisms.
+r"""Three-dimensional model of a case, and its extension by mechanisms.
 
-Every unknown of an extension is a coordinate with its own prior. Those that the setting estimates are
+Every unknown of an extension is a coordinate with a prior. Those of estimated parameters are
 
 .. math:: \theta_i = \bar\theta_i e^{s_i x_i}, \qquad x \sim N(0, 1) .
 
-Parameters that the setting holds fixed and the search on the sphere leaves free, and the unknowns of a mechanism, have
+Parameters that are fixed in the setting and free in the search on the sphere, and the unknowns of a mechanism, have
 the priors of that search.
 """
 
@@ -37,8 +37,8 @@ from heartfit.roles import registered
 class Extension:
     """A setting with its complete prior, and added mechanisms, possibly none.
 
-    freed: further unknowns that the setting does not estimate; element: replaces the setting's, since a misfit may be
-    the simulator's and not the patient's.
+    freed: further unknowns that the setting does not estimate; element: replaces the setting's, since the
+    simulator may cause a misfit.
     """
 
     base: Setting
@@ -48,11 +48,11 @@ class Extension:
 
     @classmethod
     def from_names(cls, base: Setting, *names: str) -> "Extension":
-        """The setting extended by mechanisms of the registry."""
+        """Return the setting extended by mechanisms of the registry."""
         return cls(base, tuple(Candidate.from_mechanism(registered()[name]) for name in names))
 
     def with_free_parameters(self) -> "Extension":
-        """The extension with all parameters of the search free: one held at a wrong value looks like an effect."""
+        """Return the extension with all parameters of the search free; a wrong fixed value would resemble an effect."""
         freed = tuple(
             parameter
             for parameter in HEART_PARAMETERS
@@ -62,7 +62,7 @@ class Extension:
 
     @property
     def setting(self) -> Setting:
-        """The setting with the added mechanisms."""
+        """Return the setting with the added mechanisms."""
         names = (*self.base.mechanisms, *self.effects)
         return self.base.model_copy(
             update={"mechanisms": names, "element": self.element or self.base.element}

@@ -1,4 +1,4 @@
-r"""An extension fitted to samples: one unscented step, then steps of one beat each.
+r"""Fit of an extension to samples: one unscented step, then steps of one beat each.
 
 The points of the unscented step lie one standard deviation of the prior to either side of its mean, the mechanism
 switched on. Its slopes :math:`A = \mathrm{Cov}(Z, X) P^{-1}` start the descent of
@@ -6,12 +6,10 @@ switched on. Its slopes :math:`A = \mathrm{Cov}(Z, X) P^{-1}` start the descent 
 .. math:: \tfrac12 r^T R^{-1} r + \tfrac12 |x|^2 ,
 
 see :mod:`heartfit.discovery.inference.descent`: a step costs one beat, and Broyden's update corrects the slopes after
-each. Slopes are never renewed: a 3-D beat is too expensive, and its limit cycle too rough for short
-differences. The end
-of the descent is the estimate, with the covariance :math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. An
-extension
-may also start at the end of the model without it, with the slopes there: that takes a fifth of the beats, and a weak
-effect is not lost on the way. Laplace's approximation
+each. Slopes are never recomputed: a 3-D beat is too expensive, and its limit cycle too rough for short differences.
+The end of the descent is the estimate, with the covariance :math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. An
+extension may also start at the estimate of the model without it, with the slopes there. This takes a fifth of the
+beats, and does not miss weak effects. Laplace's approximation
 
 .. math:: \ln Z = -\tfrac12 r^T R^{-1} r - \tfrac12 |x|^2 + \tfrac12 \ln |C|
           + \sum_{a \ge 0} \ln 2 \Phi(x_a / \sigma_a) + \mathrm{const}
@@ -38,14 +36,14 @@ Run = Callable[[Extension, Mapping[str, float]], Beat]
 """Map from an extended setting and all its parameters, by name [SI], to a beat."""
 
 OBJECTIVE_TOLERANCE = 0.3
-"""[ln Z]: a smaller predicted decrease changes no verdict."""
+"""Predicted decrease that ends the descent [ln Z]; a smaller one changes no verdict."""
 LONGEST_STEP = 1.5
-"""Along a coordinate [prior standard deviations]: slopes are not valid further."""
+"""Longest step along a coordinate [prior standard deviations], the range in which slopes are valid."""
 LEAST_DAMPING = 0.1
 SCHEDULE = Schedule(
     OBJECTIVE_TOLERANCE, LEAST_DAMPING, longest_step=LONGEST_STEP, correct_on_failure=True, active_set=True
 )
-"""Simulations are expensive: every one corrects the slopes, and none is spent on differences."""
+"""Schedule for expensive simulations: every one corrects the slopes, and none is used for finite differences."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +51,8 @@ class Refit:
     """Names (d,), estimate x (d,) and covariance (d, d) of an extension's coordinates, and its parameters there [SI].
 
     misfit: r^T R^-1 r of n samples at the estimate; objective: the minimised function; log_evidence: up to a
-    constant of
-    the samples; simulations: number of beats; converged: no step was predicted to lower the objective; predicted (n,),
-    slopes (n, d): of the samples at the estimate.
+    constant of the samples; simulations: number of beats; converged: no step was predicted to lower the objective;
+    predicted (n,), slopes (n, d): of the samples at the estimate.
     """
 
     names: tuple[str, ...]
@@ -80,8 +77,8 @@ class Refit:
 def refit(extension: Extension, run: Run, target: Target, most: int, amplitude: float = 1.0) -> Refit:
     """Refit an extension by an unscented step and at most ``most`` steps of one beat.
 
-    amplitude: of the mechanism at the centre of the unscented step [scales]. Raises CalibrationError where the beat
-    there or too many about it fail.
+    amplitude: of the mechanism at the centre of the unscented step [scales]. Raises CalibrationError if the
+    beat there or too many around it fail.
     """
     forward = _Forward(extension, run, target)
     start = extension.start(amplitude)
@@ -89,9 +86,9 @@ def refit(extension: Extension, run: Run, target: Target, most: int, amplitude: 
 
 
 def continue_refit(extension: Extension, run: Run, target: Target, most: int, base: Refit) -> Refit:
-    """Refit from the end of the model without the last mechanisms, with these at half a scale.
+    """Refit from the estimate of the model without the last mechanisms, with these at half a scale.
 
-    Raises CalibrationError where the beat there fails.
+    Raises CalibrationError if the beat there fails.
     """
     forward = _Forward(extension, run, target)
     kept = base.estimate.size
@@ -157,7 +154,7 @@ def _unscented(names: tuple[str, ...], forward: "_Forward", start: Floats) -> tu
 
 
 class _Forward:
-    """Prediction of the samples (n,) by an extension at coordinates (d,); None where its beat fails."""
+    """Prediction of the samples (n,) by an extension at coordinates (d,); None if its beat fails."""
 
     def __init__(self, extension: Extension, run: Run, target: Target) -> None:
         self.extension, self.run, self.target = extension, run, target
