@@ -1,4 +1,4 @@
-"""A copy of the project that a test may break, with the kernels that the project has compiled already.
+"""Copy of the project that a test may break, with the compiled kernels of the project.
 
 numba takes a kernel for compiled where it finds one of a source of the same size and date, in a folder that is named
 after the source's. A copy keeps sizes and dates, so it need not compile for most of a minute what is there already.
@@ -33,12 +33,12 @@ def copy_project(folder: Path, root: Path = ROOT) -> None:
 
 
 def kernels_of(package: Path, folder: Path) -> Path:
-    """Where numba keeps the kernels of the sources of one folder of a package."""
+    """Folder in which numba keeps the kernels of one folder of a package."""
     return folder_of_kernels(package) / str(_CacheLocator.get_suitable_cache_subpath(str(folder / "any.py")))
 
 
 def folder_of_kernels(package: Path) -> Path:
-    """The package's own answer, without importing the package: that would set NUMBA_CACHE_DIR to this project's."""
+    """Kernel folder of the package, without importing the package: that would set NUMBA_CACHE_DIR to this project's."""
     spec = spec_from_file_location("kernel_cache", ROOT / PACKAGE / "core" / "kernel_cache.py")
     assert spec is not None
     assert spec.loader is not None
@@ -48,7 +48,7 @@ def folder_of_kernels(package: Path) -> Path:
 
 
 def environment_of(folder: Path) -> dict[str, str]:
-    """The environment of processes that run the copy in a folder, with kernels of its own."""
+    """Environment of processes that run the copy in a folder, with separate kernels."""
     return {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"} | {
         "PYTHONPATH": str(folder / "src")
     }

@@ -27,7 +27,7 @@ END_DIASTOLIC_PRESSURE = np.array([1000.0, 500.0])
 
 @pytest.fixture(scope="session")
 def ventricle() -> VentricularMesh:
-    """Ventricles at end diastole, as coarse as still beats."""
+    """Ventricles at end diastole, on the coarsest mesh that beats."""
     return specimen(COARSE)
 
 
@@ -44,7 +44,7 @@ def coarse_body(unloaded: VentricularMesh) -> FiniteElementBody:
 
 @pytest.fixture(scope="session")
 def spherical_heart() -> Heart:
-    """The standard heart, with the contractility that suits :func:`spheres`."""
+    """Standard heart, with a contractility for :func:`spheres`."""
     return Heart().with_parameters({"sigma_0": 150e3})
 
 
@@ -56,7 +56,7 @@ def spheres(spherical_heart: Heart) -> SphericalBody:
 
 
 def _first_folder(places: tuple[str, ...], content: str) -> Path | None:
-    """Return the first of the places with that content; a fetched licence alone is not enough."""
+    """Return the first place that has the content; a fetched licence alone is not enough."""
     root = Path(__file__).parents[1]
     return next((root / place for place in places if (root / place / content).exists()), None)
 

@@ -1,4 +1,4 @@
-"""Numbers and cells of texts that people read, so that a test holds their facts and leaves the wording free."""
+"""Numbers and cells of texts for readers, so that a test checks their facts and not their wording."""
 
 import re
 
@@ -6,7 +6,7 @@ NUMBER = re.compile(r"(?<![\w.])[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
 def numbers_in(text: str) -> list[float]:
-    """Numbers of a text in their order; a digit inside a word or after a dot is none."""
+    """Numbers of a text in their order, without digits inside a word or after a dot."""
     return [float(number.replace("−", "-")) for number in NUMBER.findall(text)]
 
 

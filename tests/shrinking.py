@@ -1,4 +1,4 @@
-"""A derivative is right when the error of central differences shrinks with the step until round-off."""
+"""Check of derivatives: the error of central differences shrinks with the step until round-off."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""A copy of the project finds the kernels that the project has compiled, and leaves data and caches out."""
+"""A copy of the project finds the compiled kernels of the project and leaves out data and caches."""
 
 import os
 import subprocess
@@ -78,7 +78,7 @@ def test_a_copied_kernel_is_not_compiled_again(tmp_path: Path) -> None:
 
 
 def hits(root: Path, x: float) -> str:
-    """Value of the kernel and how often numba found it compiled, in a process of its own."""
+    """Value of the kernel and cache hits of numba, in a separate process."""
     package = root / PACKAGE
     program = f"from beat import beat; print(beat({x}), sum(beat.stats.cache_hits.values()))"
     places = {"PYTHONPATH": str(package / "sphere"), "NUMBA_CACHE_DIR": str(folder_of_kernels(package))}

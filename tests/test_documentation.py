@@ -1,4 +1,4 @@
-"""What the documentation shows works."""
+"""Examples, links and commands of the documentation work."""
 
 import re
 from pathlib import Path
@@ -57,7 +57,7 @@ def test_every_page_stands_in_the_index_once():
 
 
 def commands_of_study(text):
-    """Commands of study.py that start a line of a text, with `run` where none is named."""
+    """Commands of study.py that start a line of a text, `run` where none is named."""
     return {
         command or "run" for command in re.findall(r"^(?:step )?python3 study\.py ?(\w*)", text, re.MULTILINE)
     }

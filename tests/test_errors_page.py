@@ -33,7 +33,7 @@ def written(node: ast.AST) -> str:
 
 
 def messages(trees: list[ast.Module], error: str) -> set[str]:
-    """What is raised, but for texts that are handed on."""
+    """Messages of an error, without texts that are passed on."""
     calls = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Call) and node.args]
     raised = {
         written(call.args[0]) for call in calls if isinstance(call.func, ast.Name) and call.func.id == error

@@ -1,4 +1,4 @@
-"""What catalogues and citation managers read agrees with the project."""
+"""Metadata for catalogues and citation managers agree with the project."""
 
 import tomllib
 from pathlib import Path

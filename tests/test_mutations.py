@@ -1,4 +1,4 @@
-"""The list of mutants fits the sources, the page shows every one of them caught, and the check itself can tell."""
+"""The list of mutants fits the sources; the page shows every mutant caught; the check distinguishes survivors."""
 
 from dataclasses import replace
 from pathlib import Path

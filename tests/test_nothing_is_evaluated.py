@@ -1,4 +1,4 @@
-"""Nothing of a user's file is unpickled, evaluated or unpacked, read from the syntax tree."""
+"""No user's file is unpickled, evaluated or unpacked, read from the syntax tree."""
 
 import ast
 from collections.abc import Iterator
@@ -20,7 +20,7 @@ MODULES = {
     "imp",
     "runpy",
 }
-"""Whose readers make objects, or files, of what they are given."""
+"""Modules whose readers make objects or files from data."""
 
 CALLS = {
     *(
@@ -41,7 +41,7 @@ CALLS = {
 HARMLESS = {"re.compile", "platform.system"}
 
 ASKED_FOR = {"diagnose.py": {"exec_module"}}
-"""A file of mechanisms is run, where somebody names it on the command line."""
+"""Exceptions: a file of mechanisms is run if it is named on the command line."""
 
 
 def name_of(call: ast.Call) -> str:
@@ -71,7 +71,7 @@ def is_dangerous(call: ast.Call, file: str) -> bool:
 
 
 def dangers(tree: ast.Module, file: str) -> Iterator[str]:
-    """What a file does that it should not, with its line."""
+    """Dangerous calls and imports of a file, with their lines."""
     for node in ast.walk(tree):
         yield from (f"line {node.lineno}: imports {name}" for name in imported(node) if name in MODULES)
         if isinstance(node, ast.Call) and is_dangerous(node, file):

@@ -1,4 +1,4 @@
-"""Scripts read, call the library and write; rules are short; everything else belongs into the library."""
+"""Scripts read, call the library and write; rules are short; all other code belongs into the library."""
 
 import ast
 import re

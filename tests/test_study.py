@@ -1,4 +1,4 @@
-"""The set-up script: what it refuses and what it adds to Snakemake's lines."""
+"""Set-up script: its refusals and its additions to Snakemake's lines."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""The page of fifty subjects: its ratios; and the rows of its subjects, which are cases."""
+"""Page of fifty subjects: its ratios and the rows of its subjects, which are cases."""
 
 from pathlib import Path
 

@@ -25,7 +25,7 @@ REPORTS = [path for path in os.environ.get("REPORTS", "").split(os.pathsep) if p
 
 @dataclass
 class Opened:
-    """A report in the browser, what the page said on the console, and what it asked for."""
+    """Report in the browser, with its console errors and its network requests."""
 
     page: Page
     errors: list[str] = field(default_factory=list)
@@ -43,7 +43,7 @@ class Opened:
 
 @pytest.fixture(scope="session", params=["made up", *REPORTS])
 def report(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A page to open: of made-up results, then those that were named."""
+    """Page to open: made-up results, then the named reports."""
     if request.param != "made up":
         return Path(request.param).resolve()
     mesh: VentricularMesh = request.getfixturevalue("ventricle")

@@ -1,4 +1,4 @@
-"""The report as a reader meets it: quiet, whole, no picture blank, and a heart that turns and beats."""
+"""Report in the browser: no console errors, no blank picture, and a heart that rotates and beats."""
 
 from io import BytesIO
 
@@ -38,12 +38,12 @@ def heart(opened: Opened) -> Locator:
 
 
 def pixels(scene: Locator) -> np.ndarray:
-    """Brightness (rows, columns) of what is on the screen."""
+    """Brightness (rows, columns) of the screen."""
     return 255.0 * np.asarray(imread(BytesIO(scene.screenshot()), "png"))[..., :3].mean(axis=2)
 
 
 def changed(before: np.ndarray, after: np.ndarray) -> float:
-    """Share of the pixels that are not as they were."""
+    """Share of the pixels that changed."""
     return float((np.abs(before - after) > SEEN).mean())
 
 

@@ -1,4 +1,4 @@
-"""What is held fixed is noise of the model: its covariance is that of the observations it moves."""
+"""Fixed parameters are noise of the model: their covariance is that of the observations they change."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Parameters go to logarithms and back; a prior that says nothing is refused."""
+"""Parameters are transformed to logarithms and back; an invalid prior is refused."""
 
 import numpy as np
 import pytest

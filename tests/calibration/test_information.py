@@ -1,4 +1,4 @@
-"""What was learnt equals the resolution of the linear-Gaussian problem."""
+"""The information gained equals the resolution of the linear-Gaussian problem."""
 
 import numpy as np
 import pytest

@@ -36,7 +36,7 @@ def test_the_first_step_is_the_unscented_one(noise, design) -> None:
 
 @given(n=some.integers(2, 7), seed=some.integers(0, 300), simplex=some.booleans())
 def test_on_a_linear_map_every_step_is_the_posterior(n: int, seed: int, simplex: bool) -> None:
-    """It neither moves on nor grows surer: the data are used once."""
+    """Estimate and covariance stay the same: the data are used once."""
     prior, a = random_prior(n, seed), slopes(n, seed)
     observed = a @ prior.mean + 0.1
     mean, covariance = kalman(prior, a, observed)

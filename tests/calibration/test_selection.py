@@ -1,4 +1,4 @@
-"""The rule takes strong and independent rows, as pivoted QR does, and both measures mean what they say."""
+"""The rule selects strong and independent rows, as pivoted QR does; both measures have their closed forms."""
 
 import numpy as np
 import pytest

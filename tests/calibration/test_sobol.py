@@ -1,4 +1,4 @@
-"""Indices of a linear map are its shares of variance, and a missing output is never taken for a number."""
+"""Indices of a linear map are its shares of variance; a missing output is excluded."""
 
 from collections.abc import Mapping
 
@@ -14,7 +14,7 @@ SAMPLES, BLOCK = 128, 5
 
 
 class Linear:
-    """Z = ln a + 4 ln b; one of the calls is answered with something else."""
+    """Z = ln a + 4 ln b; one call may return another answer."""
 
     def __init__(self, at: Mapping[int, Outcome] | None = None) -> None:
         self.at, self.calls = at or {}, 0

@@ -1,4 +1,4 @@
-"""Commands for many subjects: what they print, and what they refuse."""
+"""Commands for many subjects: printed counts and refused arguments."""
 
 import re
 from pathlib import Path

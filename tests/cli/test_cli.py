@@ -1,4 +1,4 @@
-"""The console command: exit codes, one line for bad input, and what it says of a beat."""
+"""Console command: exit codes, one line for bad input, and the summary of a beat."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""`init` writes what `check` takes, refuses what is not filled in, and overwrites nothing; `check` hides no mistake."""
+"""`init` writes files that `check` accepts, and overwrites none; unfilled entries and all mistakes are reported."""
 
 import shutil
 from pathlib import Path
@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture
 def project(tmp_path, monkeypatch):
-    """A working directory with the configuration alone."""
+    """Working directory with the configuration only."""
     (tmp_path / "config").mkdir()
     shutil.copy(ROOT / "config" / "config.yaml", tmp_path / "config")
     monkeypatch.chdir(tmp_path)
@@ -22,7 +22,7 @@ def project(tmp_path, monkeypatch):
 
 
 def lines(capsys):
-    """What went to standard error, a mistake in each line."""
+    """Lines of standard error, one mistake per line."""
     errors = capsys.readouterr().err.splitlines()
     assert all(line.startswith("heartfit: ") for line in errors)
     return errors
@@ -79,7 +79,7 @@ def test_paths_with_quotes_colons_and_other_letters_are_kept(project):
 
 
 def test_every_mistake_is_reported_at_once(project, capsys):
-    """One each in the configuration, in the row, and in a file of the data."""
+    """One mistake each in the configuration, in the row, and in a data file."""
     times = np.arange(0.0, 0.8, 0.01)
     file = record(project, time_s=times, lv_pressure=8e3 + 7e3 * np.cos(8.0 * times))
     assert main(["init", "heart1", "--fit", "nowhere", "--rr", "0.8", "--pressure", file]) == 0

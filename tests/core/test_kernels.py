@@ -90,7 +90,7 @@ def source_in(package: Path, function: Callable) -> Path:
 
 
 def test_an_edit_of_an_inlined_function_changes_the_beat(package: Path) -> None:
-    """With 500 Pa more outside the ventricles, though the kernels of the first beat are kept."""
+    """500 Pa more outside the ventricles; the kernels of the first beat are kept."""
     used = (Heart, Pericardium, Sphere, Numerics, simulate_spheres)
     script = "\n".join(
         (
@@ -128,7 +128,7 @@ def test_every_compiled_function_of_the_package_is_in_a_known_source() -> None:
 
 
 def test_sources_of_kernels_are_those_that_import_numba_and_what_they_import(tmp_path: Path) -> None:
-    """However they write it; an edit of another file keeps the kernels."""
+    """All ways of importing are recognised; an edit of another file keeps the kernels."""
     sources = {
         "a/kernel.py": "import numpy as np, numba as nb\nfrom room import b\n@nb.jit\ndef f(): return b.g()",
         "other.py": "    from numba import njit as compiled",

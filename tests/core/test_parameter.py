@@ -1,4 +1,4 @@
-"""Parameters are declared once, and refused with their name where they make no sense."""
+"""Parameters are declared once; inadmissible values are refused by name."""
 
 from dataclasses import FrozenInstanceError, dataclass
 

@@ -10,7 +10,7 @@ PERIOD = 0.8
 
 @pytest.mark.parametrize("centre", [0.02, 0.4, 0.79])
 def test_a_bump_is_one_at_its_centre_and_zero_beyond_its_feet(centre: float) -> None:
-    """Across the end of the period too; its mean over the width is a half."""
+    """The bump continues across the end of the period; its mean over the width is a half."""
     time = np.linspace(0.0, PERIOD, 8001)
     curve = bump(time, centre, 0.2, PERIOD)
     assert bump(np.array([centre, centre + PERIOD]), centre, 0.2, PERIOD) == pytest.approx([1.0, 1.0])

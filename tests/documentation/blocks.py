@@ -1,4 +1,4 @@
-"""The blocks of code of a page: found, and carried out one after the other in a folder of their own.
+"""Blocks of code of a page, run one after the other in a separate folder.
 
 A block of Python whose first line names a file is written there; any other runs. In a block of console a line that
 begins with $ is a command, and what stands below is what it prints, but for the numbers. What is neither run here nor
@@ -26,7 +26,7 @@ NUMBER = re.compile(r"[-+]?\d[\d.]*(e[-+]?\d+)?")
 
 @dataclass(frozen=True)
 class Block:
-    """The code of a fence, its language, and what the comment above says of it."""
+    """Code of a fence, its language, and the comment above it."""
 
     language: str
     code: str
@@ -39,7 +39,7 @@ class Block:
 
     @property
     def silent(self) -> bool:
-        """Whether it looks like a command and nothing says where it is run."""
+        """True for a command-like block without a remark on where it is run."""
         command = self.language == "console" or COMMAND.match(self.code) is not None
         return command and not self.remark and not (self.run_here and self.code.startswith("$ "))
 

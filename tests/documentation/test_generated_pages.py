@@ -10,7 +10,7 @@ from heartfit.core import pages
 
 ROOT = Path(__file__).parents[2]
 NOT_KEPT = {"forecast"}
-"""Printed only."""
+"""Templates that are printed only, without a committed page."""
 NAMES = [path.name.removesuffix(".md.j2") for path in sorted(pages.TEMPLATE_FOLDERS[0].glob("*.md.j2"))]
 COMMITTED = {name: ROOT / ("README.md" if name == "README" else f"docs/{name}.md") for name in NAMES}
 

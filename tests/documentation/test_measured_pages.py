@@ -1,4 +1,4 @@
-"""Pages print the stored results, the stored results are those that the study is held to, and each is printed."""
+"""Pages print the stored results, which are the reference results of the study; each is printed."""
 
 import importlib.util
 import re

@@ -11,11 +11,11 @@ FILE = re.compile(r"`([\w./-]+/[\w.-]+\.(?:py|smk|yaml|tsv|toml|j2))`")
 MODULE = re.compile(r"(?<!/)heartfit((?:\.\w+)+)")
 PLACES = (ROOT, ROOT / "src" / "heartfit", ROOT / "src", ROOT / "docs")
 MADE = ("results/", "config/mine.")
-"""Folders that a study makes or a reader brings."""
+"""Folders made by a study or supplied by a reader."""
 
 
 def missing_files(text):
-    """Source files that a text quotes by path and that no place holds."""
+    """Source files that a text quotes by path and that do not exist."""
     return [
         path
         for path in FILE.findall(text)
@@ -24,12 +24,12 @@ def missing_files(text):
 
 
 def missing_modules(text):
-    """Dotted names of the package in a text that lead to no module."""
+    """Dotted names of the package in a text that are no module."""
     return [name for name in MODULE.findall(text) if not leads_to_a_module(name[1:].split("."))]
 
 
 def leads_to_a_module(parts):
-    """Whether the name is a folder or file of the package, or a name of capital letters, functions or classes in it."""
+    """True for a folder or file of the package, and for constants, functions and classes in it."""
     place = ROOT / "src" / "heartfit"
     for position, part in enumerate(parts):
         if (place / part).is_dir():

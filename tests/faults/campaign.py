@@ -1,4 +1,4 @@
-"""Every fault in turn on the smallest study, and the page that tells of them."""
+"""All faults on the smallest study, and their page."""
 
 import argparse
 import sys
@@ -41,7 +41,7 @@ def main(arguments: list[str]) -> int:
 
 
 def _reference(study: TinyStudy) -> dict[str, str]:
-    """The results of a study that nothing happens to, kept to begin from."""
+    """Results of an undisturbed study, kept as the starting point."""
     begin = time.monotonic()
     code, output = study.run()
     if code:
@@ -76,7 +76,7 @@ def _faults(chance: Random, quick: bool) -> list[Callable[[TinyStudy, dict[str, 
 
 
 def page(expected: dict[str, str], outcomes: list[Outcome]) -> str:
-    """The table of what was done."""
+    """Page with the table of the faults."""
     kinds = ", ".join(sorted({f"`{Path(name).suffix}`" for name in expected}))
     rows = "".join(
         f"| {outcome.fault} | {outcome.came} | {'yes' if outcome.mended else '**no**'} |\n"

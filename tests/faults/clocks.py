@@ -1,4 +1,4 @@
-"""Clocks that jump: what they do to a study are the dates of its files."""
+"""Clocks that jump: they act on a study through the dates of its files."""
 
 import os
 import threading
@@ -12,7 +12,7 @@ HOUR = 3600.0
 
 
 def clocks(study: TinyStudy, expected: dict[str, str], chance: Random, ways: int) -> list[Outcome]:
-    """Results from here and there, from the future, and from the past; some of these ways."""
+    """Results dated in the future and in the past; some of these ways."""
     jumps = {
         "every result dated at a random time within a day of now": lambda: chance.uniform(-24, 24) * HOUR,
         "the clock was an hour ahead: all results are dated in the future": lambda: HOUR,
@@ -45,7 +45,7 @@ def jumping_clock(study: TinyStudy, expected: dict[str, str], chance: Random) ->
 
 
 def _age(study: TinyStudy) -> None:
-    """All that is there is an hour newer, for the clock."""
+    """All existing files become an hour newer for the clock."""
     date = time.time() + HOUR
     for file in list((study.folder / RESULTS).rglob("*")):
         if file.is_file() and not any(part.startswith(".") for part in file.parts[-2:]):

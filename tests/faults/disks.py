@@ -1,4 +1,4 @@
-"""Disks that are full or may not be written to: a small disk in memory in the place of the results."""
+"""Full and read-only disks: a small disk in memory in place of the results."""
 
 import os
 import shutil
@@ -15,7 +15,7 @@ NEEDS_ROOT = "not tried: needs root, to mount a disk in memory"
 
 
 def full_disk(study: TinyStudy, expected: dict[str, str]) -> list[Outcome]:
-    """Room for some jobs and no more; then there is room."""
+    """Room for some jobs only, then enough room."""
     fault = f"the disk of the results full after {ROOM / 1e6:g} MB more, then enlarged"
     if os.geteuid():
         return [Outcome(fault, NEEDS_ROOT, True)]

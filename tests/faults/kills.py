@@ -17,9 +17,9 @@ SPREAD = 6.0  # s over which the moments of a kill are spread
 def kills(
     study: TinyStudy, expected: dict[str, str], chance: Random, times: int, short: bool
 ) -> list[Outcome]:
-    """SIGKILL to Snakemake and all jobs, again and again on the way from nothing to the last table.
+    """SIGKILL to Snakemake and all jobs, repeatedly, from an empty folder to the last table.
 
-    short: on the way from what registration costs, which is half of the jobs.
+    short: from the registration errors on, half of the jobs.
     """
     begin = partial(_from_halfway, study) if short else study.wipe
     begin()

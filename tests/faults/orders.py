@@ -14,7 +14,7 @@ THREADS = 'environ[f"{library}_NUM_THREADS"] = "%d"'
 def orders(
     study: TinyStudy, expected: dict[str, str], chance: Random, threads: tuple[int, ...]
 ) -> list[Outcome]:
-    """Everything from nothing, with so many threads in each job, and its jobs in another order each time."""
+    """Complete runs from an empty folder with given numbers of threads per job, each with another order of the jobs."""
     ways = (
         ("--cores", "1"),
         ("--cores", "3", "--scheduler", "greedy"),
@@ -42,11 +42,11 @@ OLD_PROCESSOR = {
     "NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4 AVX512_ICL AVX512_SPR",
     "NUMBA_CACHE_DIR": "kernels-of-an-old-processor",
 }
-"""What libraries and compiled kernels do on a processor of 2008, which has neither AVX nor FMA."""
+"""Environment in which libraries and compiled kernels act as on a processor of 2008, without AVX and FMA."""
 
 
 def other_processor(study: TinyStudy, expected: dict[str, str]) -> list[Outcome]:
-    """Everything from nothing as on another machine, where the last digits differ."""
+    """Complete run from an empty folder as on another machine, where the last digits differ."""
     study.put_back()
     numbers = study.folder / RESULTS / "tables" / "numbers.csv"
     before = _numbers(numbers.read_text())

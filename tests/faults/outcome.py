@@ -1,4 +1,4 @@
-"""What was done to a study and what came of it."""
+"""Outcome of a fault: its description and its result."""
 
 import sys
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ class Outcome:
 
 
 def one_more_call(study: TinyStudy, expected: dict[str, str], *arguments: str) -> bool:
-    """Whether one more call completes and every result is as expected, with nothing left over."""
+    """True if one more call completes with exactly the expected results."""
     code, output = study.run(*arguments)
     differing = differences(study.sums(), expected)
     if code or differing:
@@ -25,7 +25,7 @@ def one_more_call(study: TinyStudy, expected: dict[str, str], *arguments: str) -
 
 
 def differences(sums: dict[str, str], expected: dict[str, str]) -> list[str]:
-    """What is wrong with the results, each named."""
+    """Names of missing, additional and differing results."""
     wrong = {name: "missing" for name in expected.keys() - sums.keys()}
     wrong |= {name: "too many" for name in sums.keys() - expected.keys()}
     wrong |= {name: "other bytes" for name in sums.keys() & expected.keys() if sums[name] != expected[name]}
@@ -38,6 +38,6 @@ def half_written(study: TinyStudy, expected: dict[str, str]) -> list[str]:
 
 
 def last_words(output: str, *known: str) -> str:
-    """The line of a run's output that says one of these, or its last one."""
+    """Line of a run's output that holds one of the known texts, or its last line."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     return next((line for line in lines if any(word in line for word in known)), (lines or [""])[-1])

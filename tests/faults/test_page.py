@@ -1,4 +1,4 @@
-"""The page of faults tells of every kind that is tried, and of none that was not mended."""
+"""The page of faults lists every kind that is tried, and all are mended."""
 
 from tests.faults.campaign import PAGE, page
 from tests.faults.outcome import Outcome

@@ -1,4 +1,4 @@
-"""The smallest study in a folder of its own, which faults may break."""
+"""Smallest study in a separate folder, which faults may break."""
 
 import hashlib
 import os
@@ -16,12 +16,12 @@ from tests.checkout import ROOT, copy_project, environment_of
 RESULTS = "results/tiny"
 TARGETS = (f"{RESULTS}/tables/numbers.csv", f"{RESULTS}/figures/volunteer1_physical.png")
 UNEQUAL = ("logs", "benchmarks", ".sums")
-"""What tells of times and of the order of jobs."""
+"""Files that depend on times and on the order of jobs."""
 PATIENCE = 1800.0  # s
 
 
 class TinyStudy:
-    """A copy of the project; `results` and what Snakemake knows of them can be kept and put back."""
+    """Copy of the project; `results` and Snakemake's metadata can be kept and restored."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder / "project"
@@ -36,7 +36,7 @@ class TinyStudy:
         environment: Mapping[str, str] | None = None,
         targets: Iterable[str] = (),
     ) -> "subprocess.Popen[str]":
-        """Begin a run that makes the tables and what is asked for, the leader of its own group of processes."""
+        """Start a run that makes the tables and the targets, as the leader of a process group."""
         command = [sys.executable, "-m", "snakemake", "--cores", "2", "--configfile", "config/tiny.yaml"]
         paths = [target.replace(RESULTS, results) for target in (*TARGETS, *targets)]
         elsewhere = [] if results == RESULTS else ["--config", f"results={results}"]
@@ -51,11 +51,11 @@ class TinyStudy:
         )
 
     def run(self, *arguments: str, targets: Iterable[str] = ()) -> tuple[int, str]:
-        """Run to the end; what it ended with and said."""
+        """Run to the end; exit code and output."""
         return finish(self.start(*arguments, targets=targets))
 
     def sums(self, results: str = RESULTS) -> dict[str, str]:
-        """The SHA-256 of every result by name, but of those that tell of times."""
+        """SHA-256 of every result by name, except for those that depend on times."""
         root = self.folder / results
         return {
             file.relative_to(root).as_posix(): hashlib.sha256(file.read_bytes()).hexdigest()
@@ -68,7 +68,7 @@ class TinyStudy:
         return [file for file in (self.folder / RESULTS).rglob("*") if left_over(file)]
 
     def adopt(self, root: Path = ROOT) -> None:
-        """Take over the results of this study where the project has them, so that a run makes only what is missing."""
+        """Copy existing results of this study from the project, so that a run makes the missing ones only."""
         if (root / RESULTS).is_dir() and (root / ".snakemake" / "metadata").is_dir():
             shutil.copytree(root / RESULTS, self.folder / RESULTS)
             shutil.copytree(root / ".snakemake" / "metadata", self.folder / ".snakemake" / "metadata")
@@ -80,19 +80,19 @@ class TinyStudy:
             shutil.copytree(self.folder / part, self._kept / part)
 
     def put_back(self) -> None:
-        """The results as they were kept."""
+        """Restore the kept results."""
         self.wipe()
         for part in ("results", ".snakemake"):
             shutil.copytree(self._kept / part, self.folder / part)
 
     def wipe(self) -> None:
-        """No results."""
+        """Remove all results."""
         for part in ("results", ".snakemake"):
             shutil.rmtree(self.folder / part, ignore_errors=True)
 
     @contextmanager
     def edited(self, file: str, old: str, new: str) -> Iterator[None]:
-        """With another text in the one place of a file where it stands."""
+        """Replace a text that a file holds once."""
         path = self.folder / file
         text = path.read_text()
         if text.count(old) != 1:
@@ -110,13 +110,13 @@ class TinyStudy:
 
 
 def finish(process: "subprocess.Popen[str]") -> tuple[int, str]:
-    """What the run ended with and said."""
+    """Exit code and output of a run."""
     output, _ = process.communicate(timeout=PATIENCE)
     return process.returncode, output
 
 
 def kill(process: "subprocess.Popen[str]", after: float) -> bool:
-    """SIGKILL to the run and all its jobs after some seconds; whether it was still at work."""
+    """Send SIGKILL to the run and all its jobs after some seconds; true if it was still running."""
     time.sleep(after)
     working = process.poll() is None
     if working:

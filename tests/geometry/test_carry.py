@@ -1,4 +1,4 @@
-"""Carrying meshes: motions whose answer is known, and a mesh that follows itself."""
+"""Carrying of meshes: motions with known results, and a mesh carried by itself."""
 
 from dataclasses import replace
 

@@ -41,7 +41,7 @@ def test_the_distance_is_to_a_side_or_to_a_corner() -> None:
 
 @pytest.mark.parametrize("corners", [40, 400])
 def test_concentric_circles_are_as_far_apart_as_their_radii(corners: int) -> None:
-    """Whichever is drawn finer: the weights are lengths, of each circle half."""
+    """The result does not depend on the sampling: the weights are lengths, half for each circle."""
     distances, weights = contour_distances(polygon(1.0, 200), polygon(1.5, corners))
     assert weights.sum() == pytest.approx(1.0)
     assert weights[:200].sum() == pytest.approx(0.5)

@@ -10,7 +10,7 @@ from heartfit.geometry.mesh import VentricularMesh
 
 
 def helix_angle(mesh: VentricularMesh, fibres: np.ndarray) -> np.ndarray:
-    """Angle in degrees from circumferential to longitudinal of each tet, right-handed positive."""
+    """Angle of each tet from circumferential to longitudinal [degrees], right-handed positive."""
     axes = LeftVentricularAxes.from_mesh(mesh)
     outward = axes.away(mesh.points[mesh.tets].mean(axis=1))
     around = np.cross(axis := axes.axis, outward) / np.linalg.norm(outward, axis=1, keepdims=True)

@@ -37,7 +37,7 @@ def published(measured_heart_folder: Path) -> np.ndarray:
 def test_the_left_ventricle_has_the_published_mass(
     mesh: VentricularMesh, measured_heart_folder: Path
 ) -> None:
-    """At 1.05 g/mL. The published mass ends at the fit's own strip along the right ventricle's insertion; ours at
+    """Mass at 1.05 g/mL. The published mass ends at the fit's own strip along the right ventricle's insertion; ours at
     a harmonic field further out, 4 to 6 % more; 4 % is the fit's own scatter over the beat.
     """
     published = np.loadtxt(measured_heart_folder / "volumes.csv", delimiter=",", skiprows=1)[0, 4]

@@ -32,7 +32,7 @@ def test_a_motion_that_cannot_be_is_refused(
 
 
 def test_between_phases_a_motion_is_linear_and_it_repeats_itself() -> None:
-    """Also from the last phase to the first of the next beat, and where the first phase is not at zero."""
+    """Includes the interval from the last phase to the next beat, and a first phase after time zero."""
     rng = np.random.default_rng(0)
     positions = rng.random((10, 4, 3))
     motion = Motion(TIMES + 0.05, 1.0, positions)

@@ -72,7 +72,7 @@ def test_a_right_ventricle_that_does_not_fit_is_refused() -> None:
 
 
 def test_node_numbers_do_not_depend_on_the_shape() -> None:
-    """The node at the apex of one heart is the node at the apex of another, and so all around."""
+    """Nodes have the same numbers at the same places in all hearts, such as the apex."""
     small, large = (ParametricVentricles(**(HUMAN | {"edv": edv})).surface() for edv in (90e-6, 260e-6))
     assert np.array_equal(small.triangles, large.triangles)
     assert small.labels.tolist() == large.labels.tolist()

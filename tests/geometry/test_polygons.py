@@ -7,7 +7,7 @@ from heartfit.core.arrays import Floats
 from heartfit.geometry.sections import Polygon, clip_polygon, split_into_bands, tetrahedra_sections
 
 TRIANGLE = np.array([[0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 0.0]])
-"""Its value is x."""
+"""The field is x."""
 
 TETRAHEDRON = np.vstack([np.zeros(3), np.eye(3)])
 

@@ -41,7 +41,7 @@ def test_fine_triangles_count_no_more_than_coarse_ones() -> None:
 
 
 def test_the_surface_distance_counts_both_directions() -> None:
-    """A peak far from the other sheet is at a distance from its own side only."""
+    """A peak is far from the other sheet in one direction only; both directions give the same distance."""
     points, triangles = sheet(0.0)
     peak = points.copy()
     peak[SIDE * SIDE // 2, 2] = 1.0

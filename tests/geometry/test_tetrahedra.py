@@ -63,7 +63,7 @@ def test_a_random_device_that_cannot_be_set_is_unchanged_and_reported(
 
 @pytest.mark.skipif(not SEEDABLE, reason="the random device can be set on Linux with x86-64 only")
 def test_the_random_device_gives_the_seed() -> None:
-    """In a process of its own, because from then on the device returns nothing else."""
+    """Runs in a separate process: the seeded device keeps its values for the whole process."""
     program = (
         "import ctypes; from heartfit.geometry.tetrahedra import DRAW_SYMBOL, seed_random_device\n"
         "draw = getattr(ctypes.CDLL('libstdc++.so.6'), DRAW_SYMBOL); draw.restype = ctypes.c_uint32\n"

@@ -1,4 +1,4 @@
-"""Connectivity: orientation, rims and holes of surfaces whose answer is known by counting."""
+"""Connectivity: orientation, rims and holes of surfaces, compared with counts by hand."""
 
 import numpy as np
 import pytest

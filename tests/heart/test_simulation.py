@@ -1,4 +1,4 @@
-"""The beat of two spheres: periodic, conserving, physiological, convergent, and honest when it fails."""
+"""Beat of two spheres: periodic, conserving, physiological, convergent, with stated failures."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""What is painted: every voxel inside and no other, however slices are displaced, in the brightness of its tissue."""
+"""Painting: exactly the voxels inside, for any displacement of slices, with the brightness of their tissue."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ REGULAR = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0
 
 
 def voxels(shape: tuple[int, int, int], shift: np.ndarray) -> np.ndarray:
-    """Where the sample of each voxel lies: (k,j,i,3) in the order i, j, k."""
+    """Places of the samples of all voxels: (k,j,i,3) in the order i, j, k."""
     k, j, i = np.indices(shape)
     return np.stack([i + shift[k, 0], j + shift[k, 1], k], axis=-1)
 
@@ -47,14 +47,14 @@ def inside(
 
 
 def within(corners: np.ndarray, shift: np.ndarray) -> np.ndarray:
-    """Whether no barycentric coordinate of a voxel (k,j,i) is negative, but for round-off."""
+    """Mask (k,j,i) of the voxels without negative barycentric coordinates, up to round-off."""
     local = (voxels(SHAPE, shift) - corners[0]) @ np.linalg.inv(corners[1:] - corners[0])
     return np.minimum(local.min(axis=-1), 1.0 - local.sum(axis=-1)) >= -1e-9
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_the_voxels_of_a_tetrahedron_are_those_with_no_negative_barycentric_coordinate(seed: int) -> None:
-    """Also where slices are displaced and where it reaches beyond the image."""
+    """Includes displaced slices and tetrahedra that reach beyond the image."""
     rng = np.random.default_rng(seed)
     corners, shift = rng.uniform(-4.0, 28.0, (4, 3)), rng.normal(0.0, 2.0, (SHAPE[0], 2))
     image = np.zeros(SHAPE)
@@ -91,7 +91,7 @@ def test_the_painted_volume_of_a_tetrahedron_converges_with_the_voxel() -> None:
 
 @pytest.mark.parametrize("offset", [0.0, 1.0 / 3.0])
 def test_a_wall_of_many_tetrahedra_has_no_holes(offset: float) -> None:
-    """Nor where their faces, edges and corners meet the voxels' centres."""
+    """Includes faces, edges and corners at the voxels' centres."""
     block = cube(4, 12.0)
     mask = painted(block.points + 5.0 + offset, block.tets)
     place = voxels(SHAPE, np.zeros((SHAPE[0], 2))) - 5.0 - offset
@@ -147,7 +147,7 @@ def test_several_fields_are_sampled_as_one_is_and_only_where_they_weigh() -> Non
 
 @pytest.mark.parametrize("seed", range(3))
 def test_voxels_within_a_sphere_are_inside(seed: int) -> None:
-    """But for voxels nearer to its surface than its facets are, on either side; and of just its volume."""
+    """Except for voxels nearer to the surface than its facets are; with the volume of the sphere."""
     rng = np.random.default_rng(seed)
     centre, radius = np.array([13.0, 12.0, 11.0]) + rng.random(3), 8.0
     corners, triangles = sphere(centre, radius)
@@ -184,7 +184,7 @@ def test_rows_through_edges_and_corners_cross_a_surface_once(turn: int) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_displaced_slice_shows_what_lies_where_its_samples_are(seed: int) -> None:
-    """Just as if the surface were displaced the other way, also beyond the image's edge."""
+    """Equal to the opposite displacement of the surface, including places beyond the image's edge."""
     rng = np.random.default_rng(seed)
     corners, triangles = sphere(np.array([12.3, 11.6, 10.7]), 9.0, 300)
     shift = rng.normal(0.0, 6.0, (SHAPE[0], 2))

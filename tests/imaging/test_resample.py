@@ -1,4 +1,4 @@
-"""Images on other voxels: a linear brightness stays where it is in space."""
+"""Resampled images: a linear brightness keeps its place in space."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Image sequences: where voxels lie, and which sequences are refused."""
+"""Image sequences: places of the voxels, and refused sequences."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What a view shows lies where it is in space, and outlines lie on it."""
+"""Pixels of a view and outlines have their true places in space."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Arrays in a file, whole or refused in one line."""
+"""Arrays in a file: complete, or refused in one line."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ def path(tmp_path):
 
 
 def elsewhere(path):
-    """A copy of which nothing is known."""
+    """Copy without a recorded check sum."""
     return path.parents[1] / path.name
 
 

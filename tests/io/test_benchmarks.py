@@ -1,4 +1,4 @@
-"""What Snakemake measured is read as it is written, and what is no benchmark is named."""
+"""Benchmarks of Snakemake are read as written; a file that is no benchmark is named."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""cause.json: what the issue of a diagnosis has, its schema, and one line for a file that is none."""
+"""cause.json: its content, its schema, and one line for an invalid file."""
 
 import json
 from dataclasses import fields, replace
@@ -100,7 +100,7 @@ SEARCHED = replace(
 
 @pytest.mark.parametrize("diagnosis", [FOUND, SEARCHED])
 def test_a_diagnosis_is_read_back_to_the_bit(tmp_path, diagnosis):
-    """A proof starts from what is read back: it has the numbers of the search and the order of its ranking."""
+    """A refit starts from the stored diagnosis: it has the numbers of the search and the order of its ranking."""
     write_cause_card(tmp_path, render_cause(diagnosis, "heart1"), "0123")
     restored = read_diagnosis(tmp_path)
     arrays = {"traces", "phases"}

@@ -1,4 +1,4 @@
-"""Every stored kind is read and written again to the same bytes, and what is no record is refused in one line."""
+"""Every stored kind is read and written again to the same bytes; an invalid record is refused in one line."""
 
 import json
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""Curves survive a file and bad files are named, with the place and the cure."""
+"""Curves are read back as written; bad files are named with the place and advice."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -1,11 +1,11 @@
-"""Every file is written as a draft that takes its place when it is whole, read from the syntax tree."""
+"""Every file is written as a draft that is renamed when it is complete, read from the syntax tree."""
 
 import ast
 from pathlib import Path
 
 IO = Path(__file__).parents[2] / "src" / "heartfit" / "io"
 FOUNDATION = "files.py"
-"""What the others rest on."""
+"""Module that provides the drafts."""
 WRITING = {
     "write_text",
     "write_bytes",
@@ -19,7 +19,7 @@ WRITING = {
 
 
 def writes(node):
-    """Whether a call writes to a file: a method of that name, or opening one to write."""
+    """True for a call that writes to a file: a method of such a name, or opening a file for writing."""
     if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
         return False
     modes = [argument.value for argument in node.args if isinstance(argument, ast.Constant)]

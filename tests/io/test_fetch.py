@@ -1,4 +1,4 @@
-"""Fetched files are those that were published, or are not there at all."""
+"""Fetched files equal the published ones, or do not exist."""
 
 import hashlib
 

@@ -7,7 +7,7 @@ from heartfit.io import fingerprint as module
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    """A package in which a imports b.c, which imports d; e is imported by nobody."""
+    """Package in which a imports b.c, which imports d; no module imports e."""
     folder = tmp_path / "small"
     texts = {
         "__init__.py": "",

@@ -1,4 +1,4 @@
-"""What a segmented heart's motion is registered from."""
+"""Images for the registration of a segmented heart."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -10,7 +10,7 @@ from heartfit.core.errors import InputError
 from heartfit.io.image_file import load, numbers
 
 BESIDE = {".mha": "x.mha", ".mhd": "x.zraw", ".nrrd": "x.nrrd", ".nhdr": "x.raw.gz", ".nii.gz": "x.nii.gz"}
-"""Where the voxels are, by the suffix of the header."""
+"""File of the voxels, by the suffix of the header."""
 
 HEADERS = 700
 """Bytes, at most, that a header takes of a file that holds both."""
@@ -59,7 +59,7 @@ def test_voxels_that_break_off_are_refused(image: Path, share: float) -> None:
 
 
 def with_length(voxels: np.ndarray, path: Path, stated: str) -> Path:
-    """A MetaImage that says another length of its compressed voxels; a dot stands for the true one."""
+    """MetaImage that states another length of its compressed voxels; a dot stands for the true one."""
     sitk.WriteImage(sitk.GetImageFromArray(voxels), str(path), useCompression=True)
     content = path.read_bytes()
     name, length = next(line.split(b" = ") for line in content.splitlines() if b"DataSize" in line)

@@ -1,4 +1,4 @@
-"""Image sequences survive a file, and files that are none are named with what is wrong."""
+"""Image sequences are read back as written; invalid files are named with their fault."""
 
 import json
 import shutil
@@ -18,7 +18,7 @@ from heartfit.io.images import read_images, write_images
 
 WRITTEN = (".nrrd", ".nii.gz", ".mha")
 PLACE = {".nrrd": 1e-15, ".mha": 1e-15, ".nii.gz": 3e-8}
-"""How far, m, a voxel may come to lie from its place: round-off of double and of single precision at 0.3 m."""
+"""Tolerance of the place of a voxel [m]: round-off of double and of single precision at 0.3 m."""
 
 
 def turned(rng: np.random.Generator) -> np.ndarray:

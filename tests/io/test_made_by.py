@@ -1,4 +1,4 @@
-"""The versions and the state of the code that a result was made by."""
+"""Versions and state of the code that made a result."""
 
 import platform
 
@@ -13,7 +13,7 @@ from heartfit.io.results import write_result
 
 @pytest.fixture(autouse=True)
 def asked_anew():
-    """What one test changes, another does not remember."""
+    """Caches are cleared between tests."""
     made_by.cache_clear()
     versions.cache_clear()
     yield

@@ -1,4 +1,4 @@
-"""Costs that were measured are read back as they were written."""
+"""Measured costs are read back as written."""
 
 from pathlib import Path
 

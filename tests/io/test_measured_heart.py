@@ -1,4 +1,4 @@
-"""A folder that is not a measured heart is refused with the file and what was expected of it."""
+"""A folder that is no measured heart is refused with the file and the expected content."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""What is written is read back exactly; what no mesh can be is refused."""
+"""Meshes are read back exactly; invalid meshes are refused."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Which cases can be run, of which data, and that all mistakes in them are known before anything runs."""
+"""Plan of a study: cases that can be run, their data, and all mistakes before the first job."""
 
 import pytest
 import yaml

@@ -1,4 +1,4 @@
-"""Planted cases on disk: the recording tells nothing, the seal notices every change."""
+"""Planted cases on disk: the recording does not reveal the effect; the seal detects every change."""
 
 import base64
 from dataclasses import replace

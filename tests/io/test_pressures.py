@@ -1,4 +1,4 @@
-"""A recorded pressure has its unit or is refused, and mmHg and kPa come to the same."""
+"""A recorded pressure without a unit is refused; mmHg and kPa give the same pressure."""
 
 import numpy as np
 import pytest

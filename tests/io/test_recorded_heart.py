@@ -1,4 +1,4 @@
-"""The pressure of a virtual heart, recorded as a catheterisation is, comes back with its rates."""
+"""Pressure of a virtual heart, recorded as in a catheterisation: it is recovered with its rates."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ from heartfit.synthetic.scanner import Catheter
 
 MMHG = 133.322368
 STRETCHES = (1.0, 0.97, 1.02, 0.99, 0.7, 1.25, 1.01, 0.98)
-"""Of the beats' lengths; the fifth comes early and is weak, and a pause follows."""
+"""Lengths of the beats relative to the period; the fifth is early and weak, followed by a pause."""
 EARLY = 4
 
 

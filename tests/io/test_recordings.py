@@ -1,4 +1,4 @@
-"""Recordings from files, each curve at its own times, and one line for what cannot be one."""
+"""Recordings from files, each curve at its own times; invalid recordings are refused in one line."""
 
 import numpy as np
 import pytest

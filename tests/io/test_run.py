@@ -1,4 +1,4 @@
-"""How a run begins after another one was killed, beside another one, and where it cannot write."""
+"""Start of a run: after a killed run, beside a running one, and in a folder without write permission."""
 
 import os
 import pickle
@@ -29,7 +29,7 @@ def state(tmp_path):
 
 
 def put_in_order(results, state):
-    """What a run that ends at once finds amiss."""
+    """Lines that a run reports when it starts."""
     with closing(Run(results, state)) as run:
         return run.put_in_order()
 

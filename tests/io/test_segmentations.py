@@ -1,4 +1,4 @@
-"""Volumes of labels: read back as written, refused in one line when they cannot be meant."""
+"""Volumes of labels: read back as written; invalid ones are refused in one line."""
 
 from pathlib import Path
 

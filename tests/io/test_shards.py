@@ -1,4 +1,4 @@
-"""Shards are studies of the same kind, and their numbers are put together again."""
+"""Shards are studies of the same kind; their numbers are merged."""
 
 import pandas as pd
 import pytest

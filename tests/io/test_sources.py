@@ -1,4 +1,4 @@
-"""The data of a measured case are read as its jobs will: end diastole first, lengths of the beat that agree."""
+"""Data of a measured case are read as in its jobs: end diastole first, with equal lengths of the beat."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What is known of a file since it was written, and files that are there whole or not at all."""
+"""Check sums of written files, and files that are complete or absent."""
 
 import errno
 import hashlib

@@ -25,7 +25,7 @@ def ventricles() -> LabelledSurface:
 
 
 def places(surface: LabelledSurface, phase: int) -> np.ndarray:
-    """In mm, a beat that is nothing but a change of size."""
+    """Coordinates in mm of a beat that only changes the size."""
     return 1e3 * surface.points * (1.0 - 0.02 * phase)
 
 

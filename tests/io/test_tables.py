@@ -1,4 +1,4 @@
-"""The suffix says the format of a table; published tables are read without their origin lines."""
+"""The suffix selects the format of a table; published tables are read without their origin lines."""
 
 import re
 from pathlib import Path

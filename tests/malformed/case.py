@@ -1,4 +1,4 @@
-"""An input that is wrong in one way, and what a command makes of it."""
+"""Input with one mistake, and the response of a command."""
 
 import os
 import re
@@ -11,12 +11,12 @@ from heartfit.cli import main as cli
 
 Content = str | bytes | Callable[[Path], None]
 PATIENCE = 20
-"""Seconds after which a command hangs."""
+"""Time after which a command counts as hanging [s]."""
 
 
 @dataclass(frozen=True)
 class Malformed:
-    """The files that are laid over sound ones, the command, and a pattern that its one line holds.
+    """Files that replace sound ones, the command, and a pattern of its one line.
 
     A file is text, bytes, or a function that makes it at its path.
     """
@@ -37,7 +37,7 @@ class Malformed:
                 path.write_bytes(content.encode() if isinstance(content, str) else content)
 
     def refused_by(self, lines: list[str]) -> bool:
-        """Whether there is one line, or where everything is checked at once several, and one says what is wrong."""
+        """True for one line, or several from a check of everything, one of which matches the pattern."""
         several = self.command.startswith("check")
         return (several or len(lines) == 1) and any(re.search(self.says, line) for line in lines)
 
@@ -49,19 +49,19 @@ def folder(path: Path) -> None:
 
 
 def pipe(path: Path) -> None:
-    """A pipe that nobody fills."""
+    """Pipe without a writer."""
     path.unlink(missing_ok=True)
     os.mkfifo(path)
 
 
 def hole(path: Path) -> None:
-    """A file of a terabyte that takes no room."""
+    """Sparse file of a terabyte."""
     path.touch()
     os.truncate(path, 1 << 40)
 
 
 def exit_code(command: str) -> int:
-    """Of the command in this process, however it leaves; raises Hang where it hangs."""
+    """Exit code of the command in this process, however it ends; raises Hang after the time limit."""
     signal.signal(signal.SIGALRM, _hangs)
     signal.alarm(PATIENCE)
     try:
@@ -73,7 +73,7 @@ def exit_code(command: str) -> int:
 
 
 class Hang(BaseException):
-    """No command catches it."""
+    """A command exceeds its time limit; no command catches this exception."""
 
 
 def _hangs(*_: object) -> None:

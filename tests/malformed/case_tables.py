@@ -1,4 +1,4 @@
-"""Tables of cases that are wrong."""
+"""Malformed tables of cases."""
 
 from tests.malformed.case import Content, Malformed, folder
 from tests.malformed.sound import CASES
@@ -17,7 +17,7 @@ def with_(name: str, old: str, new: str, says: str) -> Malformed:
 
 
 def filled(name: str, column: str, pressure: str) -> Malformed:
-    """With a filling pressure of the virtual heart in such a column."""
+    """Table with a filling pressure of the virtual heart in the given column."""
     row = CASES.replace("5\thealthy\t\t\t", f"5\thealthy\t\t{pressure}\t")
     return table(name, row.replace("\tcatheter", f"\t{column}"), "edp")
 

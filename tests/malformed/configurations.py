@@ -1,4 +1,4 @@
-"""Configurations that are wrong."""
+"""Malformed configurations."""
 
 from tests.malformed.case import Content, Malformed, folder, hole, pipe
 from tests.malformed.sound import CONFIGURATION

@@ -1,4 +1,4 @@
-"""Input that is wrong at random: a sound one with one thing spoilt, as people and programs spoil it."""
+"""Random malformed input: sound input with one mistake, as people and programs make it."""
 
 import re
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ WORDS = [
     "=1+1",
     "NULL",
 ]
-"""What stands in cells where a finite number belongs; the empty one where it is needed."""
+"""Invalid contents of cells that need a finite number; the empty one where a number is required."""
 
 WRONG: dict[type, list[Any]] = {
     int: ["many", "1,5", [], {}, True, float("nan"), float("inf"), [3], {"a": 3}],
@@ -38,7 +38,7 @@ WRONG: dict[type, list[Any]] = {
     list: [3, "many", {"a": 1}, True, [[1]], [None]],
     dict: [3, 0.5, "many", [], [1], True],
 }
-"""Values of another kind than the one that stands there."""
+"""Values of another kind than the present one."""
 
 Place = tuple[str, ...]
 
@@ -59,7 +59,7 @@ def value_at(place: Place) -> Any:
 
 
 def over(place: Place, value: Any) -> str:
-    """A configuration that says this in one place, to be laid over the sound one."""
+    """Configuration with one value, to be laid over the sound one."""
     for key in reversed(place):
         value = {key: value}
     return yaml.safe_dump(value)
@@ -69,7 +69,7 @@ KEYS = [place for place in places(SOUND) if type(value_at(place)) in WRONG]
 
 
 def is_whole(place: Place) -> bool:
-    """Whether an integer is declared there, and not a number that happens to be written as one."""
+    """True where an integer is declared, and not a float that is written as one."""
     declared = SCHEMA
     for key in place:
         name = declared.get("$ref", "").rpartition("/")[2]
@@ -78,7 +78,7 @@ def is_whole(place: Place) -> bool:
 
 
 def wrong_at(place: Place) -> list[Any]:
-    """Values of another kind than what is declared there."""
+    """Values of another kind than the declared one."""
     return [*WRONG[type(value_at(place))], *([1.5] if is_whole(place) else [])]
 
 
@@ -91,7 +91,7 @@ def of_another_kind(draw: st.DrawFn) -> tuple[str, str]:
 
 
 def misspelt(draw: st.DrawFn, word: str) -> str:
-    """A letter left out, doubled, exchanged with the next, in capitals, or another word altogether."""
+    """Misspelling: a letter left out, doubled, exchanged with the next or in capitals, or another word."""
     at = draw(st.integers(0, len(word) - 2))
     change = draw(st.sampled_from(["out", "double", "swap", "upper", "more"]))
     changed = {

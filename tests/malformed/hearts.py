@@ -1,4 +1,4 @@
-"""Folders of a measured heart that are wrong."""
+"""Malformed folders of a measured heart."""
 
 import json
 import shutil
@@ -46,7 +46,7 @@ def cut(path: Path) -> None:
 
 
 def pointing_out_of_range(path: Path) -> None:
-    """Indices that a product would read, and the memory behind it, too."""
+    """Indices beyond the matrix, which a product would read from foreign memory."""
     matrix = csc_array(loadmat(path)["S"])
     matrix.indices[0] = 2_000_000_000
     savemat(path, {"S": matrix})

@@ -1,4 +1,4 @@
-"""Images of a measured heart that are wrong."""
+"""Malformed images of a measured heart."""
 
 import gzip
 import shutil
@@ -37,7 +37,7 @@ def header(start: int, pattern: str, *values: float) -> Content:
 
 
 def changed(change: Callable[[sitk.Image], sitk.Image | None]) -> Content:
-    """The sound images with something changed."""
+    """Sound images with a change."""
 
     def write(path: Path) -> None:
         image = sitk.ReadImage(str(path.parent / "cine.nrrd"))
@@ -85,14 +85,14 @@ def damaged(of: str) -> Content:
 
 
 def bomb(path: Path) -> None:
-    """A NIfTI behind which two gigabytes of nothing are packed into two megabytes."""
+    """NIfTI followed by two gigabytes of zeros, packed into two megabytes."""
     head = gzip.compress((path.parent / "cine.nii").read_bytes())
     more = gzip.compress(bytes(1 << 24))
     path.write_bytes(head + 128 * more)
 
 
 def detached(data: str, kind: str = "mhd") -> str:
-    """A header that says its voxels are elsewhere."""
+    """Header that names another file of voxels."""
     if kind == "nhdr":
         return (
             "NRRD0004\ntype: float\ndimension: 4\nsizes: 3 3 3 8\nencoding: raw\nendian: little\n"

@@ -1,4 +1,4 @@
-"""Meshes and arguments of a simulation that are wrong."""
+"""Malformed meshes and arguments of a simulation."""
 
 import re
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Segmentations and folders of surfaces that are wrong, and names for `init` that are."""
+"""Malformed segmentations and folders of surfaces, and malformed names for `init`."""
 
 import json
 from collections.abc import Callable

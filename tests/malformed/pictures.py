@@ -13,7 +13,7 @@ from tests.malformed.sound import PHASES, wall
 
 VOXEL, MARGIN, PERIOD, BEAT = 5e-3, 8e-3, 0.8, 160
 BRIGHTNESS = np.array([10.0, 60.0, 200.0])
-"""Of lung, muscle and blood."""
+"""Brightness of lung, muscle and blood."""
 
 
 def sequence() -> ImageSequence:

@@ -1,4 +1,4 @@
-"""Recorded pressures of a measured heart, and sources, that are wrong."""
+"""Malformed recorded pressures of a measured heart, and malformed sources."""
 
 import yaml
 

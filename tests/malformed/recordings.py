@@ -1,4 +1,4 @@
-"""Recordings that are wrong."""
+"""Malformed recordings."""
 
 import gzip
 

@@ -1,4 +1,4 @@
-"""Inputs that are read without a word: what the malformed ones differ from."""
+"""Valid inputs, from which the malformed ones differ in one place."""
 
 import json
 from functools import cache
@@ -75,7 +75,7 @@ def write_heart(folder: Path) -> None:
 
 
 def write_sound(folder: Path) -> None:
-    """Everything, in the names that the commands of the malformed inputs give."""
+    """Write all sound files, under the names in the commands of the malformed inputs."""
     (folder / "sound.yaml").write_text(CONFIGURATION)
     (folder / "cases.tsv").write_text(CASES)
     (folder / "sound.csv").write_text(recording())

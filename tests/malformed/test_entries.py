@@ -1,4 +1,4 @@
-"""The other doors: the command as a program of its own, and Snakemake, which reads the same before any job runs."""
+"""Other entries: the command as a program, and Snakemake, which reads the same input before any job runs."""
 
 import os
 import subprocess

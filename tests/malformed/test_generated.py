@@ -1,4 +1,4 @@
-"""Sound input with one thing spoilt at random is refused in clear lines."""
+"""Sound input with one random mistake is refused in clear lines."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -41,7 +41,7 @@ def refused(here: Path, capsys: pytest.CaptureFixture[str]) -> Refused:
 
 
 def numbers_of_examples(wanted: int) -> Iterator[object]:
-    """Few examples always, many when asked for."""
+    """Few examples by default, many with the marker long."""
     return pytest.param(FEW_EXAMPLES, id="few"), pytest.param(wanted, id="many", marks=pytest.mark.long)
 
 

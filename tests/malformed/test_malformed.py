@@ -20,10 +20,10 @@ from tests.malformed.case import Malformed, exit_code, files_in
 LISTS = (configurations, case_tables, hearts, images, pressures, own_walls, recordings, meshes)
 MALFORMED = [entry for module in LISTS for entry in module.MALFORMED]
 EVERY = 6
-"""One of so many is tried whenever the tests are, all of them by `python3 study.py malformed`."""
+"""One of so many is tried by default, all of them by `python3 study.py malformed`."""
 
 LONGEST = 600
-"""Characters of a line that somebody still reads."""
+"""Largest length of a readable line [characters]."""
 
 
 def each_but_most_when_asked_for() -> list[ParameterSet]:

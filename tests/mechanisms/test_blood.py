@@ -38,7 +38,7 @@ def parametrize_kinds(kinds: dict[str, type]) -> pytest.MarkDecorator:
 def test_switched_off_it_leaves_no_trace(
     kind: type[Mechanism], compiled: bool, spherical_heart: Heart, spheres: SphericalBody
 ) -> None:
-    """Bit for bit, in every curve; switched on it does."""
+    """Equal to the bit in every curve; a mechanism that is on changes a curve."""
     others = tuple(m for m in spherical_heart.mechanisms if type(m) is not kind)
     without, off, on = (
         simulate_spheres(heart, [LEFT, RIGHT], ONE_BEAT) if compiled else simulate(heart, spheres, ONE_BEAT)
@@ -53,7 +53,7 @@ def test_switched_off_it_leaves_no_trace(
 
 
 def test_elements_do_not_notice_what_is_off(coarse_body: FiniteElementBody) -> None:
-    """All at once, over a beat of long steps, bit for bit."""
+    """All mechanisms together, over a beat of long steps, equal to the bit."""
     few = replace(ONE_BEAT, time_step=0.02)
     heart = replace(Heart(), mechanisms=())
     plain, off = (
@@ -74,7 +74,7 @@ def test_a_narrowing_grows_with_its_switch_and_names_a_valve(kind: type[Narrowin
 
 @parametrize_kinds(EXTERNALS)
 def test_loads_are_continuous_periodic_and_grow_with_volume(kind: type[External]) -> None:
-    """And one of the ventricles feels them."""
+    """At least one of the ventricles has a nonzero load."""
     time, nonzero = np.linspace(0.0, PERIOD, 4001), False
     for ventricle in COMPARTMENTS[:2]:
         pulse, rise, volume, scale = (
@@ -102,7 +102,7 @@ def test_pressures_are_continuous_and_periodic(kind: type[Pressure]) -> None:
 
 @parametrize_kinds(PRESSURES)
 def test_pressures_act_on_atria_and_arteries(kind: type[Pressure]) -> None:
-    """The ventricles' pressure follows from their walls: what presses on these is an External."""
+    """The ventricles' pressure follows from their walls; pressure on the walls is an External."""
     assert set(kind.compartments) <= set(COMPARTMENTS[2:])
     for compartment in kind.compartments:
         assert kind().pressure(compartment, np.linspace(0.0, PERIOD, 100), PERIOD).any()
@@ -126,7 +126,7 @@ def test_flows_run_down_the_gradient_with_their_own_slope(kind: type[Flow]) -> N
 def test_blood_is_conserved_with_another_branch(
     kind: type[Flow], spherical_heart: Heart, spheres: SphericalBody
 ) -> None:
-    """The ventricles change by what their branches bring, step by step."""
+    """Volumes of the ventricles change by the flow of their branches in every step."""
     beat = simulate(spherical_heart + kind(), spheres, replace(ONE_BEAT, max_beats=2))
     net = {
         "lv": beat.flow["mitral"] - beat.flow["aortic"],

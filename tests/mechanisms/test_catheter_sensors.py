@@ -32,7 +32,7 @@ def test_a_late_pressure_is_that_of_earlier_times(lag: float) -> None:
 
 @pytest.mark.parametrize("damping", [0.15, 0.7, 2.0])
 def test_the_damped_pressure_is_the_steady_solution_of_the_oscillator(damping: float) -> None:
-    """By a Runge-Kutta method of order 8 over as many periods as the start takes to be forgotten."""
+    """Solution by a Runge-Kutta method of order 8 over enough periods to forget the start."""
     r = 1.0 / (2.0 * np.pi * 12.0)
 
     def oscillator(time: float, state: np.ndarray) -> list[float]:

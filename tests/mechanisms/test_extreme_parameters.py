@@ -1,4 +1,4 @@
-"""Each parameter of each mechanism, four scales from its centre: a beat or a stated failure, no other exception."""
+"""Each parameter of each mechanism, four scales from its mean: a beat or a stated failure, no other exception."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
@@ -34,7 +34,7 @@ MUSCLES = {
 
 
 def extreme_values(declared: Parameter) -> Iterator[float]:
-    """Four scales below and above the centre, as they are and cut off at the lower bound; none without a prior."""
+    """Values four scales below and above the mean, unbounded and cut off at the lower bound; none without a prior."""
     centre = declared.value if declared.off is None else declared.off
     for x in (-LARGEST_DEVIATION, LARGEST_DEVIATION):
         if declared.scale is not None:
@@ -89,7 +89,7 @@ def test_spheres_beat_or_give_a_reason(kind: type[Mechanism]) -> None:
 def test_finite_element_ventricles_beat_or_give_a_reason(
     kind: type[Mechanism], ventricle: VentricularMesh
 ) -> None:
-    """With the stress-free reference found for this very muscle."""
+    """Ventricles with the stress-free reference of this muscle."""
     few = replace(ONE_BEAT, time_step=0.04, cuts=1)
 
     def run(heart: Heart) -> Beat:
@@ -104,7 +104,7 @@ def test_finite_element_ventricles_beat_or_give_a_reason(
 
 @pytest.mark.parametrize("scales", [2.0, LARGEST_DEVIATION])
 def test_ventricles_of_steep_length_dependence_beat(scales: float, ventricle: VentricularMesh) -> None:
-    """Fibres so short that no bridge is available make no less than none."""
+    """Fibres so short that no bridge is available have zero bridges."""
     heart = Heart() + LengthDependence(strengthening=LengthDependence.switch().at(scales))
     heart = heart.with_parameters({"slope": 0.15})
     beat = simulate(heart, ventricles(ventricle, heart.muscle, LOADS), ONE_BEAT)

@@ -99,7 +99,7 @@ def bodies_of(
 def test_muscle_that_is_switched_off_is_the_same_muscle(
     kind: type[Mechanism], spherical_heart: Heart, ventricle: VentricularMesh
 ) -> None:
-    """On the mesh, on the spheres in its slot and in their compiled beat, bit for bit."""
+    """Equal to the bit on the mesh, on the spheres and in their compiled beat."""
     hearts = [spherical_heart, spherical_heart + kind().turned_off(), spherical_heart + kind()]
     for bodies, x in bodies_of(hearts, ventricle):
         without, off, on = (forces(body, x) for body in bodies)
@@ -171,7 +171,7 @@ def test_a_sensor_that_is_off_changes_no_curve(
 def test_a_sensor_has_no_other_zero_than_its_curve(
     kind: type[Sensor], sampled: tuple[np.ndarray, np.ndarray]
 ) -> None:
-    """Instruments are linear but for a constant: an offset of the whole curve is an offset of the recorded one."""
+    """Instruments are affine: an offset of the whole curve is an offset of the recorded one."""
     times, values = sampled
     shown, raised = (kind().distort(times, curve, PERIOD) for curve in (values, values + 3e3))
     assert raised - shown == pytest.approx(np.full(166, 3e3), rel=1e-9)

@@ -16,7 +16,7 @@ def volume(times: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("stretch", [0.25, -0.2])
 def test_a_longer_beat_is_shown_over_the_stated_period(stretch: float) -> None:
-    """The curve of the breath-hold, sampled in its own time, over the stated one."""
+    """Curve of the breath-hold, sampled over its own period, shown over the stated one."""
     shown = RateMismatch(stretch, SYSTOLE).distort(TIMES, volume(TIMES), PERIOD)
     longer = SYSTOLE + (1.0 + stretch) * (PERIOD - SYSTOLE)
     for time in (0.0, 0.1, 0.3, 0.31, 0.5, 0.62):

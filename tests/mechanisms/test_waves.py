@@ -40,7 +40,7 @@ class Indices:
 
     @property
     def gradient(self) -> np.ndarray:
-        """Across the open aortic valve."""
+        """Pressure drop across the open aortic valve."""
         drop: np.ndarray = (self.beat.pressure["lv"] - self.beat.pressure["aorta"])[self.systole]
         return drop * 1e-3
 
@@ -64,7 +64,7 @@ def beat(heart: Heart, *mechanisms: Mechanism) -> Indices:
 
 
 def test_a_stenotic_valve_takes_the_gradient_that_is_stated(human: Heart) -> None:
-    """Beside that of the healthy valve, and with a lower and later peak of the flow."""
+    """Compared with the healthy valve; the peak of the flow is lower and later."""
     healthy, tight = beat(human), beat(human, AorticStenosis(gradient=8e3))
     q = tight.beat.flow["aortic"][tight.systole]
     conductance = human.circulation.aortic.law().conductance

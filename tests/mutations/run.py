@@ -22,19 +22,19 @@ PAGE = ROOT / "docs" / "mutations.md"
 
 
 class MutationError(RuntimeError):
-    """The tests do not even pass without a mutant, or a mutant cannot be made."""
+    """The tests fail without a mutant, or a mutant cannot be made."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What became of a mutant: the first test that failed of it, nothing if it survived."""
+    """Verdict on a mutant: the first failed test, empty if it survived."""
 
     mutant: Mutant
     caught_by: str
 
 
 class Copy:
-    """The project in a folder of its own."""
+    """Copy of the project in a separate folder."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -47,7 +47,7 @@ class Copy:
 
     @contextmanager
     def mutated(self, mutant: Mutant) -> Iterator[None]:
-        """The copy with the mutant in it, and whole again afterwards."""
+        """The copy with the mutant, restored afterwards."""
         file = self.folder / "src" / "heartfit" / mutant.file
         text = file.read_text()
         if text.count(mutant.old) != 1:
@@ -61,9 +61,9 @@ class Copy:
             file.write_text(text)
 
     def first_failure(self, tests: str) -> str:
-        """Run the tests until one fails; its name, or nothing if all pass.
+        """Run the tests until one fails; its name, or an empty text if all pass.
 
-        Kernels are compiled anew: numba would not see that what a kernel calls has changed in another file.
+        Kernels are recompiled: numba does not detect changes of called kernels in other files.
         """
         with TemporaryDirectory() as kernels:
             run = subprocess.run(
@@ -93,7 +93,7 @@ class Copy:
 
 
 def verdicts(mutants: tuple[Mutant, ...] = MUTANTS) -> Iterator[Verdict]:
-    """What became of each; raises MutationError if tests fail without any."""
+    """Verdicts on all mutants; raises MutationError if tests fail without a mutant."""
     with TemporaryDirectory() as folder:
         copy = Copy(Path(folder) / "project")
         for tests in dict.fromkeys(mutant.tests for mutant in mutants):
@@ -105,7 +105,7 @@ def verdicts(mutants: tuple[Mutant, ...] = MUTANTS) -> Iterator[Verdict]:
 
 
 def row(verdict: Verdict) -> str:
-    """Of the page."""
+    """Row of the page."""
     mutant, caught = verdict.mutant, f"`{verdict.caught_by}`" if verdict.caught_by else "**nobody**"
     old, new = (
         f"`{' '.join(text.split())}`" if text.strip() else "nothing" for text in (mutant.old, mutant.new)

@@ -1,4 +1,4 @@
-"""A planted shift is found again, with its sign."""
+"""A planted shift is recovered with its sign."""
 
 import numpy as np
 import pytest

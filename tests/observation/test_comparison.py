@@ -1,4 +1,4 @@
-"""Two motions that a formula gives: each error is what the formula says, and no other moves."""
+"""Two motions in closed form: each error follows the formula, and all others vanish."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -114,7 +114,7 @@ def test_directions_are_orthonormal_and_right_handed(ventricle: VentricularMesh)
 
 
 def test_a_segment_is_the_mean_over_its_volume(ventricle: VentricularMesh) -> None:
-    """Of a motion that no formula gives, tetrahedron by tetrahedron: F from the edges, E = (F'F - 1)/2."""
+    """Strain of a general motion, tetrahedron by tetrahedron: F from the edges, E = (F'F - 1)/2."""
     random, start = np.random.default_rng(1), ventricle.points
     positions = np.array([start + share * 2e-4 * random.standard_normal(start.shape) for share in SHARE])
     strain = segment_strain(ventricle, Motion(TIMES, PERIOD, positions))

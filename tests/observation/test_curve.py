@@ -1,4 +1,4 @@
-"""A curve refuses what would give a silent wrong answer, and is periodic."""
+"""A curve is periodic and refuses values that would give a silent wrong result."""
 
 import numpy as np
 import pytest

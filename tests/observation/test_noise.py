@@ -1,4 +1,4 @@
-"""Noise is found again where it was planted, and reaches the observations with the size theory gives."""
+"""Planted noise is recovered and propagates to the observations with its theoretical size."""
 
 import numpy as np
 import pytest

@@ -1,6 +1,6 @@
-"""What a noise model is for: hearts of known parameters, seen through images that shrink their motion by 15 %.
+"""Use of a noise model: hearts of known parameters, observed through images that shrink their motion by 15 %.
 
-Without it the missing motion is taken for weakness of the muscle, with great confidence.
+Without it the missing motion is attributed to weak muscle, with narrow intervals.
 """
 
 from collections.abc import Callable
@@ -75,7 +75,7 @@ def test_a_noise_model_keeps_missing_motion_from_being_taken_for_weak_muscle(err
 
 
 def test_with_a_noise_model_the_posterior_holds_the_truth(errors: Callable) -> None:
-    """Of each parameter: 95 % is not refuted by 60 hearts; without the model it is, for the contractility."""
+    """Coverage of each parameter: 95 % is not refuted by 60 hearts; without the model it is, for the contractility."""
     inside = {known: (np.abs(errors(known)[1]) < 1.96).sum(axis=0) for known in (False, True)}
     assert Share.from_count(inside[False][0], TRIED).high < 0.6
     for covered in inside[True]:

@@ -1,4 +1,4 @@
-"""A planted distortion is found again, undone, and its intervals hold the truth as often as they say."""
+"""A planted distortion is recovered and corrected; its intervals cover the truth at their nominal rate."""
 
 from dataclasses import replace
 
@@ -25,7 +25,7 @@ def planted_curve(rng: np.random.Generator) -> np.ndarray:
 
 
 def truth(measured: Reading, errors: np.ndarray) -> dict[str, float]:
-    """What was measured with these errors: of V_min over the stroke volume, of the rates in logarithms."""
+    """True observations of a reading with given errors: of V_min over the stroke volume, of the rates in logarithms."""
     y, stroke = measured.observations, np.ptp(measured.curves["lv_volume"].values)
     rates = {name: y[name] * np.exp(-error) for name, error in zip(NAMES[1:], errors[1:], strict=True)}
     return {"V_min": y["V_min"] - stroke * errors[0], **rates}
@@ -62,7 +62,7 @@ def test_planted_bias_and_covariance_are_found_within_their_sampling_error() -> 
 
 
 def test_the_known_error_is_subtracted_exactly() -> None:
-    """Sequences that all err alike: the corrected observations and curve are the truth, whatever its size."""
+    """Sequences with equal errors: the corrected observations and curve are the truth, for every size."""
     share = 0.1 * np.sin(np.pi * np.arange(FRAMES) / FRAMES)
 
     def alike(seed: int) -> Pair:
@@ -150,7 +150,7 @@ def test_a_peak_pressure_is_compared_with_the_range_of_the_pressure() -> None:
 
 
 def test_intervals_cover_the_truth_of_new_sequences_at_their_nominal_rate() -> None:
-    """300 models of 20 sequences with one fresh one each: within the binomial's 99 % of 95 %."""
+    """300 models of 20 sequences, each with one new sequence: within the binomial's 99 % of 95 %."""
     held = [coverage(model(20, 1000 * trial), [pair(1000 * trial + 999)]) for trial in range(300)]
     for name in (*NAMES, "lv_volume"):
         share = np.mean([intervals[name].covered for intervals in held])
@@ -169,7 +169,7 @@ def test_coverage_of_a_good_model_holds_95_percent_and_sees_a_model_that_boasts(
 
 
 def test_phases_without_error_do_not_count_as_covered() -> None:
-    """A truth far off in every phase but the first, which the model knows to the last bit."""
+    """True curve far from the measured one in every phase except the first, which has no error."""
     drawn = pair(0)
     true, volume = drawn.true.curves["lv_volume"], drawn.measured.curves["lv_volume"]
     far = replace(true, values=np.r_[volume.values[0], volume.values[1:] - 1e-4])

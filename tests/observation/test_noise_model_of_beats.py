@@ -1,6 +1,6 @@
 """Hearts drawn at random, whose volume is shrunk, delayed and noisy: the error then depends on the heart.
 
-No error is normal here, and those of noise and delay depend on the heart; the intervals must hold all the same.
+No error is normal here, and those of noise and delay depend on the heart; the intervals must hold nevertheless.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""The operator's numbers on curves whose extrema are known in closed form."""
+"""Observations of curves with extrema in closed form."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Parametric ventricles in a motion that a formula gives, followed by a registration that is exactly right or wrong."""
+"""Parametric ventricles in a motion in closed form, with a registration of known error."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ def surface() -> LabelledSurface:
 
 @pytest.fixture(scope="module")
 def motion() -> SliceMotion:
-    """Right in the plane."""
+    """Registration that is exact in the plane."""
     j, i = np.meshgrid(np.arange(110.0), np.arange(120.0), indexing="ij")
     steps = (np.stack([i, j], axis=-1) - [50.0, 50.0]) @ SQUEEZE.T
     return SliceMotion(GRID, (0, 0), np.einsum("p,jic->pjic", SHARE, steps)[:, None].repeat(6, axis=1))

@@ -1,4 +1,4 @@
-"""One beat out of a recording: cut where it begins, without the beats that are not like the others."""
+"""Mean beat of a recording: cut at its start, without outlying beats."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What a beat leaves of a measurement: phases by the valves, noise, signs, and where the worst lies."""
+"""Residuals of a beat: phases by the valves, noise, signs, and the place of the largest."""
 
 from dataclasses import replace
 

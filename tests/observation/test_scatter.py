@@ -1,4 +1,4 @@
-"""The scatter of a sample: recovered where planted, positive where it must be, and right about the next vector."""
+"""Scatter of a sample: planted scatter is recovered, stays positive, and covers the next vector."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def test_mean_and_covariance_are_found_within_their_sampling_error() -> None:
 
 
 def test_the_next_vector_lies_in_its_interval_at_the_nominal_rate() -> None:
-    """2000 samples of 24 with one fresh vector each: within the binomial's 99 % of 95 %, and 68 %."""
+    """2000 samples of 24, each with one new vector: within the binomial's 99 % of 95 %, and 68 %."""
     samples = draw(2000 * 25, 1).reshape(2000, 25, 3)
     for level in (0.95, 0.68):
         held = np.zeros(3)

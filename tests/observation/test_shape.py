@@ -1,4 +1,4 @@
-"""Motions that a formula gives, on parametric ventricles whose apex points to -z: each quantity sees its own."""
+"""Motions in closed form, on parametric ventricles whose apex points to -z: each quantity measures its own."""
 
 from collections.abc import Callable
 
@@ -21,7 +21,7 @@ def _turned(x: np.ndarray, angle: np.ndarray) -> np.ndarray:
 
 @pytest.fixture
 def shape_of(ventricle: VentricularMesh) -> Callable[[Callable], Shape]:
-    """The shape of a motion given, at a share (0 to 1) of its end, in coordinates along the ventricle's axes."""
+    """Shape of a motion that is defined, at a share (0 to 1) of its end, in coordinates along the ventricle's axes."""
     axes = LeftVentricularAxes.from_mesh(ventricle)
     frame = np.array([axes.septal, axes.anterior, axes.axis])
     local = (ventricle.points - axes.apex) @ frame.T

@@ -1,4 +1,4 @@
-"""The septal flash: read from curves of known size, and the walls from motions that a formula gives."""
+"""Septal flash of curves of known size, and wall motion of motions in closed form."""
 
 from dataclasses import replace
 

@@ -29,7 +29,7 @@ def beat() -> Beat:
 
 @pytest.mark.parametrize("smoothing", [0.0135, 0.0165])
 def test_a_sigma_point_is_observed_through_the_sensors_of_its_parameters(smoothing: float) -> None:
-    """All points have the same beat, so all that is known of the sensor comes from what it shows of each."""
+    """All points have the same beat, so the data inform the sensor only through its effect on each point."""
     setting = Setting(
         element="sphere",
         mechanisms=("ImageSmoothing",),
@@ -49,7 +49,7 @@ def test_a_sigma_point_is_observed_through_the_sensors_of_its_parameters(smoothi
 
 
 def estimated(measurement: Measurement, noise: bool, slopes: Slopes | None = None) -> Posterior:
-    """The posterior of three sensors, which each point sees the same beat through."""
+    """Posterior of three sensors; each point has the same beat."""
     prior = {name: Prior(mean=mean, sd=0.3) for name, mean in SENSORS.items()}
     setting = Setting(
         element="sphere",

@@ -72,5 +72,5 @@ def cohort() -> list[Card]:
 
 @pytest.fixture(scope="session")
 def groups() -> Groups:
-    """Who is who of the cohort."""
+    """Groups of the cohort."""
     return GROUPS

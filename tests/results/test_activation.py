@@ -1,4 +1,4 @@
-"""The picture of the activation: what it prints is what the mesh holds, and what it shows faces the beholder."""
+"""Figure of the activation: it prints the times of the mesh and draws the faces towards the viewer."""
 
 from dataclasses import replace
 

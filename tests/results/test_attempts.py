@@ -1,4 +1,4 @@
-"""What mechanisms that nobody named would gain: the best first, as a table, a figure and a file."""
+"""Gains of unnamed mechanisms: the best first, as a table, a figure and a file."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Both motions lie over the images in their own colour, and the title says how far apart they are."""
+"""Both motions are drawn over the images in separate colours; the title gives their distance."""
 
 import numpy as np
 import pytest

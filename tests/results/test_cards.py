@@ -1,4 +1,4 @@
-"""Cards say what is believed, what is seen of it, and whether the truth is in it."""
+"""Cards: prior and posterior, information of the data, and coverage of the truth."""
 
 from dataclasses import replace
 

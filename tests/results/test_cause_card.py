@@ -1,4 +1,4 @@
-"""What a card says of a diagnosis, verdict by verdict, and its figure."""
+"""Card of a diagnosis for every verdict, and its figure."""
 
 from dataclasses import replace
 

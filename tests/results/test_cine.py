@@ -1,4 +1,4 @@
-"""Tables and figures of the real cine, on discs of which everything is known."""
+"""Tables and figures of the measured cine, on discs of known motion."""
 
 import numpy as np
 import pandas as pd
@@ -23,7 +23,7 @@ ANGLE = np.linspace(0.0, 2.0 * np.pi, 361)
 UNIT = np.column_stack([np.cos(ANGLE), np.sin(ANGLE), np.zeros(361)])
 TRUE = np.array([20.0, 18.0, 15.0, 12.0, 14.0, 16.0, 18.0, 19.0]) * 1e-3
 FOUND = TRUE + np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0]) * 1e-3
-"""Radii, m: right but for a millimetre too much at end systole and too little in the last frame."""
+"""Radii [m]: exact, except for 1 mm too much at end systole and 1 mm too little in the last frame."""
 
 
 def circle(radius: float) -> np.ndarray:

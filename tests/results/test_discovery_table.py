@@ -1,4 +1,4 @@
-"""The evaluation of what was named: units, held-out ratios and the bias of the parameters."""
+"""Evaluation of named effects: units, held-out ratios and the bias of the parameters."""
 
 import numpy as np
 import pytest

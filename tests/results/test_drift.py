@@ -1,4 +1,4 @@
-"""A number that moves is found, with what to do; one that is not there is as bad."""
+"""Drifted numbers are listed with advice; missing ones count as drifted."""
 
 import pandas as pd
 import pytest

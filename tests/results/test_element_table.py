@@ -1,4 +1,4 @@
-"""Rivals of an element, printed and drawn."""
+"""Alternatives to an element, printed and drawn."""
 
 import numpy as np
 

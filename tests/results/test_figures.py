@@ -1,4 +1,4 @@
-"""The figures show every curve that exists and survive the ones that do not."""
+"""Figures show every existing curve and tolerate missing ones."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A row says the limit in the printed unit, or that there is none."""
+"""A row gives the limit in the printed unit, or states that there is none."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""What was said of effects hidden in three dimensions, printed and drawn."""
+"""Verdicts on effects hidden in three dimensions, printed and drawn."""
 
 from heartfit.discovery.sphere_model.cause import Cause
 from heartfit.io.tables import write_figure

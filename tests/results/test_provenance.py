@@ -1,4 +1,4 @@
-"""No number of the tables is without its origin."""
+"""Every number of the tables has its origin."""
 
 import pandas as pd
 import pytest

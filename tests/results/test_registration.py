@@ -1,4 +1,4 @@
-"""What registration costs, from comparisons whose errors are known: rows, columns, signs, units and pictures."""
+"""Errors of registration, from comparisons with known errors: rows, columns, signs, units and figures."""
 
 from pathlib import Path
 

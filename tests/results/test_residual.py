@@ -1,4 +1,4 @@
-"""Residuals as table, sentence and figure; a beat that failed says so."""
+"""Residuals as table, sentence and figure; a failed beat is reported."""
 
 import numpy as np
 import pytest

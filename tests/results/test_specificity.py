@@ -1,4 +1,4 @@
-"""Patients are told from volunteers as far as the data go."""
+"""Patients are compared with volunteers as far as the data inform."""
 
 from dataclasses import replace
 

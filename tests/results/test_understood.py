@@ -1,4 +1,4 @@
-"""The picture of what was read shows its phases, letters its sides, and says what is not there."""
+"""Figure of an imported case: it shows the phases, labels the sides, and names missing data."""
 
 import numpy as np
 import pytest

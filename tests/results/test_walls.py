@@ -1,4 +1,4 @@
-"""The septal flash as table and figure: what is written is read back, and failed beats are left out."""
+"""Septal flash as table and figure: tables are read back as written; failed beats are excluded."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What makes a site of the pages: formulas, navigation, and prose in docstrings."""
+"""Site of the pages: formulas, navigation, and prose in docstrings."""
 
 import sys
 from importlib import import_module

@@ -19,12 +19,12 @@ PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue")
 PORTS = {"controller_port": 16817, "node_port": 16818}
 CONFIGURATION = Path(__file__).with_name("slurm.conf")
 PLACE = Path("/etc/slurm/slurm.conf")
-"""Where SLURM looks; the executor strips SLURM_CONF, which could say another place, from what its jobs see."""
+"""Default configuration of SLURM; the executor removes SLURM_CONF, which could name another, from its jobs."""
 READY = ("idle", "mixed", "allocated")
 
 
 class LabError(RuntimeError):
-    """SLURM cannot be had here."""
+    """SLURM is not available."""
 
 
 def install() -> None:
@@ -41,12 +41,12 @@ def install() -> None:
 
 
 def physical_memory() -> int:
-    """Of this machine, MB."""
+    """Memory of the machine [MB]."""
     return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2**20
 
 
 class Lab:
-    """The daemons and what can be done to them; `folder` holds keys, state, spool and logs.
+    """Daemons of SLURM and faults of them; `folder` holds keys, state, spool and logs.
 
     cpus: how many jobs of one thread run at once. The node has nine tenths of the machine's memory: a group that is
     tried again asks for twice as much.
@@ -119,7 +119,7 @@ class Lab:
         file.unlink(missing_ok=True)
 
     def node_state(self) -> str:
-        """As sinfo says it; a trailing * means that the node does not answer."""
+        """State of the node from sinfo; a trailing * means that the node does not answer."""
         return self.ask("sinfo", "--noheader", "--Format", "StateLong").strip()
 
     def jobs(self, state: str = "RUNNING") -> list[int]:
@@ -130,12 +130,12 @@ class Lab:
         ]
 
     def processes(self, job: int) -> list[int]:
-        """Those that SLURM counts to a job."""
+        """Processes that SLURM assigns to a job."""
         lines = self.ask("scontrol", "listpids", str(job)).splitlines()[1:]
         return [int(line.split()[0]) for line in lines if int(line.split()[0]) > 1]
 
     def states(self) -> dict[int, str]:
-        """How every job fares or ended."""
+        """States of all jobs, running and ended."""
         lines = self.ask("squeue", "--noheader", "--states", "all", "--format", "%A %T").splitlines()
         return {int(number): state for number, state in map(str.split, lines)}
 
@@ -144,7 +144,7 @@ class Lab:
         subprocess.run(command, check=True)
 
     def ask(self, *command: str) -> str:
-        """What a command of SLURM prints, whether or not it succeeds."""
+        """Output of a command of SLURM, whether or not it succeeds."""
         return subprocess.run(command, capture_output=True, text=True, check=False).stdout
 
     def _start_munge(self) -> None:
@@ -177,7 +177,7 @@ def await_that(holds: Callable[[], bool], what: str, seconds: float = 30.0) -> N
 
 
 def stepping() -> list[int]:
-    """Those processes that stand between the node daemon and a job."""
+    """Processes between the node daemon and a job."""
     lines = [(file.parent.name, file.read_bytes()) for file in Path("/proc").glob("[0-9]*/cmdline")]
     return [int(process) for process, line in lines if line.startswith(b"slurmstepd: [")]
 

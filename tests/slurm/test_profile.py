@@ -1,4 +1,4 @@
-"""The profile for SLURM names what there is."""
+"""The profile for SLURM names existing rules and options."""
 
 import re
 import tomllib

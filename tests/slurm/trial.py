@@ -1,4 +1,4 @@
-"""A study through a real SLURM, a job and a node being lost on the way, beside the same without any of it."""
+"""Study through a real SLURM with a lost job and a lost node, compared with an undisturbed run."""
 
 import argparse
 import os
@@ -18,7 +18,7 @@ from tests.slurm.lab import Lab, LabError, await_that, install
 RESULTS = Path("results/tiny")
 TINY = ("--configfile", "config/tiny.yaml", "--", f"{RESULTS}/tables/numbers.csv")
 UNEQUAL = ("logs", "benchmarks", ".sums")
-"""What tells of times and of the order of jobs."""
+"""Files that depend on times and on the order of jobs."""
 AGAIN, DONE = "Trying to restart job", re.compile(r"steps \((\d+)%\) done")
 KILLED_AT, LOST_AT = 10, 50
 """% of the study that are done when a job is killed and when the node is lost."""
@@ -47,7 +47,7 @@ class Study:
                 say(line.rstrip())
 
     def ended(self) -> bool:
-        """Whether it has nothing left to do."""
+        """True if no job is left."""
         return self.process.poll() is not None
 
     def code(self) -> int:
@@ -56,17 +56,17 @@ class Study:
         return self.process.wait()
 
     def share(self) -> int:
-        """How much of it is done, %."""
+        """Share of finished jobs [%]."""
         shares = [int(match[1]) for line in self.lines if (match := DONE.search(line))]
         return shares[-1] if shares else 0
 
     def restarts(self) -> int:
-        """How many jobs Snakemake tried again."""
+        """Number of jobs that Snakemake repeated."""
         return sum(AGAIN in line for line in self.lines)
 
 
 def main(arguments: list[str]) -> int:
-    """Say what was lost and what came of it; 0 if all of it ran again, the study is complete and its tables right."""
+    """Print the losses and their outcome; 0 if all lost jobs ran again and the study is complete with right tables."""
     parser = argparse.ArgumentParser(prog="python -m tests.slurm", description=__doc__)
     parser.add_argument("--cpus", type=int, default=len(os.sched_getaffinity(0)), help="of the node")
     options, rest = parser.parse_known_args(arguments)
@@ -97,7 +97,7 @@ def differing(cpus: int) -> list[str]:
 
 
 def results_in(folder: Path) -> dict[str, bytes]:
-    """Every result by name, but those that tell of times."""
+    """Every result by name, except for those that depend on times."""
     files = [file for file in folder.rglob("*") if file.is_file()]
     named = {file.relative_to(folder): file for file in files}
     return {str(name): file.read_bytes() for name, file in named.items() if name.parts[0] not in UNEQUAL}

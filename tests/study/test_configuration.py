@@ -1,4 +1,4 @@
-"""Bad input is refused in one line that says what, where, what was expected and what to do."""
+"""Bad input is refused in one line with mistake, place, expected value and advice."""
 
 import re
 from pathlib import Path

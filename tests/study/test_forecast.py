@@ -1,4 +1,4 @@
-"""Forecasts multiply measured costs with numbers of units."""
+"""Forecasts multiply measured costs by numbers of units."""
 
 from heartfit.study.forecast import (
     Footprint,

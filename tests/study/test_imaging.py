@@ -1,4 +1,4 @@
-"""How imaging and registration are configured."""
+"""Configuration of imaging and registration."""
 
 from dataclasses import asdict, fields
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The benchmark of hidden effects: enough of every kind, on seeds on which nothing is tuned."""
+"""Benchmark of hidden effects: enough cases of every kind, on seeds not used for tuning."""
 
 from collections import Counter
 from pathlib import Path

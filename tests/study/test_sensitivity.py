@@ -1,4 +1,4 @@
-"""Which parameters are tried about the prior's mean, and of which heart."""
+"""Parameters perturbed about the prior's mean, and the heart that is perturbed."""
 
 from pathlib import Path
 

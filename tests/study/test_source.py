@@ -1,4 +1,4 @@
-"""What a measured case says of its data: one wall, its labels, and nothing that contradicts."""
+"""Data declared by a measured case: one wall, its labels, and no contradictions."""
 
 import pytest
 

@@ -20,7 +20,7 @@ LEVEL = 20.0
 
 
 class Linear:
-    """ln p times SLOPES; ``unseen`` scales what the parameters that are not estimated do."""
+    """Observations ln p times SLOPES; ``unseen`` scales the effect of the parameters that are not estimated."""
 
     def __init__(self, unseen: float = 1.0) -> None:
         self.heart = Heart()

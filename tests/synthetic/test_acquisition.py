@@ -1,4 +1,4 @@
-"""A trial of the measurement: what it sees, what it does not, and twice the same."""
+"""Trial of the measurement: recovered motion, lost motion, and reproducibility."""
 
 import numpy as np
 import pytest

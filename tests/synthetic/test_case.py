@@ -1,4 +1,4 @@
-"""Planted cases: what is planted is what was asked for, by its seed, and nothing that no patient resembles."""
+"""Planted cases: the requested effects, reproducible by their seed, in plausible patients only."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""A pressure record has the rate, the noise and the zero that were asked for."""
+"""A pressure record has the requested rate, noise and zero."""
 
 import numpy as np
 import pytest

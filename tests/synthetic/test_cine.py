@@ -1,4 +1,4 @@
-"""A synthetic scanner: partial volume, temporal blur, noise and breath-holds against what they are by definition."""
+"""Synthetic scanner: partial volume, temporal blur, noise and breath-holds against their definitions."""
 
 from dataclasses import fields, replace
 
@@ -56,7 +56,7 @@ def noisy(ventricle: VentricularMesh, still: Motion) -> ImageSequence:
 
 @pytest.fixture
 def plan() -> ScanPlan:
-    """Of thick slices with gaps, in directions of its own."""
+    """Grid of thick slices with gaps, in oblique directions."""
     scanner = Scanner(voxel=2e-3, slice_thickness=6e-3, slice_gap=2e-3, subvoxel=1e-3)
     return ScanPlan(np.array([0.01, -0.02, 0.03]), np.array([0.0255, -0.0045, 0.069]), OBLIQUE, scanner)
 
@@ -157,7 +157,7 @@ def centres(sequence: ImageSequence) -> np.ndarray:
 def test_the_bright_voxels_of_the_left_ventricle_have_its_volume(
     ventricle: VentricularMesh, still: Motion
 ) -> None:
-    """Those brighter than halfway between muscle and blood that hang together with the cavity's middle.
+    """Voxels brighter than the mean of muscle and blood that are connected with the cavity's middle.
 
     The leaflets are black here: thinner than a voxel, they would not keep the atrium apart otherwise.
     """

@@ -1,4 +1,4 @@
-"""Virtual volunteers: drawn from their seed, seen through their scanner, unlike the calibrator's model."""
+"""Virtual volunteers: drawn from their seed, imaged by their scanner, different from the calibrator's model."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""On a linear map intervals hold the truth as often as they say, if the noise says all that is unknown."""
+"""On a linear map intervals cover the truth at their nominal rate if the noise includes all unknowns."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Hearts follow from their seed, and what is unknown of them is what the world says."""
+"""Hearts follow from their seed; the world defines their unknown parameters."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Hidden hearts: plausible, not the diagnoser's model, and the same for the same seed."""
+"""Hidden hearts: plausible, of another model than the diagnoser's, and reproducible by their seed."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What errs in images errs before the scanner: the motion that they show."""
+"""Errors of image sensors act before the scanner, on the imaged motion."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What is measured of a hidden heart: its errors have the sizes and memories they are stated to have."""
+"""Measurements of a hidden heart: errors have their stated sizes and correlation times."""
 
 import numpy as np
 import pytest

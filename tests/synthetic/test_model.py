@@ -1,4 +1,4 @@
-"""The spherical model is the simulated sphere, seen by the operators, and says why it does not beat."""
+"""The spherical forward model is the simulated sphere, observed by the operators; a failure has a reason."""
 
 import numpy as np
 import pytest

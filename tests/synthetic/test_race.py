@@ -1,4 +1,4 @@
-"""Marks count what a method asked for; on a linear map the noise-aware ones end at the posterior."""
+"""Race of methods: marks count simulations; on a linear map the noise-aware methods end at the posterior."""
 
 import numpy as np
 import pytest

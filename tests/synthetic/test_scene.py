@@ -1,4 +1,4 @@
-"""What a scanner would see at one instant: tissue where it is, its texture carried along, slices displaced."""
+"""Scene at one instant: tissue at its place, texture carried along, slices displaced."""
 
 import numpy as np
 import pytest
@@ -74,7 +74,7 @@ def test_at_end_diastole_muscle_shows_its_own_texture(ventricle: VentricularMesh
 
 @pytest.mark.parametrize("descent", [0.0, 12e-3])
 def test_blood_goes_on_beyond_the_leaflets(ventricle: VentricularMesh, descent: float) -> None:
-    """Also when the base has come down: the atrium's roof stays, and the column of blood is the longer for it."""
+    """Includes a lowered base: the atrium's roof stays, and the column of blood is longer."""
     scene = scene_of(ventricle, PLAIN)
     ring = ventricle.points[rim_loops(ventricle.surfaces["lv_endo"])[0]].mean(axis=0)
     valve = ring - descent * scene.up
@@ -87,7 +87,7 @@ def test_blood_goes_on_beyond_the_leaflets(ventricle: VentricularMesh, descent: 
 
 
 def test_fat_lies_on_the_muscle_of_the_base(ventricle: VentricularMesh) -> None:
-    """And nothing is painted over most of it."""
+    """No other tissue covers most of the fat."""
     scene = scene_of(ventricle, PLAIN)
     image = scene.at(ventricle.points)
     groove = ventricle.points[ventricle.surfaces["base"]].mean(axis=1)
@@ -97,7 +97,7 @@ def test_fat_lies_on_the_muscle_of_the_base(ventricle: VentricularMesh) -> None:
 
 
 def test_the_blood_in_the_cavities_has_their_volume(ventricle: VentricularMesh) -> None:
-    """What hangs together with blood well below the valves; the leaflets keep the atria apart."""
+    """Blood connected with the cavities well below the valves; the leaflets separate the atria."""
     scene = scene_of(ventricle, PLAIN)
     cavities = [Cavity.from_endocardium(ventricle, f"{side}_endo") for side in ("lv", "rv")]
     valves = min((ventricle.points[cavity.rim] @ scene.up).min() for cavity in cavities)

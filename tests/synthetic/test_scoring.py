@@ -1,4 +1,4 @@
-"""The scorer counts what it is said to count, whoever the diagnoser is."""
+"""The scorer counts correctly for every diagnoser."""
 
 from math import comb
 

@@ -1,4 +1,4 @@
-"""The diagnosis never opens an answer, and says the same when there is none."""
+"""The diagnosis never opens an answer and is the same without one."""
 
 import sys
 from dataclasses import replace
@@ -28,7 +28,7 @@ sys.addaudithook(_watch)
 
 @pytest.fixture
 def small_library(monkeypatch):
-    """An instrument costs no simulation."""
+    """An instrument needs no simulation."""
     monkeypatch.setattr(library, "registered", lambda: {"CatheterOffset": registered()["CatheterOffset"]})
 
 

@@ -1,4 +1,4 @@
-"""A subject as a sphere answers parameters with observations, and feels no bulk modulus."""
+"""A subject as a sphere: observations depend on the parameters and not on the bulk modulus."""
 
 import pytest
 

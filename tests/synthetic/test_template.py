@@ -1,4 +1,4 @@
-"""One mesh for all hearts: moved into other walls it keeps them, and where it cannot, the wall is meshed anew."""
+"""One mesh for all hearts: it is morphed into other walls, or the wall is remeshed."""
 
 from dataclasses import replace
 

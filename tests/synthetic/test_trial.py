@@ -1,4 +1,4 @@
-"""A heart on trial: one search says what volume and pressure show, and what another condition leaves of it."""
+"""Trial of a hidden heart: one search by volume and pressure, judged by another condition."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Effects hidden in three dimensions: what is planted, from its seed, in a wall that the case hands on."""
+"""Effects hidden in three dimensions: planted from the seed, in a wall that the case passes on."""
 
 from pathlib import Path
 

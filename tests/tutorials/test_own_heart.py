@@ -1,4 +1,4 @@
-"""The page on one's own heart does what it says: its commands are run one after the other in a new folder."""
+"""Tutorial of a user's heart: its commands are run one after the other in a new folder."""
 
 import subprocess
 import sys
@@ -15,7 +15,7 @@ CAUSE = "results/mine/mine/discovery/physical/search/cause.json"
 
 
 def steps() -> list[str]:
-    """What the page lets one do, in order: the commands of console blocks, and each Python block as a whole."""
+    """Steps of the page in order: the commands of console blocks, and each Python block as a whole."""
     return [
         step.removeprefix("$ ")
         for block in blocks_of(PAGE)
@@ -33,7 +33,7 @@ def project(tmp_path: Path, measured_heart_folder: Path) -> Path:
 
 
 def command(step: str) -> list[str]:
-    """A step of the page with this Python; the study coarse, on two cores."""
+    """Command of a step with this Python; the study is coarse, on two cores."""
     if "\n" in step:
         return [sys.executable, "-c", step]
     program, *arguments = step.replace("python3 study.py run", "study").split()

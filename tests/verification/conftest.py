@@ -18,7 +18,7 @@ def _published_slab() -> Path:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Without the data, what asks for it is deselected, and the summary says why."""
+    """Deselect the tests that need the data if it is missing; the summary gives the reason."""
     if _published_slab().is_file():
         return
     needing = [item for item in items if "published_slab" in getattr(item, "fixturenames", ())]

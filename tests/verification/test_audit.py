@@ -1,4 +1,4 @@
-"""The audit: energies are those whose derivative the forces are, and what is spoilt shows in the balance."""
+"""Audit: forces are the derivatives of the energies; a spoilt term shows in the balance."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""A check is met within its tolerance, and never by a number that is none."""
+"""A check is met within its tolerance, and never by NaN."""
 
 import pytest
 

@@ -49,7 +49,7 @@ def test_the_committed_page_has_the_numbers_of_today():
 
 @pytest.fixture
 def solved(monkeypatch):
-    """The benchmark's problems answered as expected: what is written of them is at stake here, not their answers."""
+    """Benchmark problems with expected results: the test concerns their rows, not their results."""
     monkeypatch.setattr(Problem, "answers", lambda problem, size: dict(problem.expected))
 
 

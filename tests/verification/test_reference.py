@@ -1,4 +1,4 @@
-"""The table of references: each variant is the heart and the reference that its name says."""
+"""Table of references: each variant is the heart and the reference of its name."""
 
 import numpy as np
 import pytest
@@ -38,7 +38,7 @@ def test_the_table_has_a_row_per_finding():
 
 
 def test_every_own_reference_configuration_fills_to_the_measured_volumes():
-    """Both cavities, whatever c_1, to what was measured; the paper's overfills both."""
+    """Both cavities are filled to the measured volumes for every c_1; the paper's reference overfills both."""
     beats = first_beats()
     for name in ("own", "own, c_1 up", "own, c_1 down"):
         assert list(beats[name].filled.values()) == pytest.approx([1.0, 1.0], abs=0.05)

@@ -1,4 +1,4 @@
-"""Hearts of the prior: drawn as said, counted right, and their failures named."""
+"""Hearts drawn from the prior: their distribution, their counts, and named failures."""
 
 import re
 from dataclasses import replace
@@ -33,7 +33,7 @@ def test_normal_draws_are_cut_and_uniform_ones_fill_the_box():
 
 
 def test_hearts_are_log_normal_about_the_centre():
-    """ln(theta / theta_0) over the declared deviation is z, and the centre moves what it names only."""
+    """ln(theta / theta_0) over the declared deviation is z; the mean changes only the parameters that it names."""
     campaign = CAMPAIGNS[-1]
     heart, z = next(campaign.hearts()), campaign.draws()[0]
     values = heart.parameters()
@@ -84,7 +84,7 @@ def volumes(text):
 
 
 def test_the_committed_page_meets_its_targets():
-    """Of the prior at least 99 % complete, and so does the paper's scale; regenerate by `heartfit robustness`."""
+    """At least 99 % of the hearts of the prior complete; likewise at the paper's scale (`heartfit robustness`)."""
     text = COMMITTED.read_text()
     rows = {
         row[0]: row

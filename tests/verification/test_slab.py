@@ -1,4 +1,4 @@
-"""The slab: the closed form, and what the page says of the published code's file."""
+"""Slab: the closed form, and the page's row on the file of the published code."""
 
 import numpy as np
 import pytest

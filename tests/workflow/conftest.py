@@ -42,11 +42,11 @@ class Workflow:
         )
 
     def link_measured_heart(self, folder: Path) -> None:
-        """The real one."""
+        """Link the measured heart."""
         (self.folder / "resources" / "bivme_patient1").symlink_to(folder.resolve())
 
     def add_spoilt_heart(self) -> None:
-        """Empty files in the places of a measured heart."""
+        """Add empty files in the places of a measured heart."""
         for name in ("control_points/frame_000.txt", "template/ETIndicesSorted.txt"):
             file = self.folder / "resources" / "bivme_patient1" / name
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -59,7 +59,7 @@ class Workflow:
 
     @contextmanager
     def edited(self, file: str, text: str) -> Iterator[None]:
-        """Append to a file, for a while."""
+        """Append to a file and restore it afterwards."""
         before = (self.folder / file).read_text(encoding="utf-8")
         self.edit(file, text)
         try:
@@ -75,7 +75,7 @@ def workflow(tmp_path):
 
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory):
-    """A workflow that has drawn the sigma points of one case, and those."""
+    """Workflow after drawing the sigma points of one case, and these points."""
     workflow = Workflow(tmp_path_factory.mktemp("drawn") / "project")
     points = "results/volunteer1/physical/calibration/points.json"
     assert workflow.snakemake("--cores", "1", points).returncode == 0

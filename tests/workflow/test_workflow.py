@@ -1,4 +1,4 @@
-"""The graph of jobs: how many, who reads what, what is done again and what is refused."""
+"""Graph of jobs: their number, their inputs, repeated jobs and refused configurations."""
 
 import json
 import re
@@ -177,7 +177,7 @@ def test_a_rule_without_measured_costs_is_refused_in_one_line(workflow):
 
 
 def test_no_input_is_ancient(workflow):
-    """Snakemake looks no further at a job once an ancient input of it is to be made: its stale beats would stay."""
+    """Snakemake does not recheck a job after an ancient input is to be made: its stale beats would stay."""
     rules = "".join(path.read_text() for path in (workflow.folder / "workflow" / "rules").glob("*.smk"))
     assert "kernels.json" in rules
     assert "ancient(" not in rules

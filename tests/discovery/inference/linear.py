@@ -1,4 +1,4 @@
-"""Linear hypotheses, of which everything is known in closed form."""
+"""Linear hypotheses with closed-form results."""
 
 import numpy as np
 

@@ -57,7 +57,7 @@ def single(name: str) -> Hypothesis:
 
 
 def combined(names: tuple[str, str]) -> Hypothesis:
-    """The sum of what each changes."""
+    """Sum of the changes of each effect."""
     first, second = (EFFECTS[name] for name in names)
     extra = [Coordinate(name, EFFECTS[name][0], amplitude=True) for name in names]
 

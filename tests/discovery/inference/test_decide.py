@@ -1,4 +1,4 @@
-"""Each branch of the verdict on evidences made by hand, none = 0."""
+"""Each branch of the verdict, on evidences set by hand; the baseline has 0."""
 
 import pytest
 
@@ -15,7 +15,7 @@ def evidences(
     pair: float | None = None,
     left: float = 0.0,
 ) -> Evidences:
-    """on_top and left: what the process gains on top of the best single effect and of the pair."""
+    """on_top and left: gains of the GP on top of the best single effect and of the pair."""
     pairs = {} if pair is None else {AB: pair}
     best = A if a >= b else B
     above = {best: max(a, b) + on_top} | {name: value + left for name, value in pairs.items()}

@@ -1,4 +1,4 @@
-"""The rival's evidence is a marginal density; its curve is the Gaussian process given the data."""
+"""The evidence of the GP discrepancy is a marginal density; its curve is the Gaussian process given the data."""
 
 import numpy as np
 import pytest

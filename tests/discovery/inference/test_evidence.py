@@ -1,4 +1,4 @@
-"""The evidence of a linear model is the exact integral, whatever the point it is taken at."""
+"""The evidence of a linear model is the exact integral, at every point of evaluation."""
 
 import numpy as np
 import pytest
@@ -26,7 +26,7 @@ def test_the_evidence_is_the_marginal_density_averaged_over_the_levels(x) -> Non
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_one_sided_evidence_is_the_integral_over_the_half_line(sign) -> None:
-    """Also where the data pull the amplitude below its bound."""
+    """Includes data that pull the amplitude below its bound."""
     J = slopes(1) * sign
 
     def density(a: float) -> float:

@@ -1,4 +1,4 @@
-"""Of one amplitude the interval is that of least squares: nothing draws it back to 0."""
+"""The interval of one amplitude is that of least squares, without shrinkage to 0."""
 
 import numpy as np
 import pytest

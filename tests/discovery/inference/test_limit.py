@@ -1,4 +1,4 @@
-"""Of a linear model the expected evidence has a closed form, and noisy data scatter about it."""
+"""The expected evidence of a linear model has a closed form; noisy data scatter about it."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Linear problems take one step; bounds, failures and stale slopes do not stop the others."""
+"""Linear problems take one step; bounds, failures and reused slopes do not stop the other coordinates."""
 
 import numpy as np
 import pytest
@@ -43,7 +43,7 @@ def test_a_bound_holds_and_the_others_settle_beside_it() -> None:
 
 
 def test_failures_shorten_the_step_and_the_start() -> None:
-    """A model that fails beyond |x| = 2.3 still finds its optimum within, from a start without."""
+    """A model that fails beyond |x| = 2.3 reaches its optimum inside from a start outside."""
     linear = hypothesis(slopes(3))
     failing = Hypothesis(
         (), linear.coordinates, lambda x: linear.forward(x) if np.linalg.norm(x) < 2.3 else None

@@ -1,4 +1,4 @@
-"""What a further measurement is expected to add is what it adds on average."""
+"""The expected gain of a further measurement is its average gain."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ NEW = (Block("new", "m", TIMES, 1.0, KNOWN),)
 
 
 def explained(name: str) -> Explanation:
-    """Data with a ramp, seen through two effects that make the same ramp of them."""
+    """Data with a ramp, explained by two effects that both produce this ramp."""
     matrix = np.column_stack([np.ones(TIMES.size), RAMP])
     effect = hypothesis(matrix, Coordinate(name, one_sided=True, amplitude=True))
     explanation = FitContext(data(2.0 * RAMP, KNOWN)).explain(effect, effect.at(1.0))
@@ -28,7 +28,7 @@ def explained(name: str) -> Explanation:
 def seen_as(
     shapes: dict[str, np.ndarray], name: str = "new", cost: float = 1.0, own: int = 0
 ) -> FurtherMeasurement:
-    """A measurement in which each effect has its own shape; what is its own shifts it."""
+    """Measurement in which each effect has its own shape, with optional parameters of the measurement that shift it."""
     return FurtherMeasurement(
         name, cost, NEW, lambda effects: lambda x: x[1] * shapes[effects[0]] + 3.0 * x[2:].sum(), own
     )

@@ -1,4 +1,4 @@
-"""Of a linear model the promise is the evidence, and two effects that are both there promise more than one."""
+"""The predicted evidence of a linear model is exact; two present effects have more of it than one."""
 
 from dataclasses import replace
 
@@ -45,7 +45,7 @@ def test_a_failing_typical_size_is_replaced_by_a_smaller_one() -> None:
 
 @pytest.mark.parametrize("side", [-1.0, 0.0, 1.0])
 def test_an_effect_starts_on_the_side_on_which_it_acts(side) -> None:
-    """Where it acts, its second coordinate says which of three columns it adds."""
+    """The second coordinate of the effect selects which of three columns it adds."""
     shapes = slopes(3, seed=5)
     coordinates = (*FURTHER.coordinates, Coordinate("place"))
     placed = Hypothesis(("a",), coordinates, lambda x: J[:, :2] @ x[:2] + x[2] * shapes[:, round(x[3]) + 1])

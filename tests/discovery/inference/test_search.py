@@ -1,4 +1,4 @@
-"""The whole search on an oscillator: it names what is hidden, and nothing where nothing is."""
+"""Search on an oscillator: it names the hidden effect, and none without a hidden effect."""
 
 import numpy as np
 import pytest

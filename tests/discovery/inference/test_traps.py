@@ -1,6 +1,6 @@
-"""Four ways to see an effect where there is none, each beside the search that does not fall for it.
+"""Four sources of false alarms, each beside the search that avoids it.
 
-All hearts here are oscillators without an effect: whatever is named or called unknown is a false alarm.
+All hearts here are oscillators without an effect: every verdict other than none is a false alarm.
 """
 
 from dataclasses import replace
@@ -19,12 +19,12 @@ SEEDS = range(8)
 
 
 def truth(seed: int) -> np.ndarray:
-    """Base coordinates as scattered as the prior says."""
+    """Base coordinates drawn from the prior."""
     return np.random.default_rng(2000 + seed).standard_normal(4)
 
 
 def share_of_alarms(frozen: int) -> float:
-    """How often anything is found while the first ``frozen`` base coordinates are held at the prior's mean."""
+    """Share of searches with an effect while the first ``frozen`` base coordinates are held at the prior's mean."""
 
     def held(model: Hypothesis) -> Hypothesis:
         fixed = np.zeros(frozen)
@@ -50,7 +50,7 @@ def test_parameters_that_are_held_invent_effects() -> None:
 
 
 def test_the_residual_of_one_step_is_no_evidence() -> None:
-    """Of right models, one step from the prior's mean mostly leaves what an effect explains, a converged fit not."""
+    """One step from the prior's mean mostly leaves a residual that an effect explains; a converged fit does not."""
     alarms = {"one step": 0, "converged": 0}
     for seed in SEEDS:
         data = oscillator.observed(oscillator.curves(truth(seed)), seed)
@@ -73,20 +73,20 @@ def test_the_residual_of_one_step_is_no_evidence() -> None:
 
 
 def laplace_there(optimum: object, context: FitContext) -> float:
-    """ln Z as if the fit had converged: without what the linear model still promises."""
+    """ln Z as if the fit had converged: without the gain that the linear model predicts."""
     explanation = Explanation.from_fit(optimum, context.data.values, context.whitening)
     step = explanation.posterior.mean - optimum.x
     return explanation.log_evidence - 0.5 * step @ np.linalg.solve(explanation.posterior.covariance, step)
 
 
 def bent(x: float) -> np.ndarray:
-    """Going down from 0 the frequency rises to a hump; only beyond a valley on the other side it rises without end."""
+    """Local minimum: the frequency has a maximum at x = -0.5 and grows without bound beyond x = 0.5."""
     frequency = 1.0 - (x + 0.5) ** 2 if x < 0.5 else 3.0 * (x - 0.5)
     return oscillator.curves(np.array([0.0, frequency, 0.0, 0.0]))
 
 
 def test_a_base_fit_in_a_local_minimum_is_detected() -> None:
-    """None alone ends on the hump; an effect that does the same starts beyond the valley, and all others follow."""
+    """The baseline ends on the hump; an effect with the same action starts beyond the valley, and all others follow."""
     frequency, lure = Coordinate("frequency"), Coordinate("lure", amplitude=True)
     none = Hypothesis((), (frequency,), lambda x: bent(x[0]))
     lured = Hypothesis(("lure",), (frequency, lure), lambda x: bent(x[0] + x[1]))
@@ -103,9 +103,9 @@ def test_a_base_fit_in_a_local_minimum_is_detected() -> None:
 
 
 def test_a_simulation_that_fails_is_no_curve() -> None:
-    """An effect whose simulation fails from some amplitude on is fitted below it, one that always fails is set aside.
+    """An effect whose simulation fails from some amplitude on is fitted below it; one that always fails is excluded.
 
-    Had the simulation handed out where it stopped, no choice of coordinates would explain the data.
+    If the simulation returned its truncated curve, no choice of coordinates would explain the data.
     """
     drift = oscillator.single("drift")
     failing = replace(drift, forward=lambda x: drift.forward(x) if x[4] < 0.7 else None)

@@ -1,4 +1,4 @@
-"""The simulator itself: what locking tetrahedra get wrong is laid to the element and not to the patient."""
+"""Discretisation errors of locking tetrahedra are attributed to the element and not to the patient."""
 
 from collections.abc import Mapping
 

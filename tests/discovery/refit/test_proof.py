@@ -1,4 +1,4 @@
-"""A leak that a sphere hides is refitted, sized and gains on what was not fitted; what helps nowhere is withdrawn."""
+"""A leak hidden in a sphere is refitted and gains on held-out data; an effect without gain is withdrawn."""
 
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The judge: error ratios where nothing was fitted, and which sphere and threshold a search is given."""
+"""Error ratios on held-out data, and the choice of the nominal heart and of the threshold of a search."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Which extensions are tried, which of them are kept, and what becomes of the names."""
+"""Verdict of a refit: extensions that are tried, extensions that are kept, and names that are withdrawn."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -67,7 +67,7 @@ def fitted(extension: Extension, evidence: float) -> Refit:
 
 @dataclass
 class Judge:
-    """Stands for a trial: evidence by the number of effects, and which numbers come nearer than the one before."""
+    """Stand-in for a trial: evidence by the number of effects, and the numbers that improve on the one before."""
 
     evidence: dict[int, float]
     nearer: tuple[int, ...]
@@ -142,7 +142,7 @@ def test_without_a_named_effect_a_trial_changes_no_verdict() -> None:
 
 
 class Helped:
-    """A proof of which only gains and traces are asked."""
+    """Stand-in for a proof with gains and traces only."""
 
     def gains(self) -> list[Gain]:
         return [Gain("rv_volume", "never fitted", 4e-6, 2e-6, 0.5, (0.4, 0.6))]

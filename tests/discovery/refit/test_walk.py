@@ -1,4 +1,4 @@
-"""The walk of a refit: exact on a linear model, right despite slopes that are off, within bounds, past a lost beat."""
+"""Optimisation of a refit: exact on a linear model, correct with inexact slopes, within bounds, after a failed beat."""
 
 import numpy as np
 import pytest
@@ -70,7 +70,7 @@ def test_an_amplitude_that_the_data_push_below_its_bound_stays_there() -> None:
 
 
 def test_other_parameters_are_refitted_where_an_amplitude_meets_its_bound() -> None:
-    """A step that is merely cut off at the bound would promise nothing here, and be taken for the end."""
+    """A step that is only cut off at the bound would predict no gain here and end the optimisation."""
     alike = SLOPES + np.array([3.0, 0.0, 3.0]) * SLOPES[:, 1:2]
     target = Target({"lv_volume": Samples(np.arange(12.0), alike @ np.array([0.6, -1.5, 1.0]))}, NOISE)
     lower = np.array([-np.inf, 0.0, -np.inf])

@@ -13,7 +13,7 @@ NAMES = ("CatheterDelay", "CatheterOffset", "ImageShrinkage", "MitralRegurgitati
 
 @pytest.fixture(scope="session")
 def few_mechanisms() -> Iterator[None]:
-    """The search among four mechanisms instead of all."""
+    """Search among four mechanisms instead of all."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(case, "candidates", few)
         yield

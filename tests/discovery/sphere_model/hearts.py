@@ -1,4 +1,4 @@
-"""Hearts of another model than the diagnoser's, as they are recorded."""
+"""Recordings of hearts of another model than the diagnoser's."""
 
 from dataclasses import replace
 
@@ -10,7 +10,7 @@ LEAK = PlantedPlan(1, "single", ("MitralRegurgitation",), 2.5)
 
 
 def recorded(plan: PlantedPlan, condition: str = "rest") -> Recording:
-    """What is measured of a planted case."""
+    """Recording of a planted case."""
     curves = plant(replace(plan, reloaded=condition != "rest")).curves[condition]
     samples = {name: Samples(curve.times, curve.values) for name, curve in curves.items()}
     return Recording(curves["lv_volume"].period, samples)

@@ -1,4 +1,4 @@
-"""A recorded aortic pressure enters the search: as a curve of its own, with its noise, and it speaks for a stenosis."""
+"""A recorded aortic pressure enters the search as a curve with its noise and raises the evidence of a stenosis."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""The command on two beats of a heart with a right ventricle, and a condition of which only the volume is known."""
+"""Command on two beats of a heart with a right ventricle, and a condition with a volume only."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ OFFSET = PlantedPlan(11, "single", ("CatheterOffset",), 2.5, reloaded=True)
 
 @pytest.fixture
 def arguments(tmp_path, monkeypatch):
-    """The arguments; instruments cost no simulation."""
+    """Arguments of the command; instruments need no simulation."""
     few = {name: registered()[name] for name in ("CatheterOffset", "ImageShrinkage")}
     monkeypatch.setattr(library, "registered", lambda: few)
     rest, raised = (plant(OFFSET).curves[name] for name in ("rest", "legs_raised"))

@@ -1,4 +1,4 @@
-"""A late activation is not taken for slow relaxation: how long the fibres take is free in every heart."""
+"""A late activation is not named slow relaxation: the spread of activation is free in every heart."""
 
 from heartfit.discovery.sphere_model import diagnose as searching
 from heartfit.discovery.sphere_model import forward_model as library

@@ -1,4 +1,4 @@
-"""A planted leak is named and sized, none is found where none is, and a volume alone is not enough."""
+"""A planted leak is named with its size; none is found without one; a volume alone is not sufficient."""
 
 from dataclasses import replace
 

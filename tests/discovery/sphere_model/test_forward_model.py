@@ -1,4 +1,4 @@
-"""The sphere of the search: its centre, its size, and beats that an instrument does not cost."""
+"""Forward model of the search: nominal heart, size, and instruments that need no beat."""
 
 from dataclasses import replace
 

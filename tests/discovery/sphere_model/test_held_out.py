@@ -1,4 +1,4 @@
-"""Errors on what was never fitted, and their ratio."""
+"""Errors on held-out data and their ratio."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What shows plainly has a small limit, what the model absorbs has none."""
+"""A clearly observable effect has a small detection limit; an effect that the model absorbs has none."""
 
 from heartfit.discovery.sphere_model.limits import detection_limits
 

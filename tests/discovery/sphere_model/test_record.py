@@ -1,4 +1,4 @@
-"""Recordings as data: what is averaged, what is not."""
+"""Recordings as data: averaged and unaveraged curves."""
 
 import numpy as np
 import pytest

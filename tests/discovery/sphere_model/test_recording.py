@@ -1,4 +1,4 @@
-"""What a recording refuses, in one line that says what to do."""
+"""Invalid recordings are refused in one line with advice."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A centre is good if the search finds nothing in beats in which nothing is hidden."""
+"""A nominal heart passes its self-test if the search names no effect in beats without a hidden effect."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Two ways to see an effect in a healthy heart and one to miss it, each beside the search that does not fall for it."""
+"""Two sources of false alarms in a healthy heart and one of a miss, each beside the search that avoids it."""
 
 from collections.abc import Sequence
 
@@ -31,7 +31,7 @@ def context():
 
 
 def frozen(full: Hypothesis) -> Hypothesis:
-    """The hypothesis with what is not calibrated held at the centre of its prior."""
+    """Hypothesis with the uncalibrated parameters held at the prior's mean."""
     free = np.concatenate([SEEN, np.ones(len(full.coordinates) - SEEN.size, dtype=bool)])
 
     def forward(x: Floats) -> Floats | None:
@@ -44,7 +44,7 @@ def frozen(full: Hypothesis) -> Hypothesis:
 
 
 def best_bayes_factor(context: FitContext, hypotheses: Sequence[Hypothesis]) -> float:
-    """ln evidence of the best effect over none, which comes first."""
+    """ln evidence of the best effect over the baseline, which comes first."""
     none, *effects = (
         context.explain(candidate, candidate.at(float(bool(candidate.effects)))) for candidate in hypotheses
     )
@@ -72,7 +72,7 @@ def test_the_residual_of_one_unscented_step_is_no_evidence(context):
 
 
 def one_step(judge: FitContext, model: Hypothesis) -> Floats:
-    """What the model predicts after one unscented step from the centre: the mean slopes over 2 n + 1 sigma points."""
+    """Prediction after one unscented step from the nominal heart, with the mean slopes over 2 n + 1 sigma points."""
     n = len(model.coordinates)
     reach = np.sqrt(n)
     up, down = (
@@ -84,7 +84,7 @@ def one_step(judge: FitContext, model: Hypothesis) -> Floats:
 
 
 def chi_square(judge: FitContext, predicted: Floats) -> float:
-    """Of the whitened residual at its likeliest level of noise, over the number of values."""
+    """Squared whitened residual at its most likely level of noise, over the number of values."""
     residual = judge.data.values - predicted
     levels = judge.whitening.most_probable_levels(residual)
     parts = zip(judge.whitening.roots, levels, judge.whitening.rows, strict=True)
@@ -93,7 +93,7 @@ def chi_square(judge: FitContext, predicted: Floats) -> float:
 
 
 def test_a_severe_leak_moves_the_baseline_fit_to_where_the_leak_is_not_observable():
-    """It is named all the same, for every effect starts from the centre of the priors as well."""
+    """The leak is named nevertheless, since every effect also starts from the mean of the priors."""
     recording = recorded(PlantedPlan(301, "single", ("MitralRegurgitation",), 3.0))
     data = search_data(recording)
     model = SphereForwardModel(

@@ -1,4 +1,4 @@
-"""The activation: where it starts, where it ends and how long it takes, in health and in left bundle branch block."""
+"""Activation: its first site, its last site and its duration, in health and in left bundle branch block."""
 
 from dataclasses import replace
 

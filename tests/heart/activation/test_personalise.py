@@ -1,4 +1,4 @@
-"""A block as long as the QRS complex that was measured."""
+"""Left bundle branch block with the duration of a measured QRS complex."""
 
 from dataclasses import replace
 

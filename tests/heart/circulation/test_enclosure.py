@@ -30,7 +30,7 @@ ONE_BEAT = Numerics(time_step=0.01, max_beats=1, tolerances=TIGHT)
 
 @dataclass(frozen=True)
 class Water(External):
-    """A diver's heart: the same pressure around it everywhere and at all times."""
+    """A uniform constant pressure around the heart."""
 
     def load(self, ventricle: str, time: Floats, period: float) -> Load:
         return Load(pulse=DEPTH)
@@ -38,7 +38,7 @@ class Water(External):
 
 @dataclass(frozen=True)
 class Depth(Pressure):
-    """The same pressure in all vessels of the diver."""
+    """Adds the same pressure to all vessels."""
 
     compartments = COMPARTMENTS[2:]
 

@@ -14,7 +14,7 @@ DROPS = [-8e3, -50.0, 20.0, 300.0, 5e3]
 @laws
 @pytest.mark.parametrize("drop", DROPS)
 def test_the_drop_drives_flow_and_its_rate(law: Branch, drop: float) -> None:
-    """q = f(drop - L (q - q*)), the very equation that is solved."""
+    """q = f(drop - L (q - q*)), the equation that is solved."""
     table = np.array([[law]])
     for inertance, before in ((1e5, 0.0), (3e6, 2e-4), (1e7, -1e-5)):
         q, _ = inertial_flow(table, 0, 0, drop, inertance, before)
@@ -35,7 +35,7 @@ def test_without_inertance_the_flow_is_that_of_the_law() -> None:
 
 
 def test_undriven_flow_decays_with_inertance_times_conductance() -> None:
-    """L K = 40 ms: after as long, a fraction 1/e of it is left, of first order in the step."""
+    """Time constant L K = 40 ms: afterwards a fraction 1/e is left, with first order in the step."""
     table, inertance = np.array([[LINEAR]]), 1e4
 
     def left(dt: float) -> float:

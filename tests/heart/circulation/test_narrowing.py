@@ -58,7 +58,7 @@ def test_a_narrower_valve_has_less_flow_and_closes_as_before(law: Branch) -> Non
 
 @laws
 def test_a_narrowing_as_wide_as_the_world_is_none(law: Branch) -> None:
-    """Bit for bit."""
+    """Equal to the bit."""
     assert all(law.with_narrowing(0.0).flow(drop) == law.flow(drop) for drop in (-50.0, 0.0, 7.0, 123.4, 9e3))
 
 

@@ -59,7 +59,7 @@ def test_tangent_is_the_symmetric_derivative_of_the_forces(
 
 @elements
 def test_turned_tissue_has_turned_forces(block: Callable, element: str) -> None:
-    """Active, passive and viscous; at rest, turned and shifted, there are none."""
+    """Active, passive and viscous forces; after a rigid rotation and shift at rest they vanish."""
     body = FiniteElementBody(block(), Tissue(support=FREE, element=element))
     R, shift = Rotation.from_rotvec([0.4, -0.9, 1.3]).as_matrix(), np.array([0.01, 0.02, -0.03])
     points = body.reference.points

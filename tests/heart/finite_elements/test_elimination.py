@@ -1,4 +1,4 @@
-"""Fronts: every node once, and every entry that elimination makes has its row."""
+"""Fronts: every node occurs once, and every entry of the fill has its row."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""Six-vectors against full tensors, and linear maps against the gradients of linear tetrahedra."""
+"""Kinematics: six-vectors against full tensors, and linear maps against the gradients of linear tetrahedra."""
 
 from collections.abc import Callable
 

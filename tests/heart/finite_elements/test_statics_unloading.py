@@ -1,4 +1,4 @@
-"""Loading and unloading are inverse to each other, and say why when there is no equilibrium."""
+"""Loading and unloading are inverse to each other; a missing equilibrium is reported with a reason."""
 
 from collections.abc import Callable
 

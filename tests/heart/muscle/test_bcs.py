@@ -141,7 +141,7 @@ def test_steady_shortening_follows_the_force_velocity_relation(
 @RHEOLOGIES
 @pytest.mark.parametrize("seed", range(3))
 def test_every_step_balances_its_energy(seed: int, law: BestelClementSorine, second_order: bool) -> None:
-    """Spring and bridges store what work and attachment bring and friction and detachment do not take."""
+    """Energy stored in spring and bridges is work and attachment less friction and detachment."""
     step, *strains, state = random_steps(2000, seed, second_order)
     e_old, e_new = (strain(law, e) for e in strains)
     stress, _, d = respond(law, step, e_old, e_new, state)

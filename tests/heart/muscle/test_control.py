@@ -45,7 +45,7 @@ def test_an_action_potential_longer_than_the_period_is_refused() -> None:
 
 
 def test_a_tail_takes_its_share_of_the_rate_from_every_step() -> None:
-    """Beside the rate itself at 4000 times of each step, the short one after the longest pause included."""
+    """Compared with the rate at 4000 times of each step, including the short one after the longest pause."""
     tail = SlowRelaxation(slowing=0.7, transition=0.05)
     slowed, dt = replace(CONTROL, tails=(tail,)), PERIOD / 23
     places = (np.arange(4000) + 0.5) * dt / 4000

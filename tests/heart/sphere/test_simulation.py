@@ -1,4 +1,4 @@
-"""The compiled beat of spheres is the beat of the coupled path, step by step, and fails as honestly."""
+"""The compiled beat of spheres equals the beat of the coupled path step by step, including its failures."""
 
 from dataclasses import dataclass, replace
 
@@ -69,7 +69,7 @@ def inviscid() -> Heart:
 
 
 def departures(beat: Beat, other: Beat) -> dict[str, float]:
-    """Largest distance of every curve over its range."""
+    """Largest difference of every curve over its range."""
     signals, others = beat.signals(), other.signals()
     assert beat.completed
     assert other.completed
@@ -137,7 +137,7 @@ def test_cut_steps_recover_the_beat(inviscid: Heart) -> None:
 def test_a_step_taken_in_halves_ends_where_the_whole_one_does(
     spherical_heart: Heart, failing: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """But for the error of one step: at its own time, 16 in contraction, 52 in relaxation, and in its own row."""
+    """Except for the error of one step: at its time, 16 in contraction, 52 in relaxation, and in its row."""
     whole = simulate_spheres(spherical_heart, [LEFT], replace(TWO_BEATS, max_beats=1))
 
     def fails_once(

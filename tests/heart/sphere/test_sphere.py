@@ -87,7 +87,7 @@ def test_a_thin_sphere_obeys_laplace() -> None:
 
 
 def test_the_matrix_and_the_sarcomere_resist_motion() -> None:
-    """Whichever of the two is viscous, a faster step of relaxed spheres needs more force, both ways."""
+    """A faster step of relaxed spheres needs more force in both directions, for each of the two viscosities."""
     for eta, mu in ((TISSUE.passive.eta, 0.0), (0.0, TISSUE.active.mu)):
         active, passive = replace(TISSUE.active, mu=mu), replace(TISSUE.passive, eta=eta)
         body = SphericalBody(LEFT, RIGHT, Tissue(active=active, passive=passive))
@@ -104,7 +104,7 @@ def test_a_balloon_fails_with_its_stretch() -> None:
 
 @pytest.mark.parametrize("classes", [1, 8, 17, 40])
 def test_fibre_classes_share_the_segments_in_their_order(classes: int) -> None:
-    """Seventeen are the segments, fewer have the means of theirs; the right sphere is the right wall."""
+    """Seventeen fibre classes are the segments, fewer are means over segments; the right sphere is the right wall."""
     regional = np.arange(18.0) ** 2
     left, right = fibre_class_means(regional, classes, 2).reshape(2, -1)
     assert left.mean() == pytest.approx(regional[1:].mean())

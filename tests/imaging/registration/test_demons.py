@@ -1,4 +1,4 @@
-"""Displacements that are known: a shift, a linear map, and the same twice."""
+"""Known displacements: a shift, a linear map, and the same result twice."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ def texture(shape: tuple[int, ...], shift: tuple[float, ...]) -> np.ndarray:
 
 @pytest.mark.parametrize(("shape", "shift"), [((48, 56), (2.3, -1.4)), ((24, 24, 28), (1.2, 0.8, -0.9))])
 def test_a_shift_is_found_to_a_twentieth_of_a_voxel(shape: tuple[int, ...], shift: tuple[float, ...]) -> None:
-    """However strongly it is smoothed: a shift is as smooth as can be."""
+    """Independent of the smoothing, since a shift is perfectly smooth."""
     still = (0.0,) * len(shape)
     displacement = register(texture(shape, still), texture(shape, shift), Demons(smoothing=3.0))
     inner = tuple(slice(size // 3, 2 * size // 3) for size in shape)

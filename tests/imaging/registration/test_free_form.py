@@ -1,4 +1,4 @@
-"""The minimiser: a quadratic's minimum is met, and no step goes uphill."""
+"""Minimiser: it reaches the minimum of a quadratic, and no step increases the objective."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ from heartfit.imaging.registration.track import minimise
 
 @dataclass
 class Squares:
-    """|r(x)|^2 with the residual r and its Jacobian; notes the values it is asked for."""
+    """Objective |r(x)|^2 with the residual r and its Jacobian; it records its values."""
 
     residual: Callable[[np.ndarray], np.ndarray]
     jacobian: Callable[[np.ndarray], np.ndarray]
@@ -37,7 +37,7 @@ def line(matrix: np.ndarray, target: np.ndarray) -> Squares:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_the_minimum_of_a_quadratic_is_found(seed: int) -> None:
-    """As least squares have it, of two terms together."""
+    """Compared with least squares of both terms."""
     rng = np.random.default_rng(seed)
     first, second = rng.standard_normal((2, 9, 6))
     b, c = rng.standard_normal((2, 9))

@@ -16,7 +16,7 @@ def monomial(degree: int, count: int) -> np.ndarray:
 
 
 def coefficients(lattice: Lattice, degrees: tuple[int, ...]) -> np.ndarray:
-    """Of the displacement whose every component is prod_a (x_a / h)^degree_a."""
+    """Coefficients of the displacement whose every component is prod_a (x_a / h)^degree_a."""
     dimension, *counts = lattice.zeros().shape
     result = np.ones(counts)
     for axis, (degree, count) in enumerate(zip(degrees, counts, strict=True)):
@@ -35,7 +35,7 @@ def voxels(shape: tuple[int, ...]) -> list[np.ndarray]:
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("degree", range(4))
 def test_polynomials_up_to_cubic_are_reproduced(shape: tuple[int, ...], degree: int) -> None:
-    """Constants too: the B-splines are a partition of unity. Up to the image's very edges."""
+    """Includes constants (the B-splines are a partition of unity), up to the image's edges."""
     lattice, last = Lattice(shape, KNOTS), np.array(shape) - 1.0
     places = np.vstack([np.random.default_rng(0).random((50, len(shape))) * last, 0.0 * last, last])
     degrees = tuple((degree + axis) % 4 for axis in range(len(shape)))
@@ -65,7 +65,7 @@ def test_beyond_the_image_the_displacement_is_that_of_its_edge() -> None:
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("knots", [1.0, 3.7, 4.0, 50.0])
 def test_a_displacement_stays_between_its_control_points(shape: tuple[int, ...], knots: float) -> None:
-    """However many of them fit: no B-spline is ever negative, at the image's edges neither, and their sum is one."""
+    """All B-splines are non-negative with sum one, for any number of them and at the image's edges."""
     lattice = Lattice(shape, knots)
     ones = np.ones_like(lattice.zeros())
     for axis, count in enumerate(ones.shape[1:], start=1):
@@ -127,7 +127,7 @@ def test_an_affine_displacement_has_no_bending_energy(shape: tuple[int, ...]) ->
 
 @pytest.mark.parametrize(("degrees", "squares"), [((2, 0, 0), 4.0), ((0, 1, 1), 2.0), ((0, 0, 2), 4.0)])
 def test_bending_is_the_sum_of_squared_second_derivatives(degrees: tuple, squares: float) -> None:
-    """Of x^2: 2^2; of y z: twice 1^2, for the two mixed derivatives; each voxel, component and h^-4."""
+    """Bending of x^2: 2^2; of y z: twice 1^2, for the two mixed derivatives; per voxel, component and h^-4."""
     lattice = Lattice((9, 12, 11), KNOTS)
     bent = coefficients(lattice, degrees)
     expected = squares * 3 * 9 * 12 * 11 / KNOTS**4

@@ -1,4 +1,4 @@
-"""Levels of a pyramid: where their voxels are, and what they keep of an image and of a weight."""
+"""Levels of a pyramid: places of their voxels, and preserved images and weights."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def test_the_index_of_a_block_s_place_is_its_number(level: PyramidLevel) -> None
 
 
 def test_a_linear_image_keeps_its_brightness_at_every_place(level: PyramidLevel) -> None:
-    """But near the edges, beyond which the image is taken to go on as at its edge; a constant one everywhere."""
+    """Except near the edges, beyond which the image continues with its edge value; a constant image everywhere."""
     slope = (3.0, -1.0, 2.0)
     image = sum(a * x for a, x in zip(slope, np.indices(SHAPE), strict=True))
     expected = sum(a * x for a, x in zip(slope, np.meshgrid(*level.places, indexing="ij"), strict=True))

@@ -1,4 +1,4 @@
-"""The real cine: a third of its frames and half of its slices, against the measured surface cut by the same planes."""
+"""Measured cine: a third of its frames and half of its slices, against the measured surface cut by the same planes."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -19,7 +19,7 @@ END_SYSTOLE = 3
 def test_the_left_endocardium_of_the_middle_slices_is_followed_to_a_millimetre(
     measured_heart_folder: Path,
 ) -> None:
-    """Over the beat; at end systole to 1.6 mm, where it has moved by 7 to 9 mm. A pixel is 1.4 mm."""
+    """Errors over the beat; at end systole 1.6 mm of a motion of 7 to 9 mm. A pixel is 1.4 mm."""
     path = short_axis_images(measured_heart_folder)
     if path is None:
         pytest.skip("the measured heart was fetched without its images")

@@ -15,7 +15,7 @@ WALL = 6.0
 PHASE = 2.0 * np.pi * np.arange(FRAMES) / FRAMES
 SIZE = 1.0 - 0.15 * (1.0 - np.cos(PHASE))
 SHIFT = np.stack([1.0 - np.cos(PHASE), np.sin(PHASE)], axis=1)
-"""Radii relative to the first frame, and how far the centre has gone in pixels."""
+"""Radii relative to the first frame, and displacement of the centre in pixels."""
 
 
 def beating_discs() -> ImageSequence:
@@ -64,7 +64,7 @@ def test_a_contracting_disc_keeps_its_area_to_one_per_cent(motion: SliceMotion, 
 
 
 def test_smoothing_holds_back_what_contracts(motion: SliceMotion) -> None:
-    """The price of three voxels, as the study of real images has them: a tenth of the area at end systole."""
+    """Effect of three voxels, as in the study of real images: a tenth of the area at end systole."""
     smooth = relative_areas(followed(3.0), 0)[FRAMES // 2]
     assert 1.08 < smooth < 1.10
     assert abs(relative_areas(motion, 0)[FRAMES // 2] - 1.0) < 0.1 * (smooth - 1.0)

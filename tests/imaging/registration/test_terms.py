@@ -73,7 +73,7 @@ def assert_force(term: Term, here: np.ndarray, step: np.ndarray) -> None:
 
 
 def assert_rank_one(part: Linearised, step: np.ndarray) -> None:
-    """Of the square r^2 of one residual: force -r g, curvature g g', so that K d = f (f.d) / r^2."""
+    """One squared residual r^2 has the force -r g and the curvature g g', so that K d = f (f.d) / r^2."""
     expected = part.force * (part.force * step).sum() / part.value
     size = float(np.abs(expected).max())
     assert size > 0.0
@@ -81,7 +81,7 @@ def assert_rank_one(part: Linearised, step: np.ndarray) -> None:
 
 
 def assert_diagonal(part: Linearised) -> None:
-    """What the curvature makes of a unit coefficient, at that coefficient."""
+    """Diagonal of the curvature: its product with a unit coefficient, at that coefficient."""
     rng, largest = np.random.default_rng(0), float(part.diagonal.max())
     for place in np.argwhere(part.diagonal > 0.01 * largest)[rng.permutation(20)]:
         unit = np.zeros_like(part.force)
@@ -101,7 +101,7 @@ def test_bending_s_force_and_curvature_are_those_of_its_value(lattice: Lattice, 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_the_wall_s_force_is_minus_half_the_gradient(lattice: Lattice, seed: int) -> None:
-    """In states that compress and dilate by a fifth and more."""
+    """States that compress and dilate by a fifth and more."""
     weight = np.random.default_rng(seed).random(SHAPE)
     assert_force(volume_of(lattice, weight), random(lattice, seed, 0.7), random(lattice, seed + 10, 0.05))
 
@@ -159,7 +159,7 @@ def test_a_dilation_costs_the_square_of_the_volume_it_adds(
 
 @pytest.mark.parametrize("shrink", [1, 2])
 def test_the_brightness_force_is_minus_half_the_gradient(lattice: Lattice, shrink: int) -> None:
-    """Of a linear image, whose value is quadratic: in single precision, its middle difference is the gradient."""
+    """A linear image has a quadratic value, whose central difference is the gradient in single precision."""
     weight = middle() * np.random.default_rng(3).random(SHAPE)
     term = brightness_of(lattice, ramp(), weight, shrink)
     here, step = random(lattice, 4, 0.5), random(lattice, 5, 0.5)

@@ -23,7 +23,7 @@ COURSE = np.array([0.0, 0.15, 0.5, 0.85, 1.0, 0.85, 0.5, 0.15])
 MIDDLE = np.full(3, 0.5 * EDGE)
 TURN = Rotation.from_rotvec([0.2, -0.3, 0.25]).as_matrix()
 STIFF = FreeForm(stiffness=4e-7)
-"""What is affine does not bend, so that stiffness costs such a motion nothing."""
+"""An affine motion has no bending energy, so the stiffness adds no penalty."""
 
 Affine = Callable[[float], tuple[np.ndarray, np.ndarray]]
 """The gradient (3,3) and the shift (3,) m of a motion about the middle when so much of it has happened."""
@@ -48,7 +48,7 @@ def dilation(share: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def travel(share: float) -> tuple[np.ndarray, np.ndarray]:
-    """As far as the texture repeats itself."""
+    """Shift of about one wavelength of the texture."""
     return np.eye(3), share * np.array([8e-3, -5e-3, 4e-3])
 
 
@@ -79,7 +79,7 @@ def displaced(points: np.ndarray, motion: Affine, share: float) -> np.ndarray:
 
 
 def grid_of(spacing: np.ndarray, direction: np.ndarray) -> Grid:
-    """Voxels about the box, and further than it moves."""
+    """Voxels around the box, beyond its motion."""
     size = np.round((EDGE + 22e-3) / spacing).astype(int)
     corner = MIDDLE - direction @ (0.5 * (size - 1) * spacing)
     return Grid((int(size[0]), int(size[1]), int(size[2])), spacing, corner, direction)
@@ -87,7 +87,7 @@ def grid_of(spacing: np.ndarray, direction: np.ndarray) -> Grid:
 
 @cache
 def imaged(motion: Affine, thickness: float = VOXEL, turned: bool = False) -> ImageSequence:
-    """Everything moves, tissue and what is about it: the texture at x is that of where x was at end diastole."""
+    """Tissue and surroundings move: the texture at x is that of the place of x at end diastole."""
     grid = grid_of(np.array([VOXEL, VOXEL, thickness]), TURN if turned else np.eye(3))
     shown = {share: texture(origins(grid, motion, share)) for share in np.unique(COURSE)}
     frames = np.array([shown[share] for share in COURSE], dtype=np.float32)
@@ -95,7 +95,7 @@ def imaged(motion: Affine, thickness: float = VOXEL, turned: bool = False) -> Im
 
 
 def origins(grid: Grid, motion: Affine, share: float) -> np.ndarray:
-    """Where what is now in a voxel's centre was at end diastole, (k,j,i,3) m."""
+    """Places at end diastole (k,j,i,3) of the points now in the voxels' centres [m]."""
     places = grid.points(np.moveaxis(np.indices(grid.shape), 0, -1)[..., ::-1].astype(float))
     gradient, step = motion(share)
     return (places - MIDDLE - step) @ np.linalg.inv(gradient).T + MIDDLE
@@ -114,7 +114,7 @@ def box() -> VentricularMesh:
 
 @pytest.mark.parametrize("motion", [shift, rotation, contraction])
 def test_a_known_motion_is_found_to_a_fifth_of_a_voxel(box: VentricularMesh, motion: Affine) -> None:
-    """Everywhere in the tissue, which moves by up to a voxel and a half; to a twentieth on average."""
+    """Errors in all of the tissue, which moves by up to a voxel and a half; a twentieth on average."""
     tracking = track(imaged(motion), box, STIFF)
     error = errors(tracking, box, motion)
     assert np.linalg.norm(displaced(box.points, motion, 1.0) - box.points, axis=1).max() > VOXEL
@@ -132,7 +132,7 @@ def test_still_images_give_no_motion(box: VentricularMesh) -> None:
 
 
 def test_voxels_need_not_be_cubes_nor_stand_along_the_axes(box: VentricularMesh) -> None:
-    """They give the same motion, to a twentieth of a voxel on average, and to a fifth but for a corner of the box."""
+    """The motion is the same to a twentieth of a voxel on average, and to a fifth except in a corner of the box."""
     straight = track(imaged(contraction), box, STIFF).motion.positions
     for thickness, turned in ((4e-3, False), (VOXEL, True)):
         tracking = track(imaged(contraction, thickness, turned), box, STIFF)
@@ -178,7 +178,7 @@ def test_a_frame_starts_from_the_displacement_of_its_neighbour(box: VentricularM
 
 
 def test_muscle_keeps_its_volume_the_more_the_more_it_weighs(box: VentricularMesh) -> None:
-    """Images of a wall that grows by 1.06^3: found where volume is free, and hardly where it is dear."""
+    """Images of a wall that grows by 1.06^3: recovered with free volume, and hardly with penalised volume."""
 
     def growth(incompressibility: float) -> float:
         settings = replace(STIFF, incompressibility=incompressibility)
@@ -190,7 +190,7 @@ def test_muscle_keeps_its_volume_the_more_the_more_it_weighs(box: VentricularMes
 
 
 def other_tissue() -> ImageSequence:
-    """Still images, but for frames 3 and 4, of which nothing smooth is made from the first."""
+    """Still images, except for frames 3 and 4, which no smooth motion of the first gives."""
     images = imaged(nothing)
     voxels = images.voxels.copy()
     voxels[3:5] = texture(origins(images.grid, nothing, 0.0), seed=5)
@@ -204,7 +204,7 @@ def test_a_frame_that_folds_the_wall_is_named(box: VentricularMesh) -> None:
 
 
 def test_a_frame_that_would_fold_the_wall_is_matched_stiffer(box: VentricularMesh) -> None:
-    """Only where it is needed: still frames stay where they were found."""
+    """Only folding frames: still frames keep their displacement."""
     tracking = track(other_tissue(), box, replace(STIFF, knots=5e-3, stiffness=4e-8, incompressibility=0.0))
     assert tracking.compression.min() > 0.0
     assert (tracking.compression[3:5] < 0.9).all()

@@ -1,4 +1,4 @@
-"""A tetrahedron that is turned inside out gets some volume back, and nothing else moves."""
+"""An inverted tetrahedron regains some volume; all other nodes stay."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ def block() -> VentricularMesh:
 
 
 def pushed(block: VentricularMesh, nodes: int) -> np.ndarray:
-    """All moved alike, and those about the middle pushed through their neighbours."""
+    """All nodes shifted equally, and those in the middle pushed through their neighbours."""
     places = block.points + np.array([3e-3, 0.0, -1e-3])
     near = np.argsort(np.linalg.norm(block.points - 0.5 * EDGE, axis=1))[:nodes]
     places[near] += np.array([1.7e-3, 0.4e-3, 0.0])

@@ -1,4 +1,4 @@
-"""Parametric ventricles, painted into short-axis images as a perfect reader would segment them."""
+"""Parametric ventricles, painted into short-axis images as exact segmentations."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ PIXEL, STEP, SLICES = 1.6e-3, 8e-3, 16
 
 
 def axes() -> np.ndarray:
-    """To where in the patient a heart has the x, y and z of parametric ventricles."""
+    """Directions in the patient of the x, y and z of parametric ventricles."""
     z = -TO_APEX / np.linalg.norm(TO_APEX)
     x = TO_RIGHT_VENTRICLE - (TO_RIGHT_VENTRICLE @ z) * z
     x /= np.linalg.norm(x)

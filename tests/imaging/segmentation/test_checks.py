@@ -68,7 +68,7 @@ def test_swapped_labels(segmentation: Segmentation) -> None:
 
 
 def test_a_left_ventricle_without_base(segmentation: Segmentation) -> None:
-    """Wall that closes above the cavity as below it: no slice tells where the valves are."""
+    """Wall that closes above the cavity as below it: no slice shows the valves."""
     wall = segmentation.heart & ~segmentation.parts["rv_cavity"]
     cavity = segmentation.parts["lv_cavity"].copy()
     cavity[:] = False

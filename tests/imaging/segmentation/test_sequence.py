@@ -1,4 +1,4 @@
-"""Segmentations of a beat as images: what is bright, dark and between, and that a mesh can follow them."""
+"""Segmentations of a beat as images: bright, dark and intermediate voxels, followed by a mesh."""
 
 from dataclasses import replace
 
@@ -28,7 +28,7 @@ def images(segmentation: Segmentation, smaller: Segmentation) -> ImageSequence:
 
 
 def volume(images: ImageSequence, frame: int) -> float:
-    """What is brighter than half way between muscle and blood, and not as bright as what is no heart."""
+    """Volume of the blood: voxels brighter than the mean of muscle and blood; the background is darker."""
     blood = float((images.voxels[frame] > 0.75).sum())
     return blood * float(np.prod(images.grid.spacing))
 

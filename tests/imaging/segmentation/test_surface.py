@@ -1,4 +1,4 @@
-"""From the voxels of known ventricles back to their surface."""
+"""Surface reconstructed from the voxels of known ventricles."""
 
 from dataclasses import replace
 

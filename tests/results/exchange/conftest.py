@@ -13,7 +13,7 @@ from heartfit.results.exchange import Calibrated
 
 PRIOR = Gaussian.from_relative({"sigma_0": 300e3, "mu": 9e3}, {"sigma_0": 0.2, "mu": 0.3})
 SLOPES = np.array([[-10e-6, 40e-6], [2e-6, -30e-6]])
-"""Of the observations, m^3 and m^3/s, by the logarithms of the parameters."""
+"""Slopes of the observations [m^3, m^3/s] by the logarithms of the parameters."""
 AT_PRIOR = np.array([60e-6, 400e-6])
 NOISE = np.array([[4e-12, 3e-12], [3e-12, 36e-12]])
 
@@ -24,7 +24,7 @@ def observed_at(z: np.ndarray) -> dict[str, float]:
 
 @pytest.fixture(scope="session")
 def calibrated() -> Calibrated:
-    """Seen without bias at 1.2 and 0.8 of the prior's parameters."""
+    """Observed without bias at 1.2 and 0.8 of the prior's parameters."""
     true = observed_at(PRIOR.mean + np.log([1.2, 0.8]))
     outcomes = [observed_at(point.z) for point in sigma_points(PRIOR)]
     noise_free, noise_aware = (calibrate(PRIOR, outcomes, true, noise) for noise in (None, NOISE))

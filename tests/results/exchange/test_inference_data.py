@@ -1,4 +1,4 @@
-"""The groups say what the Gaussians say, in the form that ArviZ reads."""
+"""The groups hold the Gaussians in the form that ArviZ reads."""
 
 import warnings
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""PEtab Select loads the models that were tried, and by our criterion comes to our choice."""
+"""PEtab Select loads the tried models and selects the same model by our criterion."""
 
 import json
 import warnings
@@ -19,7 +19,7 @@ with warnings.catch_warnings():
 
 
 def tried(leak: float, delay: float, both: float | None = None) -> tuple[FittedModel, ...]:
-    """None with the ln evidence 0, singles and a pair with these."""
+    """Baseline with the ln evidence 0, singles and a pair with the given ones."""
     pair = () if both is None else (FittedModel(("CatheterDelay", "MitralRegurgitation"), both, 75.0, 25),)
     singles = (
         FittedModel(("MitralRegurgitation",), leak, 80.0, 24),
@@ -36,7 +36,7 @@ def exported(folder, models):
 
 
 def searched(folder, criteria, criterion=None):
-    """The model at which a forward search of the calibrated models ends."""
+    """Model at which a forward search of the calibrated models ends."""
     problem = Problem.from_yaml(folder / "problem.yaml")
     calibrated, space, ended = Models.from_yaml(folder / criteria, problem=problem), None, False
     while not ended:

@@ -1,4 +1,4 @@
-"""One number a row."""
+"""Tidy tables: one number per row."""
 
 import numpy as np
 import pytest

@@ -8,7 +8,7 @@ from tests.results.report.small_report import study
 
 ASSETS = Assets("const library = 1;", "const own = 2;", "body { color: black; }")
 HOSTILE = "</script><img src=x onerror=alert(1)>&\u2028"
-"""What a user may have written."""
+"""Hostile text of a user."""
 
 
 @pytest.fixture(scope="session")

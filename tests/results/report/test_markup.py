@@ -1,4 +1,4 @@
-"""Numbers and names as a reader expects them, and nothing of a table that a browser would run."""
+"""Numbers and names in readable form; no text of a table is executable in a browser."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The page: whole, closed against the network and against what users write, the same for the same results."""
+"""Page: complete, without network requests, with escaped text of users, and reproducible."""
 
 import json
 import re
@@ -16,7 +16,7 @@ EMPTY = {"meta", "link", "img", "input", "br"}
 
 
 class Outline(HTMLParser):
-    """Tags that were left open, identities, where links lead and what images say."""
+    """Open tags, identities, link targets and descriptions of images."""
 
     def __init__(self, page: str) -> None:
         super().__init__()

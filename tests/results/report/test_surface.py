@@ -1,4 +1,4 @@
-"""What the viewer is given is the heart, to a tenth of a millimetre."""
+"""Data of the viewer: the heart to a tenth of a millimetre."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def test_numbers_survive_the_packing() -> None:
 def test_triangles_keep_their_size_through_the_beat(
     ventricle: VentricularMesh, part: str, names: tuple[str, ...]
 ) -> None:
-    """Distances do not change by another frame: those of the page against those of the mesh."""
+    """Distances are invariant to the frame: those of the page equal those of the mesh."""
     motion = shrinking(ventricle, 0.8)
     corners = unpack(packed_surface(ventricle)[part]["triangles"]).reshape(3, -1).T
     steps = unpack(packed_positions(ventricle, motion.positions)[part]).reshape(FRAMES, 3, -1)
