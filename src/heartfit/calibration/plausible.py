@@ -3,7 +3,7 @@
 The paper sets C_X "by estimating the minimal and the maximal value of each parameter with a trial and error approach
 on one volunteer". Here each quantity y of the beat (ejection fraction, peak pressure, ...) is the parabola in
 t = ln(theta / theta_0) through the beat of the standard heart (t = 0) and the two at -h and +h. The range ends where
-the first parabola leaves its published limits, or at a cap. With its ends t_- < 0 < t_+,
+the first parabola leaves its published limits, or at a cap. With its ends :math:`t_- < 0 < t_+`,
 
     X0 = theta_0 exp((t_- + t_+) / 2),   sd = (t_+ - t_-) / 4.
 

@@ -84,7 +84,7 @@ def read_sampled(path: Path, period: float | None) -> tuple[np.ndarray, dict[str
 
 
 def write_curves(path: Path, curves: Mapping[str, Curve]) -> None:
-    """Write curves of one period, every curve at its own times; raises ValueError if the periods differ."""
+    """Write curves of one period, each with its sampling times; raises ValueError if the periods differ."""
     first = next(iter(curves.values()))
     for name, curve in curves.items():
         if curve.period != first.period:

@@ -147,7 +147,7 @@ def _nrrd(path: Path, header: bytes, most: int) -> int:
 
 
 def _voxels(path: Path, header: bytes, before: re.Pattern[bytes]) -> BufferedReader:
-    """Open the file of the voxels at their beginning: behind `before`, or in a file of their own."""
+    """Open the file of the voxels at their beginning: behind `before`, or in a separate file."""
     name, end_of_header = elsewhere(header), before.search(header)
     file = (path.with_name(name) if name else path).open("rb")
     file.seek(end_of_header.end() if end_of_header and not name else 0)

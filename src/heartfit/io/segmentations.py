@@ -34,7 +34,7 @@ def read_segmentation(path: Path, labels: Mapping[str, int]) -> tuple[Segmentati
 
 
 def require_labels(labels: Mapping[str, int], where: Path | str) -> None:
-    """Raise InputError unless every required part, and no unknown part, has a number of its own."""
+    """Raise InputError unless every required part, and no unknown part, has a distinct number."""
     for name in labels:
         if name not in PARTS:
             near = get_close_matches(name, PARTS, n=1, cutoff=0.4)

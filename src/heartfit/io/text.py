@@ -26,7 +26,7 @@ FAULTS = (
 
 @contextmanager
 def parsing(path: Path, expected: str, *faults: type[BaseException]) -> Iterator[None]:
-    """Turn every error of a parser, its own `faults` included, into an InputError that names the file."""
+    """Turn every error of a parser, including its `faults`, into an InputError that names the file."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")

@@ -117,7 +117,7 @@ def _thickening(mesh: VentricularMesh, axes: LeftVentricularAxes, motion: Motion
 def _rotation(
     mesh: VentricularMesh, axes: LeftVentricularAxes, motion: Motion, between: tuple[float, float]
 ) -> Floats:
-    """Rotation (p,) [rad] of the left endocardium of a level about its own centre."""
+    """Rotation (p,) [rad] of the left endocardium of a level about its centre."""
     places = motion.positions[:, _nodes_at_level(mesh, axes, "lv_endo", between)]
     flat = np.stack([places @ axes.septal, places @ axes.anterior], axis=-1)
     flat -= flat.mean(axis=1, keepdims=True)

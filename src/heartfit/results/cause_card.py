@@ -123,7 +123,7 @@ def _ranking_table(diagnosis: Diagnosis) -> str:
 
 
 def alternatives_text(diagnosis: Diagnosis) -> str:
-    """Return the alternatives as a list, or one sentence that says why there is none."""
+    """Return the alternatives as a list, or one sentence with the reason for none."""
     if diagnosis.withdrawn:
         names = ", ".join(map(spaced_name, diagnosis.withdrawn))
         return f"Withdrawn: {names}. The fit to the searched data improves, the held-out error does not."

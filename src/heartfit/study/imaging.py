@@ -12,7 +12,7 @@ from heartfit.personalise.numerics import Generator
 from heartfit.synthetic.scanner import Catheter, Contrast, Scanner
 
 BASELINE = "baseline"
-"""Name of the acquisition by the cohort's own scanner."""
+"""Name of the acquisition by the cohort's scanner."""
 
 
 class ImageContrast(Strict):

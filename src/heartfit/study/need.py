@@ -1,4 +1,4 @@
-"""Measured cost of jobs, and Snakemake's own time for a graph of jobs."""
+"""Measured cost of jobs, and CPU time of Snakemake for a graph of jobs."""
 
 import math
 import re
@@ -108,7 +108,7 @@ def _need(key: tuple[str, str, str], costs: Sequence[Cost], units: int) -> Need:
 
 
 OWN_TIME_SHARE = 0.05
-"""Largest acceptable share of Snakemake's own time in the wall time."""
+"""Largest acceptable share of Snakemake's CPU time in the wall time."""
 MOST_SUBJECTS = 1_000_000
 """Upper limit of the search for the largest shard."""
 

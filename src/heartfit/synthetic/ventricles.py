@@ -1,8 +1,8 @@
-r"""Effects hidden in three dimensions: ventricles with mesh, time step, valves and parameters of their own.
+r"""Effects hidden in three dimensions: ventricles whose mesh, time step, valves and parameters differ from the model's.
 
-The hidden beat is that of the virtual cohort, and its parameters scatter as those of the hidden spheres; size and rate
-follow from the anatomy, which is drawn too. The volume is that of a mesh registered through the frames of a scanner;
-the pressure has the errors of the hidden spheres. Sensors of the heart distort the node paths before imaging:
+The hidden beat is that of the virtual cohort, and its parameters scatter like those of the hidden spheres; size and
+rate follow from the anatomy, which is also drawn. The volume is that of a mesh registered through the frames of a
+scanner; the pressure has the errors of the hidden spheres. Sensors of the heart distort the node paths before imaging:
 
 .. math:: x'_n(t) = (S x_n)(t), \qquad V_i = V(\text{registered mesh of the images of } x'(t_i))
 

@@ -96,7 +96,7 @@ class Evidences:
 
 @dataclass(frozen=True)
 class Decision:
-    """The verdict, the named effects, and the alternatives that the data cannot tell from them."""
+    """Return the verdict, the named effects, and the alternatives that the data do not distinguish from them."""
 
     verdict: Verdict
     effects: Effects = ()

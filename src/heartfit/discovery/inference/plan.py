@@ -41,7 +41,7 @@ from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.inference.hypothesis import Coordinate, CountedHypothesis, Hypothesis
 
 DECISIVE = 3.0
-"""ln Bayes factor that tells two explanations apart (Kass and Raftery's "positive")."""
+"""ln Bayes factor that distinguishes two explanations (Kass and Raftery's "positive")."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +72,7 @@ class Prospect:
 def plan(
     explanations: Sequence[Explanation], measurements: Sequence[FurtherMeasurement]
 ) -> tuple[Prospect, ...]:
-    """Rank the prospects of all measurements: those that tell the explanations apart first, by cost.
+    """Rank the prospects of all measurements: those that distinguish the explanations first, by cost.
 
     A measurement that some explanation cannot simulate is left out.
     """

@@ -92,7 +92,7 @@ def survey_singles(
 
 
 def _fit_baseline(context: FitContext, baseline: Hypothesis) -> tuple[Explanation, Explanation]:
-    """The baseline at the prior mean, and its fit, restarted once from its own end."""
+    """Return the baseline at the prior mean, and its fit, restarted once from its result."""
     at_mean = context.linearise(baseline, baseline.at(0.0))
     fitted = None if at_mean is None else context.explain(baseline, at_mean.fit.x, at_mean.fit.jacobian)
     if at_mean is None or fitted is None:
@@ -117,7 +117,7 @@ def _fit_from_prior_mean(
 ) -> Explanation | None:
     """An effect's best fit from the prior mean up to the first fresh slopes.
 
-    The predicted evidence tells on which side to start one further unknown, but not two, such as place and extent.
+    The predicted evidence determines the starting side of one further unknown, but not of two (place and extent).
     """
     amplitudes = (rules.start_amplitude, rules.start_amplitude)
     predictions = predict_placements(context, at_mean, hypothesis, amplitudes)

@@ -91,7 +91,7 @@ class SearchedRecording:
 
     @property
     def explanations(self) -> tuple[Effects, ...]:
-        """Named effects: the best ones, and in a group all that the data cannot tell from them."""
+        """Named effects: the best ones, and in a group all that the data do not distinguish from them."""
         decision = self.findings.decision
         others = decision.alternatives if self.verdict == "group" else ()
         return (decision.effects, *others) if decision.effects else ()
