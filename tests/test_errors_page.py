@@ -41,13 +41,13 @@ def messages(trees: list[ast.Module], error: str) -> set[str]:
     return {text for text in raised if re.search(r"\w", text.replace("expected", ""))}
 
 
-def tells_of(phrase: str, text: str) -> bool:
+def matches(phrase: str, text: str) -> bool:
     return re.search(".*".join(map(re.escape, phrase.split(GAP))), text) is not None
 
 
 def test_every_message_of_the_code_is_on_the_page():
     texts = messages(TREES, "InputError") | messages(CONFIGURATION, "ValueError")
-    untold = [text for text in sorted(texts) if not any(tells_of(phrase, text) for phrase in PHRASES)]
+    untold = [text for text in sorted(texts) if not any(matches(phrase, text) for phrase in PHRASES)]
     assert len(texts) > 200
     assert not untold, "tell in docs/errors.md what they mean"
 
@@ -59,7 +59,7 @@ def test_the_page_lists_no_message_that_the_code_lacks():
         for node in ast.walk(tree)
         if isinstance(node, ast.JoinedStr | ast.Constant)
     }
-    assert not [phrase for phrase in PHRASES if not any(tells_of(phrase, text) for text in texts)]
+    assert not [phrase for phrase in PHRASES if not any(matches(phrase, text) for text in texts)]
 
 
 def test_every_phrase_has_at_least_three_letters():

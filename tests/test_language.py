@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-FOLDERS = ("src/heartfit", "verification", "workflow", "benchmarks")
+FOLDERS = ("src/heartfit", "verification", "workflow", "benchmarks", "tests")
 FILES = [ROOT / "study.py", *(file for folder in FOLDERS for file in sorted((ROOT / folder).rglob("*.py")))]
 TREES = {file.relative_to(ROOT).as_posix(): ast.parse(file.read_text()) for file in FILES}
 
-RIDDLE = re.compile(r"(What|How|Where|When|Which|Whether|Who|Why|Of)\b")
+RIDDLE = re.compile(r"(What|How|Where|When|Which|Whether|Who|Whose|Why|Of|That|As)\b")
 
 VAGUE = {"each", "every", "found", "said", "told", "seen", "asked", "given", "made", "done", "gone"}
 VAGUE |= {"moved", "joined", "apart", "doubt", "rival", "twin", "twins", "outsider", "outsiders", "promise"}

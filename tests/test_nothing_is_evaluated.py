@@ -40,7 +40,7 @@ CALLS = {
 
 HARMLESS = {"re.compile", "platform.system"}
 
-ASKED_FOR = {"diagnose.py": {"exec_module"}}
+EXCEPTIONS = {"diagnose.py": {"exec_module"}}
 """Exceptions: a file of mechanisms is run if it is named on the command line."""
 
 
@@ -62,7 +62,7 @@ def is_dangerous(call: ast.Call, file: str) -> bool:
     name = name_of(call)
     values = {keyword.arg: getattr(keyword.value, "value", None) for keyword in call.keywords}
     return (
-        (name.split(".")[-1] in CALLS - ASKED_FOR.get(file, set()) and name not in HARMLESS)
+        (name.split(".")[-1] in CALLS - EXCEPTIONS.get(file, set()) and name not in HARMLESS)
         or bool(values.get("shell") or values.get("allow_pickle"))
         or name == "yaml.load"
         or (name == "np.load" and values.get("allow_pickle", True) is not False)

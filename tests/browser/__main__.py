@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-HERE = Path(__file__).parent
+FOLDER = Path(__file__).parent
 MADE = ("results/report.html", "results/smoke/report.html")
 INSTALL = (
     ("apt-get", "update", "-qq"),
@@ -27,7 +27,7 @@ def main(arguments: list[str]) -> int:
         flush=True,
     )
     os.environ["REPORTS"] = os.pathsep.join(reports)
-    return int(pytest.main([str(HERE), "-m", "long", "-v"]))
+    return int(pytest.main([str(FOLDER), "-m", "long", "-v"]))
 
 
 def chromium() -> str:

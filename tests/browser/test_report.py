@@ -10,7 +10,7 @@ from playwright.sync_api import Locator
 from tests.browser.conftest import SCREEN, Opened
 
 pytestmark = pytest.mark.long
-SEEN = 8.0
+VISIBLE = 8.0
 """Standard deviation of the brightness, of 255, from which a picture shows something."""
 BLANK = """async (image) => {
   await image.decode();
@@ -44,7 +44,7 @@ def pixels(scene: Locator) -> np.ndarray:
 
 def changed(before: np.ndarray, after: np.ndarray) -> float:
     """Share of the pixels that changed."""
-    return float((np.abs(before - after) > SEEN).mean())
+    return float((np.abs(before - after) > VISIBLE).mean())
 
 
 def test_the_report_opens_without_console_errors_or_network_requests(opened: Opened, heart: Locator) -> None:
@@ -55,7 +55,7 @@ def test_the_report_opens_without_console_errors_or_network_requests(opened: Ope
 def test_no_picture_is_blank(opened: Opened) -> None:
     spread = [image.evaluate(BLANK) for image in opened.page.locator("main img").all()]
     assert len(spread) > 5
-    assert min(spread) > SEEN
+    assert min(spread) > VISIBLE
 
 
 def test_no_element_is_wider_than_the_screen(opened: Opened) -> None:
@@ -73,7 +73,7 @@ def test_the_ventricles_are_drawn_turn_and_beat(heart: Locator, side: int) -> No
     later = pixels(scene)
     slider.fill("0")
     heart.get_by_role("button", name="the front").click()
-    assert first.std() > SEEN
+    assert first.std() > VISIBLE
     assert changed(first, turned) > 0.02
     assert changed(turned, later) > 0.01
     assert changed(first, pixels(scene)) < 0.001, "back where it was"
@@ -102,7 +102,7 @@ def test_every_colour_is_shown_with_its_scale(heart: Locator, shade: str) -> Non
     heart.locator(".time").fill("3")
     heart.locator(".shade").select_option(shade)
     heart.page.wait_for_timeout(300)
-    assert pixels(heart.locator(".scene").nth(1)).std() > SEEN
+    assert pixels(heart.locator(".scene").nth(1)).std() > VISIBLE
     assert heart.locator(".high").inner_text() != heart.locator(".low").inner_text()
     heart.locator(".time").fill("0")
     heart.locator(".shade").select_option("activation")
@@ -136,7 +136,7 @@ def test_pictures_out_of_sight_release_their_context_and_are_redrawn(opened: Ope
     heart.scroll_into_view_if_needed()
     opened.page.locator(".heart.drawn").first.wait_for()
     opened.page.wait_for_timeout(300)
-    assert pixels(heart.locator(".scene").first).std() > SEEN
+    assert pixels(heart.locator(".scene").first).std() > VISIBLE
 
 
 def test_the_report_prints(opened: Opened) -> None:

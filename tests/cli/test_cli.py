@@ -58,8 +58,8 @@ def test_a_beat_imports_no_library_that_it_does_not_use():
         "scipy.stats",
         "scipy.spatial",
     }
-    says = f"import sys, heartfit.cli.main; print(*sorted({slow!r} & set(sys.modules)))"
-    run = subprocess.run([sys.executable, "-c", says], capture_output=True, text=True, check=True)
+    script = f"import sys, heartfit.cli.main; print(*sorted({slow!r} & set(sys.modules)))"
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert run.stdout == "\n", "each takes 0.05 to 0.4 s of every job"
 
 

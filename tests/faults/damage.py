@@ -17,8 +17,8 @@ KINDS = {
 }
 """One file of each kind that the study writes."""
 
-Spoil = Callable[[bytes, Random], bytes]
-WAYS: dict[str, Spoil] = {
+Damage = Callable[[bytes, Random], bytes]
+WAYS: dict[str, Damage] = {
     "truncated to half": lambda whole, chance: whole[: len(whole) // 2],
     "without its last line": lambda whole, chance: whole[: whole.rstrip().rfind(b"\n") + 1],
     "emptied": lambda whole, chance: b"",

@@ -21,7 +21,7 @@ LACKING = -600.0 * np.exp(-(((TIMES - 0.2) / 0.05) ** 2))
 TRACE = Trace(
     "lv_pressure", TIMES, 1e4 + LACKING, *np.full((3, 20), 1e4), lacking=LACKING, band=np.full(20, 200.0)
 )
-FOUND = Diagnosis(
+DIAGNOSIS = Diagnosis(
     "named",
     (Cause("MitralRegurgitation", 12.0, 3e-5, "m^2", (2e-5, 4e-5)),),
     (("SlowRelaxation",),),
@@ -37,7 +37,7 @@ FOUND = Diagnosis(
 
 @pytest.fixture
 def path(tmp_path):
-    write_cause(tmp_path / "cause.json", FOUND, departure_sentences(FOUND), "0123")
+    write_cause(tmp_path / "cause.json", DIAGNOSIS, departure_sentences(DIAGNOSIS), "0123")
     return tmp_path / "cause.json"
 
 
@@ -85,7 +85,7 @@ def test_the_schema_is_in_step():
 
 
 SEARCHED = replace(
-    FOUND,
+    DIAGNOSIS,
     ranking={"SlowRelaxation": np.pi, "MitralRegurgitation": 1 / 3, "unknown": -np.inf},
     withdrawn=("CatheterOffset",),
     unsearched={"rv_volume": "a left ventricle does not explain it"},
@@ -98,7 +98,7 @@ SEARCHED = replace(
 )
 
 
-@pytest.mark.parametrize("diagnosis", [FOUND, SEARCHED])
+@pytest.mark.parametrize("diagnosis", [DIAGNOSIS, SEARCHED])
 def test_a_diagnosis_is_read_back_to_the_bit(tmp_path, diagnosis):
     """A refit starts from the stored diagnosis: it has the numbers of the search and the order of its ranking."""
     write_cause_card(tmp_path, render_cause(diagnosis, "heart1"), "0123")

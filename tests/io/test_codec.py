@@ -100,7 +100,7 @@ def test_numbers_of_numpy_are_plain_numbers():
 
 
 @pytest.mark.parametrize(
-    ("content", "says"),
+    ("content", "message"),
     [
         ({"index": 0, "label": "", "z": []}, "parameters"),
         ({"index": 0, "label": "", "z": [], "parameters": {}, "more": 1}, "more"),
@@ -111,9 +111,9 @@ def test_numbers_of_numpy_are_plain_numbers():
         (None, "SigmaPoint"),
     ],
 )
-def test_an_invalid_record_is_refused_in_one_line(content, says):
+def test_an_invalid_record_is_refused_in_one_line(content, message):
     with pytest.raises(
-        InputError, match=rf"points\.json: .*{says}.*; delete it and run the stage again"
+        InputError, match=rf"points\.json: .*{message}.*; delete it and run the stage again"
     ) as error:
         decode(content, SigmaPoint, "points.json")
     assert "\n" not in str(error.value)

@@ -39,17 +39,17 @@ def sequence(seed: int = 0, frames: int = 9, size: tuple[int, int, int] = (5, 4,
 def test_round_trip(
     tmp_path_factory: pytest.TempPathFactory, suffix: str, seed: int, frames: int, size: tuple[int, int, int]
 ) -> None:
-    given_, path = (
+    written, path = (
         sequence(seed, frames, (max(size[0], 2), *size[1:])),
         tmp_path_factory.mktemp("x") / f"a{suffix}",
     )
-    write_images(path, given_)
+    write_images(path, written)
     restored = read_images(path)
-    assert np.array_equal(restored.voxels, given_.voxels)
-    assert np.array_equal(restored.times, given_.times)
-    assert restored.period == given_.period
+    assert np.array_equal(restored.voxels, written.voxels)
+    assert np.array_equal(restored.times, written.times)
+    assert restored.period == written.period
     corners = np.array([[0.0, 0.0, 0.0], np.array(size) - 1.0])
-    assert restored.grid.points(corners) == pytest.approx(given_.grid.points(corners), abs=PLACE[suffix])
+    assert restored.grid.points(corners) == pytest.approx(written.grid.points(corners), abs=PLACE[suffix])
 
 
 @pytest.mark.parametrize("suffix", WRITTEN)

@@ -12,7 +12,7 @@ from heartfit.io.results import write_result
 
 
 @pytest.fixture(autouse=True)
-def asked_anew():
+def cleared_caches():
     """Caches are cleared between tests."""
     made_by.cache_clear()
     versions.cache_clear()

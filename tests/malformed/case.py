@@ -23,7 +23,7 @@ class Malformed:
 
     name: str
     command: str
-    says: str
+    message: str
     files: Mapping[str, Content] = field(default_factory=dict)
 
     def lay(self, folder: Path) -> None:
@@ -39,7 +39,7 @@ class Malformed:
     def refused_by(self, lines: list[str]) -> bool:
         """True for one line, or several from a check of everything, one of which matches the pattern."""
         several = self.command.startswith("check")
-        return (several or len(lines) == 1) and any(re.search(self.says, line) for line in lines)
+        return (several or len(lines) == 1) and any(re.search(self.message, line) for line in lines)
 
 
 def folder(path: Path) -> None:

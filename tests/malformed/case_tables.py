@@ -6,14 +6,14 @@ from tests.malformed.sound import CASES
 CHECK = "check|--no-picture|--config|sound.yaml"
 
 
-def table(name: str, text: Content, says: str) -> Malformed:
-    return Malformed(f"table of cases: {name}", CHECK, says, {"cases.tsv": text})
+def table(name: str, text: Content, message: str) -> Malformed:
+    return Malformed(f"table of cases: {name}", CHECK, message, {"cases.tsv": text})
 
 
-def with_(name: str, old: str, new: str, says: str) -> Malformed:
+def with_(name: str, old: str, new: str, message: str) -> Malformed:
     """The sound table with a part replaced."""
     assert old in CASES, old
-    return table(name, CASES.replace(old, new, 1), says)
+    return table(name, CASES.replace(old, new, 1), message)
 
 
 def filled(name: str, column: str, pressure: str) -> Malformed:

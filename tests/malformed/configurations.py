@@ -7,22 +7,22 @@ CHECK = "check|--no-picture|--config|sound.yaml|bad.yaml"
 LAUGHS = "l0: &l0 [ha]\n" + "".join(f"l{n}: &l{n} [{', '.join([f'*l{n - 1}'] * 10)}]\n" for n in range(1, 30))
 
 
-def over(name: str, text: Content, says: str) -> Malformed:
+def over(name: str, text: Content, message: str) -> Malformed:
     """A file that is laid over a sound configuration."""
-    return Malformed(f"configuration: {name}", CHECK, says, {"bad.yaml": text})
+    return Malformed(f"configuration: {name}", CHECK, message, {"bad.yaml": text})
 
 
-def whole(name: str, old: str, new: str, says: str) -> Malformed:
+def whole(name: str, old: str, new: str, message: str) -> Malformed:
     """A sound configuration with a part replaced."""
     assert old in CONFIGURATION, old
     text = CONFIGURATION.replace(old, new, 1)
     return Malformed(
-        f"configuration: {name}", "check|--no-picture|--config|bad.yaml", says, {"bad.yaml": text}
+        f"configuration: {name}", "check|--no-picture|--config|bad.yaml", message, {"bad.yaml": text}
     )
 
 
-def setting(name: str, text: str, says: str) -> Malformed:
-    return over(name, f"settings: {{paper: {{{text}}}}}", says)
+def setting(name: str, text: str, message: str) -> Malformed:
+    return over(name, f"settings: {{paper: {{{text}}}}}", message)
 
 
 MALFORMED = [

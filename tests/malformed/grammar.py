@@ -31,7 +31,7 @@ WORDS = [
 ]
 """Invalid contents of cells that need a finite number; the empty one where a number is required."""
 
-WRONG: dict[type, list[Any]] = {
+INVALID: dict[type, list[Any]] = {
     int: ["many", "1,5", [], {}, True, float("nan"), float("inf"), [3], {"a": 3}],
     float: ["many", "0,5", [], {}, True, float("nan"), float("-inf"), [0.1], {"a": 0.1}],
     str: [3, 0.5, [], {}, True, None, ["a"], {"a": "b"}],
@@ -65,7 +65,7 @@ def over(place: Place, value: Any) -> str:
     return yaml.safe_dump(value)
 
 
-KEYS = [place for place in places(SOUND) if type(value_at(place)) in WRONG]
+KEYS = [place for place in places(SOUND) if type(value_at(place)) in INVALID]
 
 
 def is_whole(place: Place) -> bool:
@@ -79,7 +79,7 @@ def is_whole(place: Place) -> bool:
 
 def wrong_at(place: Place) -> list[Any]:
     """Values of another kind than the declared one."""
-    return [*WRONG[type(value_at(place))], *([1.5] if is_whole(place) else [])]
+    return [*INVALID[type(value_at(place))], *([1.5] if is_whole(place) else [])]
 
 
 @st.composite

@@ -19,8 +19,8 @@ TRIANGLES, LABELS = "heart/template/ETIndicesSorted.txt", "heart/template/ETIndi
 MATRIX, TIMING = "heart/template/subdivision_matrix_sparse.mat", "heart/cine/timing.json"
 
 
-def heart(name: str, file: str, content: Content, says: str) -> Malformed:
-    return Malformed(f"measured heart: {name}", CHECK, says, {file: content})
+def heart(name: str, file: str, content: Content, message: str) -> Malformed:
+    return Malformed(f"measured heart: {name}", CHECK, message, {file: content})
 
 
 def edited(change: Callable[[str], str]) -> Content:

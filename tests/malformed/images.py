@@ -16,13 +16,13 @@ CHECK = "check|--no-picture|--config|sound.yaml|imaged.yaml"
 SIDECAR = '{"period_s": 0.8, "times_s": [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]}'
 
 
-def images(name: str, file: str, content: Content, says: str, **others: Content) -> Malformed:
+def images(name: str, file: str, content: Content, message: str, **others: Content) -> Malformed:
     """A source whose images are `file`."""
     source = f"sources: {{mine: {{fit: heart, images: {file}}}}}\n"
     files = {"imaged.yaml": source, file: content} | {
         key.replace("_", "."): value for key, value in others.items()
     }
-    return Malformed(f"images: {name}", CHECK, says, files)
+    return Malformed(f"images: {name}", CHECK, message, files)
 
 
 def header(start: int, pattern: str, *values: float) -> Content:

@@ -17,8 +17,8 @@ PIECE = f'<Piece NumberOfPoints="{{}}" NumberOfCells="0"><Points>{NUMBERS}</Poin
 LAUGHS = "".join(f'<!ENTITY l{n} "{f"&l{n - 1};" * 10}">' for n in range(1, 12))
 
 
-def mesh(name: str, content: Content, says: str) -> Malformed:
-    return Malformed(f"mesh: {name}", SIMULATE, says, {"bad.vtu": content})
+def mesh(name: str, content: Content, message: str) -> Malformed:
+    return Malformed(f"mesh: {name}", SIMULATE, message, {"bad.vtu": content})
 
 
 def changed(change: Callable[[meshio.Mesh], object]) -> Content:
@@ -119,8 +119,8 @@ def placed(*factors: float) -> Content:
     return changed(lambda stored: setattr(stored, "points", stored.points * factors))
 
 
-def simulated(name: str, arguments: str, says: str, **files: Content) -> Malformed:
-    return Malformed(f"simulation: {name}", f"simulate|{arguments}", says, files)
+def simulated(name: str, arguments: str, message: str, **files: Content) -> Malformed:
+    return Malformed(f"simulation: {name}", f"simulate|{arguments}", message, files)
 
 
 MALFORMED = [

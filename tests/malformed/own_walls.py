@@ -18,10 +18,10 @@ FILE = "s/surfaces.json"
 
 
 def segmented(
-    name: str, content: Content, says: str, labels: str = LABELS, file: str = "seg.nii.gz"
+    name: str, content: Content, message: str, labels: str = LABELS, file: str = "seg.nii.gz"
 ) -> Malformed:
     source = f"sources: {{mine: {{segmentation: {file}, labels: {labels}, images: cine.nrrd}}}}\n"
-    return Malformed(f"segmentation: {name}", CHECK, says, {"bad.yaml": source, file: content})
+    return Malformed(f"segmentation: {name}", CHECK, message, {"bad.yaml": source, file: content})
 
 
 def drawn(change: Callable[[np.ndarray], object] = lambda codes: None) -> Content:
@@ -51,7 +51,7 @@ def right(codes: np.ndarray) -> None:
 
 
 def surfaces(
-    name: str, says: str, notes: object = None, spoil: Callable[[Path], object] | None = None
+    name: str, message: str, notes: object = None, spoil: Callable[[Path], object] | None = None
 ) -> Malformed:
     """A folder of closed surfaces as .ply with their notes, spoilt."""
 
@@ -63,7 +63,7 @@ def surfaces(
             spoil(path.parent)
 
     files = {"bad.yaml": "sources: {mine: {surfaces: s}}\n", FILE: write}
-    return Malformed(f"surfaces: {name}", CHECK, says, files)
+    return Malformed(f"surfaces: {name}", CHECK, message, files)
 
 
 def write_ply(path: Path, points: np.ndarray | None = None, count: int | None = None) -> None:

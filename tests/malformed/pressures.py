@@ -9,14 +9,14 @@ CHECK = "check|--no-picture|--config|sound.yaml|own.yaml"
 FILE = {"file": "p.csv", "trigger": "marker"}
 
 
-def recorded(name: str, content: Content, says: str, **options: object) -> Malformed:
+def recorded(name: str, content: Content, message: str, **options: object) -> Malformed:
     source = {"mine": {"fit": "heart", "pressure": FILE | options}}
     files = {"own.yaml": yaml.safe_dump({"sources": source}), "p.csv": content}
-    return Malformed(f"pressure: {name}", CHECK, says, files)
+    return Malformed(f"pressure: {name}", CHECK, message, files)
 
 
-def source(name: str, text: str, says: str) -> Malformed:
-    return Malformed(f"source: {name}", CHECK, says, {"own.yaml": f"sources: {text}\n"})
+def source(name: str, text: str, message: str) -> Malformed:
+    return Malformed(f"source: {name}", CHECK, message, {"own.yaml": f"sources: {text}\n"})
 
 
 SOUND = pressure()

@@ -10,17 +10,17 @@ DIAGNOSE = "diagnose|bad.csv"
 ROW = "0.0900,142.361,2.337\n"
 
 
-def curves(name: str, text: Content, says: str) -> Malformed:
-    return Malformed(f"recording: {name}", DIAGNOSE, says, {"bad.csv": text})
+def curves(name: str, text: Content, message: str) -> Malformed:
+    return Malformed(f"recording: {name}", DIAGNOSE, message, {"bad.csv": text})
 
 
-def with_(name: str, old: str, new: str, says: str) -> Malformed:
+def with_(name: str, old: str, new: str, message: str) -> Malformed:
     assert old in SOUND, old
-    return curves(name, SOUND.replace(old, new, 1), says)
+    return curves(name, SOUND.replace(old, new, 1), message)
 
 
-def refused(name: str, command: str, says: str, **files: Content) -> Malformed:
-    return Malformed(f"recording: {name}", command, says, files)
+def refused(name: str, command: str, message: str, **files: Content) -> Malformed:
+    return Malformed(f"recording: {name}", command, message, files)
 
 
 def scaled(column: int, factor: float) -> str:

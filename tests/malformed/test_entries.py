@@ -32,13 +32,13 @@ def run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
 @pytest.mark.long
 @pytest.mark.parametrize("name", BAD)
 def test_the_program_refuses_in_one_line(name: str, tmp_path: Path) -> None:
-    text, says = BAD[name]
+    text, message = BAD[name]
     (tmp_path / "bad.yaml").write_text(text)
     command = [sys.executable, "-c", "import sys; from heartfit.cli.main import main; sys.exit(main())"]
     arguments = ["check", "--no-picture", "--config", str(ROOT / "config" / "config.yaml"), "bad.yaml"]
     completed = run([*command, *arguments], tmp_path)
     assert completed.returncode == 2
-    assert any(says in line for line in completed.stderr.splitlines())
+    assert any(message in line for line in completed.stderr.splitlines())
     assert all(line.startswith("heartfit: ") for line in completed.stderr.splitlines())
     assert {file.name for file in tmp_path.iterdir()} == {"bad.yaml"}
 
@@ -46,12 +46,12 @@ def test_the_program_refuses_in_one_line(name: str, tmp_path: Path) -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("name", BAD)
 def test_snakemake_refuses_before_any_job(name: str, tmp_path: Path) -> None:
-    text, says = BAD[name]
+    text, message = BAD[name]
     (tmp_path / "bad.yaml").write_text(text)
     command = [sys.executable, "-m", "snakemake", "-n", "--workflow-profile", "none", "--nolock"]
     completed = run([*command, "--configfile", str(tmp_path / "bad.yaml")], ROOT)
     output = completed.stdout + completed.stderr  # a dry run puts its errors on the standard output
-    expected = SNAKEMAKE if name == "a Python object" else says  # it reads the file first
+    expected = SNAKEMAKE if name == "a Python object" else message  # it reads the file first
     assert completed.returncode == 1
     assert "Traceback" not in output
     assert sum(expected in line for line in output.splitlines()) == 1

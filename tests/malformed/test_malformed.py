@@ -19,17 +19,17 @@ from tests.malformed.case import Malformed, exit_code, files_in
 
 LISTS = (configurations, case_tables, hearts, images, pressures, own_walls, recordings, meshes)
 MALFORMED = [entry for module in LISTS for entry in module.MALFORMED]
-EVERY = 6
+STRIDE = 6
 """One of so many is tried by default, all of them by `python3 study.py malformed`."""
 
 LONGEST = 600
 """Largest length of a readable line [characters]."""
 
 
-def each_but_most_when_asked_for() -> list[ParameterSet]:
+def parametrised_entries() -> list[ParameterSet]:
     long = pytest.mark.long
     return [
-        pytest.param(entry, id=entry.name, marks=[long] if number % EVERY else [])
+        pytest.param(entry, id=entry.name, marks=[long] if number % STRIDE else [])
         for number, entry in enumerate(MALFORMED)
     ]
 
@@ -40,7 +40,7 @@ def test_sound_input_is_read(source: str, here: Path, capsys: pytest.CaptureFixt
     assert capsys.readouterr().err == ""
 
 
-@pytest.mark.parametrize("entry", each_but_most_when_asked_for())
+@pytest.mark.parametrize("entry", parametrised_entries())
 def test_malformed_input_is_refused_in_one_clear_line(
     entry: Malformed, here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -65,7 +65,7 @@ def test_the_known_error_is_subtracted_exactly() -> None:
     """Sequences with equal errors: the corrected observations and curve are the truth, for every size."""
     share = 0.1 * np.sin(np.pi * np.arange(FRAMES) / FRAMES)
 
-    def alike(seed: int) -> Pair:
+    def with_equal_errors(seed: int) -> Pair:
         drawn = pair(seed)
         volume_curve = drawn.measured.curves["lv_volume"]
         volume = {
@@ -75,8 +75,8 @@ def test_the_known_error_is_subtracted_exactly() -> None:
         }
         return Pair(Reading(volume, truth(drawn.measured, BIAS)), drawn.measured)
 
-    known = NoiseModel.from_pairs([alike(seed) for seed in range(20)], PROTOCOL, FRAMES)
-    fresh = alike(77)
+    known = NoiseModel.from_pairs([with_equal_errors(seed) for seed in range(20)], PROTOCOL, FRAMES)
+    fresh = with_equal_errors(77)
     assert known.corrected(fresh.measured) == pytest.approx(fresh.true.observations)
     corrected = known.corrected_curve(fresh.measured.curves["lv_volume"])
     assert corrected.values == pytest.approx(fresh.true.curves["lv_volume"].values)

@@ -102,5 +102,5 @@ def test_fixed_parameters_add_noise_only_where_noise_is_known() -> None:
     assert posterior.estimate.mean - posterior.prior.mean == pytest.approx(expected), (
         "delay is estimated, so not fixed"
     )
-    met, plain = estimated(independent, False, slopes), estimated(independent, False)
-    assert np.array_equal(met.estimate.mean, plain.estimate.mean)
+    noise_free, plain = estimated(independent, False, slopes), estimated(independent, False)
+    assert np.array_equal(noise_free.estimate.mean, plain.estimate.mean)

@@ -22,7 +22,7 @@ NORMAL = np.array([0.0, 0.0, 1.0])
 ANGLE = np.linspace(0.0, 2.0 * np.pi, 361)
 UNIT = np.column_stack([np.cos(ANGLE), np.sin(ANGLE), np.zeros(361)])
 TRUE = np.array([20.0, 18.0, 15.0, 12.0, 14.0, 16.0, 18.0, 19.0]) * 1e-3
-FOUND = TRUE + np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0]) * 1e-3
+REGISTERED = TRUE + np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0]) * 1e-3
 """Radii [m]: exact, except for 1 mm too much at end systole and 1 mm too little in the last frame."""
 
 
@@ -31,7 +31,7 @@ def circle(radius: float) -> np.ndarray:
 
 
 def outline(surface: str, whole: np.ndarray) -> Outline:
-    return Outline(surface, 1, NORMAL, np.array([*map(circle, FOUND)]), tuple(map(circle, TRUE)), whole)
+    return Outline(surface, 1, NORMAL, np.array([*map(circle, REGISTERED)]), tuple(map(circle, TRUE)), whole)
 
 
 @pytest.fixture
@@ -40,7 +40,7 @@ def cine() -> CineComparison:
     steps = np.outer(np.arange(FRAMES), [1e-3, 2e-3, 5e-3])[:, None]
     at_rest = np.zeros((FRAMES, 4, 3))
     wall = WallPoints(1, NORMAL, at_rest, at_rest + steps, np.tile([1.0, 0.0, 0.0], (4, 1)))
-    values = {"surface": TRUE * 5e-3, "cut": TRUE * 5e-3 + 2e-6, "registered": FOUND * 5e-3}
+    values = {"surface": TRUE * 5e-3, "cut": TRUE * 5e-3 + 2e-6, "registered": REGISTERED * 5e-3}
     volumes = {name: Curve.of_volume(0.1 * np.arange(FRAMES), volume, 0.8) for name, volume in values.items()}
     outlines = [outline("lv_endo", np.ones(FRAMES, bool)), outline("rv_endo", inside)]
     return CineComparison(outlines, [wall], volumes, ES)
@@ -48,7 +48,7 @@ def cine() -> CineComparison:
 
 def test_errors_of_outlines_are_in_per_cent_of_the_first_area_and_in_mm(cine: CineComparison) -> None:
     left, right = outline_table(cine).to_dict("records")
-    error = 100.0 * (FOUND**2 - TRUE**2) / TRUE[0] ** 2
+    error = 100.0 * (REGISTERED**2 - TRUE**2) / TRUE[0] ** 2
     assert left["ED (cm^2)"] == pytest.approx(np.pi * 4.0, rel=1e-3)
     assert left["error ES (% of ED)"] == pytest.approx(error[ES], rel=1e-3)
     assert left["error RMS (% of ED)"] == pytest.approx(np.sqrt((error[1:] ** 2).mean()), rel=1e-3)
@@ -89,10 +89,10 @@ def test_the_figures_draw_what_was_compared(cine: CineComparison) -> None:
     drawn = [np.array(lines.get_segments()) for lines in systole.collections[:2]]
     radii = [np.ptp(segments[..., 0]) for segments in drawn]
     assert radii == pytest.approx(
-        [1e3 * TRUE[ES], 1e3 * FOUND[ES]]
+        [1e3 * TRUE[ES], 1e3 * REGISTERED[ES]]
     )  # a pixel is 2 mm: the diameter in pixels
     assert np.array_equal(systole.images[0].get_array(), voxels[ES, 1])
-    assert areas.get_lines()[0].get_ydata() == pytest.approx(1e4 * np.pi * FOUND**2, rel=1e-3)
+    assert areas.get_lines()[0].get_ydata() == pytest.approx(1e4 * np.pi * REGISTERED**2, rel=1e-3)
     assert pd.isna(areas.get_lines()[3].get_ydata()[2:]).all()
     curves = plot_volumes(cine.volumes, "patient").axes[0].get_lines()
     assert [line.get_ydata()[ES] for line in curves] == pytest.approx([60.0, 62.0, 65.0])

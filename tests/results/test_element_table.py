@@ -19,11 +19,11 @@ def comparison(name, evidence, contractility, gains=()):
 
 
 GAIN = Gain("lv_volume", "frames", 2e-6, 1e-6, 0.5, (0.4, 0.7))
-RIVALS = [comparison("p1", -60.0, 330e3), comparison("mixed", -40.0, 255e3, (GAIN,))]
+COMPARISONS = [comparison("p1", -60.0, 330e3), comparison("mixed", -40.0, 255e3, (GAIN,))]
 
 
 def test_the_gain_of_an_extension_is_listed_beside_the_baseline():
-    table = element_table(RIVALS, {"sigma_0": 250e3})
+    table = element_table(COMPARISONS, {"sigma_0": 250e3})
     assert table["ln Bayes factor"].tolist() == [0.0, 20.0]
     assert table["lv_volume, error ratio"].fillna("").tolist() == ["", "0.50 (0.40 to 0.70)"]
     assert table["sigma_0 (%)"].round().tolist() == [32.0, 2.0]
@@ -31,5 +31,5 @@ def test_the_gain_of_an_extension_is_listed_beside_the_baseline():
 
 def test_the_figure_is_drawn(tmp_path):
     errors = {"lv_volume": np.full(25, 1e-6), "lv_pressure": np.full(25, 100.0)}
-    write_figure(tmp_path / "figure.png", plot_element(CURVES, errors, RIVALS))
+    write_figure(tmp_path / "figure.png", plot_element(CURVES, errors, COMPARISONS))
     assert (tmp_path / "figure.png").stat().st_size > 5_000

@@ -29,11 +29,11 @@ VOLUME = Residual(
     {ONE_STEP: np.full(10, 110e-6), CONVERGED: np.full(10, 96e-6)},
 )
 STRAIN = StrainResidual(0.3, np.full((3, 16), 0.02), np.full((3, 16), 0.01))
-FOUND = CaseResidual([VOLUME], PHASES, STRAIN)
+RESIDUAL = CaseResidual([VOLUME], PHASES, STRAIN)
 
 
 def test_one_row_per_sample_and_beat_and_one_per_segment_and_direction() -> None:
-    table = residual_table(FOUND)
+    table = residual_table(RESIDUAL)
     assert len(table) == 2 * 10 + 3 * 16
     last = table[(table.curve == "lv_volume") & (table.beat == CONVERGED)]
     assert last.difference.tolist() == pytest.approx([-4.0] * 10)
@@ -62,8 +62,8 @@ def test_a_segment_is_named_with_its_sign() -> None:
 
 
 def test_the_figure_has_a_strip_per_curve_and_names_the_worst() -> None:
-    figure = plot_residual(FOUND, "volunteer1, physical setting")
-    assert misfit_sentence(FOUND.misfits()[0]) in figure.get_suptitle()
+    figure = plot_residual(RESIDUAL, "volunteer1, physical setting")
+    assert misfit_sentence(RESIDUAL.misfits()[0]) in figure.get_suptitle()
     assert segment_misfit_sentence(STRAIN) in figure.get_suptitle()
     assert numbers_in(figure.get_suptitle().replace("volunteer1", "")) == [4.0, 2.0, 1.0, 2.0, 2.0]
     assert figure.get_supxlabel() == CAUTION

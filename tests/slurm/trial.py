@@ -19,7 +19,7 @@ RESULTS = Path("results/tiny")
 TINY = ("--configfile", "config/tiny.yaml", "--", f"{RESULTS}/tables/numbers.csv")
 UNEQUAL = ("logs", "benchmarks", ".sums")
 """Files that depend on times and on the order of jobs."""
-AGAIN, DONE = "Trying to restart job", re.compile(r"steps \((\d+)%\) done")
+AGAIN, PROGRESS = "Trying to restart job", re.compile(r"steps \((\d+)%\) done")
 KILLED_AT, LOST_AT = 10, 50
 """% of the study that are done when a job is killed and when the node is lost."""
 LONG = 3600.0
@@ -43,7 +43,7 @@ class Study:
     def _read(self) -> None:
         for line in self.process.stdout or ():
             self.lines.append(line)
-            if DONE.search(line) or line.startswith("Error") or AGAIN in line:
+            if PROGRESS.search(line) or line.startswith("Error") or AGAIN in line:
                 say(line.rstrip())
 
     def ended(self) -> bool:
@@ -57,7 +57,7 @@ class Study:
 
     def share(self) -> int:
         """Share of finished jobs [%]."""
-        shares = [int(match[1]) for line in self.lines if (match := DONE.search(line))]
+        shares = [int(match[1]) for line in self.lines if (match := PROGRESS.search(line))]
         return shares[-1] if shares else 0
 
     def restarts(self) -> int:

@@ -156,12 +156,12 @@ def test_pressures_add_parameters_to_those_that_are_estimated(content):
     content["settings"]["physical"]["with_pressure"] = ["k_RS", "tau"]
     study = validate(Study, content, "config.yaml")
     without = Case(case="anna", kind="measured", period=0.9)
-    seen = without.model_copy(update={"catheter": True})
+    catheterised = without.model_copy(update={"catheter": True})
     usual = study.setting("physical", without).estimate
     assert usual == study.setting("physical").estimate
-    assert study.setting("physical", seen).estimate == (*usual, "k_RS", "tau")
-    assert study.setting("physical", seen).prior["tau"].mean == declaration("tau").value
-    points = [len(study.sigma_points("physical", case)) for case in (without, seen)]
+    assert study.setting("physical", catheterised).estimate == (*usual, "k_RS", "tau")
+    assert study.setting("physical", catheterised).prior["tau"].mean == declaration("tau").value
+    points = [len(study.sigma_points("physical", case)) for case in (without, catheterised)]
     assert points == [2 * len(usual) + 1, 2 * len(usual) + 5]
 
 

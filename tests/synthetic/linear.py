@@ -27,13 +27,13 @@ class Linear:
         self._scale = np.array([1.0] * len(ESTIMATED) + [unseen] * len(OTHERS))
 
     def observe_all(self, parameters: Sequence[Mapping[str, float]]) -> list[Outcome]:
-        return [self._seen(vector) for vector in parameters]
+        return [self._observe(vector) for vector in parameters]
 
     def observe(self, heart: Heart) -> Outcome:
         values = heart.parameters()
-        return self._seen({name: values[path] for name, path in PATHS.items()})
+        return self._observe({name: values[path] for name, path in PATHS.items()})
 
-    def _seen(self, values: Mapping[str, float]) -> Outcome:
+    def _observe(self, values: Mapping[str, float]) -> Outcome:
         point = np.array(
             [np.log(values.get(name, standard) / standard) for name, standard in STANDARD.items()]
         )
@@ -43,7 +43,7 @@ class Linear:
         return (self._scale[:, None] * SLOPES)[[[*STANDARD].index(name) for name in names]]
 
 
-def linear_twins(noise: float = 0.01, unseen: float = 1.0) -> KnownHeartSampler:
+def linear_hearts(noise: float = 0.01, unseen: float = 1.0) -> KnownHeartSampler:
     means = {name: STANDARD[name] for name in ESTIMATED}
     prior = Gaussian.from_relative(means, dict.fromkeys(ESTIMATED, 0.2))
     return KnownHeartSampler(Linear(unseen), prior, dict.fromkeys(OBSERVED, noise), seed=3)  # type: ignore[arg-type]

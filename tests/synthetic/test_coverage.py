@@ -5,14 +5,14 @@ import pytest
 
 from heartfit.synthetic.race import Coverage, fixed_noise, sphere_coverage
 from heartfit.synthetic.volunteer import OTHER_SPREAD
-from tests.synthetic.linear import SLOPES, linear_twins
+from tests.synthetic.linear import SLOPES, linear_hearts
 
 HEARTS = 150
 
 
 @pytest.fixture(scope="module")
 def pooled():
-    coverages = sphere_coverage(linear_twins(noise=0.003, unseen=1.5), HEARTS)
+    coverages = sphere_coverage(linear_hearts(noise=0.003, unseen=1.5), HEARTS)
     return {(coverage.world, coverage.noise): coverage.pooled() for coverage in coverages}
 
 
@@ -38,7 +38,7 @@ def test_without_noise_the_intervals_are_too_short(pooled) -> None:
 
 def test_the_noise_of_what_is_fixed_is_that_of_its_slopes() -> None:
     slopes = OTHER_SPREAD * SLOPES[4:]
-    assert fixed_noise(linear_twins()) == pytest.approx(slopes.T @ slopes)
+    assert fixed_noise(linear_hearts()) == pytest.approx(slopes.T @ slopes)
 
 
 def test_a_calibration_that_failed_is_not_covered() -> None:

@@ -5,11 +5,11 @@ import pytest
 
 from heartfit.synthetic.known_hearts import WORLDS
 from heartfit.synthetic.volunteer import OTHERS
-from tests.synthetic.linear import OBSERVED, linear_twins
+from tests.synthetic.linear import OBSERVED, linear_hearts
 
 
 def test_a_heart_follows_from_its_number_and_has_one_truth_in_all_worlds() -> None:
-    hearts = linear_twins()
+    hearts = linear_hearts()
     drawn = [hearts.draw(3, world) for world in WORLDS]
     assert hearts.draw(3, "model").observed == drawn[2].observed
     assert all((heart.truth == drawn[0].truth).all() for heart in drawn)
@@ -18,7 +18,7 @@ def test_a_heart_follows_from_its_number_and_has_one_truth_in_all_worlds() -> No
 
 
 def test_without_unknown_parameters_the_observations_are_the_model_s_plus_noise() -> None:
-    hearts = linear_twins()
+    hearts = linear_hearts()
     errors = []
     for number in range(200):
         drawn = hearts.draw(number, "nothing")
@@ -29,11 +29,11 @@ def test_without_unknown_parameters_the_observations_are_the_model_s_plus_noise(
 
 
 def test_truths_scatter_as_the_prior() -> None:
-    hearts = linear_twins()
+    hearts = linear_hearts()
     truths = np.array([hearts.draw(number, "nothing").truth for number in range(200)])
     assert (truths.mean(axis=0) - hearts.prior.mean) / hearts.prior.sd == pytest.approx(np.zeros(4), abs=0.2)
     assert truths.std(axis=0) == pytest.approx(hearts.prior.sd, rel=0.12)
 
 
 def test_fixed_parameters_are_those_that_scatter_and_are_not_estimated() -> None:
-    assert linear_twins().fixed == OTHERS
+    assert linear_hearts().fixed == OTHERS

@@ -13,11 +13,11 @@ from heartfit.synthetic.race import (
     estimate_errors,
     methods,
 )
-from tests.synthetic.linear import linear_twins
+from tests.synthetic.linear import linear_hearts
 
-TWINS = linear_twins()
-TWIN = TWINS.draw(0, "nothing")
-PROBLEM = CalibrationProblem(TWINS.model.observe_all, TWINS.prior, TWIN.observed, TWIN.noise, TWIN.truth)
+HEARTS = linear_hearts()
+HEART = HEARTS.draw(0, "nothing")
+PROBLEM = CalibrationProblem(HEARTS.model.observe_all, HEARTS.prior, HEART.observed, HEART.noise, HEART.truth)
 
 
 def test_simulations_are_those_of_the_points_and_stay_within_the_most() -> None:
@@ -43,22 +43,24 @@ def test_a_method_that_loses_its_points_is_stopped_and_the_others_go_on() -> Non
         return ["no beat"] * len(parameters)
 
     marks = compare_methods(
-        CalibrationProblem(forward, TWINS.prior, TWIN.observed, TWIN.noise, TWIN.truth), methods(30, 2), 30
+        CalibrationProblem(forward, HEARTS.prior, HEART.observed, HEART.noise, HEART.truth),
+        methods(30, 2),
+        30,
     )
     assert marks_of(marks) == ["prior", "CMA-ES"][: 1 + has_cma()]
     assert np.isnan(marks[0].observations)
 
 
 def test_errors_are_zero_at_the_truth_of_an_exact_measurement_and_one_a_deviation_away() -> None:
-    (exact,) = TWINS.model.observe_all([TWINS.prior.physical(TWIN.truth)])
-    problem = CalibrationProblem(TWINS.model.observe_all, TWINS.prior, exact, TWIN.noise, TWIN.truth)
-    assert estimate_errors(problem, TWIN.truth) == pytest.approx((0.0, 0.0), abs=1e-9)
-    assert estimate_errors(problem, TWIN.truth + TWINS.prior.sd)[1] == pytest.approx(1.0)
+    (exact,) = HEARTS.model.observe_all([HEARTS.prior.physical(HEART.truth)])
+    problem = CalibrationProblem(HEARTS.model.observe_all, HEARTS.prior, exact, HEART.noise, HEART.truth)
+    assert estimate_errors(problem, HEART.truth) == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert estimate_errors(problem, HEART.truth + HEARTS.prior.sd)[1] == pytest.approx(1.0)
 
 
 def test_on_a_linear_map_every_unscented_step_is_the_posterior() -> None:
-    outcomes = TWINS.model.observe_all([point.parameters for point in sigma_points(TWINS.prior)])
-    posterior = calibrate(TWINS.prior, outcomes, TWIN.observed, TWIN.noise).estimate
+    outcomes = HEARTS.model.observe_all([point.parameters for point in sigma_points(HEARTS.prior)])
+    posterior = calibrate(HEARTS.prior, outcomes, HEART.observed, HEART.noise).estimate
     expected = estimate_errors(PROBLEM, posterior.mean)
     for mark in compare_methods(PROBLEM, methods(30, 2), 30):
         if mark.method in ("unscented, R > 0", "simplex, R > 0"):
@@ -66,5 +68,5 @@ def test_on_a_linear_map_every_unscented_step_is_the_posterior() -> None:
 
 
 def test_hearts_are_numbered() -> None:
-    marks = compare_on_spheres(linear_twins(), 2, 30, 1)
+    marks = compare_on_spheres(linear_hearts(), 2, 30, 1)
     assert {mark.heart for mark in marks} == {0, 1}

@@ -73,8 +73,10 @@ def test_a_rate_without_cases_is_undefined():
 
 
 def test_targets_are_met_or_missed_by_the_share_itself():
-    met = {rate.name: rate.meets_target(rate.share_of(CASES)) for rate in RATES if rate.target is not None}
-    assert met == {
+    targets_met = {
+        rate.name: rate.meets_target(rate.share_of(CASES)) for rate in RATES if rate.target is not None
+    }
+    assert targets_met == {
         "false alarms of nulls": False,
         "singles detected at 2 scales": True,
         "singles named right, of the named": False,

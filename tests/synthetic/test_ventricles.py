@@ -31,8 +31,8 @@ REGISTRATION = FreeForm(knots=16e-3, levels=((1, 3),))
 @pytest.fixture(scope="module")
 def hidden():
     template = Template.build(0.02, 0.0014)
-    seen_by = Imaging(SCANNER, REGISTRATION, template, template.mesh)
-    return Ventricles(template, {"sigma_0": 257e3}, Protocol(COARSE, (1300.0, 520.0)), seen_by)
+    observed_by = Imaging(SCANNER, REGISTRATION, template, template.mesh)
+    return Ventricles(template, {"sigma_0": 257e3}, Protocol(COARSE, (1300.0, 520.0)), observed_by)
 
 
 @pytest.fixture(scope="module")

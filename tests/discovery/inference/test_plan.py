@@ -25,7 +25,7 @@ def explained(name: str) -> Explanation:
     return explanation
 
 
-def seen_as(
+def measured_as(
     shapes: dict[str, np.ndarray], name: str = "new", cost: float = 1.0, own: int = 0
 ) -> FurtherMeasurement:
     """Measurement in which each effect has its own shape, with optional parameters of the measurement that shift it."""
@@ -35,7 +35,7 @@ def seen_as(
 
 
 OPPOSED = {"a": ARCH, "b": -ARCH}
-ALIKE = {"a": ARCH, "b": ARCH}
+EQUAL = {"a": ARCH, "b": ARCH}
 
 
 def test_divergence_is_the_mean_log_ratio() -> None:
@@ -53,13 +53,13 @@ def test_divergence_is_the_mean_log_ratio() -> None:
 
 def test_a_repeated_measurement_adds_no_separation_and_a_different_one_does() -> None:
     group = [explained("a"), explained("b")]
-    assert evaluate(group, seen_as(ALIKE)).gain == pytest.approx(0.0, abs=1e-9)
-    assert evaluate(group, seen_as(OPPOSED)).gain > 3.0
+    assert evaluate(group, measured_as(EQUAL)).gain == pytest.approx(0.0, abs=1e-9)
+    assert evaluate(group, measured_as(OPPOSED)).gain > 3.0
 
 
 def test_unknown_parameters_of_a_measurement_lower_its_expected_gain() -> None:
     group, flat = [explained("a"), explained("b")], {"a": np.ones(TIMES.size), "b": -np.ones(TIMES.size)}
-    known, unknown = (evaluate(group, seen_as(flat, own=own)) for own in (0, 1))
+    known, unknown = (evaluate(group, measured_as(flat, own=own)) for own in (0, 1))
     assert unknown.gain < 0.1 * known.gain
 
 
@@ -67,10 +67,10 @@ def test_the_cheapest_that_decides_leads_and_what_fails_is_left_out() -> None:
     group = [explained("a"), explained("b")]
     dead = FurtherMeasurement("dead", 0.1, NEW, lambda effects: lambda x: None)
     offered = [
-        seen_as(OPPOSED, "dear", 5.0),
-        seen_as(ALIKE, "vain", 0.5),
+        measured_as(OPPOSED, "dear", 5.0),
+        measured_as(EQUAL, "vain", 0.5),
         dead,
-        seen_as(OPPOSED, "cheap", 1.0),
+        measured_as(OPPOSED, "cheap", 1.0),
     ]
     prospects = plan(group, offered)
     assert [prospect.name for prospect in prospects] == ["cheap", "dear", "vain"]

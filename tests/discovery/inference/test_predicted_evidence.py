@@ -21,11 +21,11 @@ def test_the_predicted_evidence_of_a_linear_model_is_exact_and_takes_one_simulat
     context = FitContext(data(Y))
     base = context.explain(hypothesis(J[:, :2]), np.zeros(2))
     runs = context.simulations
-    promised = predict_evidence(context, base, FURTHER)
+    prediction = predict_evidence(context, base, FURTHER)
     assert context.simulations == runs + 1
     explanation = context.explain(FURTHER, FURTHER.at(1.0))
-    assert promised.log_evidence == pytest.approx(explanation.log_evidence, rel=1e-6)
-    assert promised.start[2] == pytest.approx(explanation.posterior.mean[2], rel=1e-6)
+    assert prediction.log_evidence == pytest.approx(explanation.log_evidence, rel=1e-6)
+    assert prediction.start[2] == pytest.approx(explanation.posterior.mean[2], rel=1e-6)
 
 
 def test_an_absent_effect_starts_at_an_observable_amplitude() -> None:

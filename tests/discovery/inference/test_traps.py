@@ -67,12 +67,12 @@ def test_the_residual_of_one_step_is_no_evidence() -> None:
                 optimum, jacobian=CountedHypothesis(oscillator.NONE).jacobian(optimum.x, optimum.predicted)
             )
             assert optimum.converged == (name == "converged")
-            alarms[name] += best - laplace_there(at_step, context) > DEFAULT_RULES.detected
+            alarms[name] += best - laplace_evidence(at_step, context) > DEFAULT_RULES.detected
     assert alarms["one step"] > len(SEEDS) / 2
     assert alarms["converged"] == 0
 
 
-def laplace_there(optimum: object, context: FitContext) -> float:
+def laplace_evidence(optimum: object, context: FitContext) -> float:
     """ln Z as if the fit had converged: without the gain that the linear model predicts."""
     explanation = Explanation.from_fit(optimum, context.data.values, context.whitening)
     step = explanation.posterior.mean - optimum.x

@@ -23,7 +23,7 @@ NONE, ELEMENT, LEAK = competing_extensions(LOCKING, "mixed", "MitralRegurgitatio
 
 
 @pytest.fixture(scope="module")
-def rivals(ventricle: VentricularMesh) -> Mapping[str, CompetingModel]:
+def comparisons(ventricle: VentricularMesh) -> Mapping[str, CompetingModel]:
     scheme = TimeScheme(time_step=0.02, max_beats=1, drift=0.99)
     model = Model(ventricle, 0.8, Pressures(lv=1000.0, rv=500.0), scheme)
     extensions = competing_extensions(LOCKING, "mixed", "MitralRegurgitation")
@@ -39,18 +39,20 @@ def _measured(beat: Beat) -> MeasuredCase:
     return MeasuredCase.from_curves({"lv_volume": volume, "lv_pressure": pressure}, [])
 
 
-def test_the_element_is_named_and_no_leak(rivals: Mapping[str, CompetingModel]) -> None:
-    factors = dict(zip(rivals, element_table([*rivals.values()], PARAMETERS)["ln Bayes factor"], strict=True))
+def test_the_element_is_named_and_no_leak(comparisons: Mapping[str, CompetingModel]) -> None:
+    factors = dict(
+        zip(comparisons, element_table([*comparisons.values()], PARAMETERS)["ln Bayes factor"], strict=True)
+    )
     assert factors[NONE] == 0.0
     assert factors[ELEMENT] > 5.0
     assert factors[ELEMENT] > factors[LEAK] + 5.0
 
 
-def test_the_right_element_gains_on_held_out_data(rivals: Mapping[str, CompetingModel]) -> None:
-    assert not rivals[NONE].gains
-    assert all(gain.ratio < 0.8 for gain in rivals[ELEMENT].gains)
+def test_the_right_element_gains_on_held_out_data(comparisons: Mapping[str, CompetingModel]) -> None:
+    assert not comparisons[NONE].gains
+    assert all(gain.ratio < 0.8 for gain in comparisons[ELEMENT].gains)
 
 
-def test_with_the_right_element_the_parameter_is_found(rivals: Mapping[str, CompetingModel]) -> None:
-    assert rivals[ELEMENT].parameters["sigma_0"] == pytest.approx(PARAMETERS["sigma_0"], rel=0.05)
-    assert rivals[NONE].parameters["sigma_0"] > 1.15 * PARAMETERS["sigma_0"]
+def test_with_the_right_element_the_parameter_is_found(comparisons: Mapping[str, CompetingModel]) -> None:
+    assert comparisons[ELEMENT].parameters["sigma_0"] == pytest.approx(PARAMETERS["sigma_0"], rel=0.05)
+    assert comparisons[NONE].parameters["sigma_0"] > 1.15 * PARAMETERS["sigma_0"]

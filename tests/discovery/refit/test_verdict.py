@@ -28,9 +28,9 @@ PLAIN = Setting.model_validate({"element": "sphere", "estimate": ("sigma_0", "R_
 LEAK = Cause("MitralRegurgitation", 20.0, 0.4e-4, "m^2", (0.3e-4, 0.5e-4))
 OTHER = Cause("AorticStenosis", 24.0, 2e3, "Pa", (1e3, 3e3))
 RANKING = {"unknown": 30.0, "AorticStenosis": 24.0, "MitralRegurgitation": 20.0}
-FOUND = Diagnosis("named", (LEAK,), (), "", (), 100, 0.8, 5.0, RANKING)
-TWO, GROUP = (replace(FOUND, verdict=verdict, mechanisms=(LEAK, OTHER)) for verdict in ("two", "group"))
-NOTHING = replace(FOUND, verdict="none", mechanisms=())
+DIAGNOSIS = Diagnosis("named", (LEAK,), (), "", (), 100, 0.8, 5.0, RANKING)
+TWO, GROUP = (replace(DIAGNOSIS, verdict=verdict, mechanisms=(LEAK, OTHER)) for verdict in ("two", "group"))
+NOTHING = replace(DIAGNOSIS, verdict="none", mechanisms=())
 
 
 def tried(diagnosis: Diagnosis) -> list[tuple[str, ...]]:
@@ -38,7 +38,7 @@ def tried(diagnosis: Diagnosis) -> list[tuple[str, ...]]:
 
 
 def test_named_effects_are_tried_and_otherwise_the_best_of_the_ranking() -> None:
-    assert tried(FOUND) == tried(GROUP) == [("MitralRegurgitation",)]
+    assert tried(DIAGNOSIS) == tried(GROUP) == [("MitralRegurgitation",)]
     assert tried(NOTHING) == [("AorticStenosis",)]
 
 
@@ -120,8 +120,8 @@ def test_steps_are_climbed_while_each_helps_over_the_one_before(
 
 
 def test_names_that_do_not_help_are_withdrawn() -> None:
-    assert withdraw_unhelpful(FOUND, ("MitralRegurgitation",)) is FOUND
-    withdrawn = withdraw_unhelpful(FOUND, ())
+    assert withdraw_unhelpful(DIAGNOSIS, ("MitralRegurgitation",)) is DIAGNOSIS
+    withdrawn = withdraw_unhelpful(DIAGNOSIS, ())
     assert (withdrawn.verdict, withdrawn.mechanisms, withdrawn.withdrawn) == (
         "unknown",
         (),
@@ -160,7 +160,7 @@ def judged(diagnosis: Diagnosis, kept: tuple[str, ...]) -> Diagnosis:
 
 
 def test_a_proved_diagnosis_has_the_sizes_and_evidence_of_the_refits() -> None:
-    proof = judged(FOUND, ("MitralRegurgitation",))
+    proof = judged(DIAGNOSIS, ("MitralRegurgitation",))
     assert proof.mechanisms[0].amplitude == pytest.approx(2 * 0.15e-4)
     assert proof.mechanisms[0].ln_bayes_factor == 20.0
     assert proof.simulations == 119
@@ -189,4 +189,4 @@ def test_a_trial_is_not_taken_for_a_name() -> None:
     proof = judged(NOTHING, ())
     assert (proof.verdict, proof.mechanisms, proof.withdrawn) == ("none", (), ())
     assert spaced_name("AorticStenosis") in gain_subject(proof)
-    assert spaced_name("MitralRegurgitation") not in gain_subject(judged(FOUND, ("MitralRegurgitation",)))
+    assert spaced_name("MitralRegurgitation") not in gain_subject(judged(DIAGNOSIS, ("MitralRegurgitation",)))

@@ -71,13 +71,13 @@ def test_an_amplitude_that_the_data_push_below_its_bound_stays_there() -> None:
 
 def test_other_parameters_are_refitted_where_an_amplitude_meets_its_bound() -> None:
     """A step that is only cut off at the bound would predict no gain here and end the optimisation."""
-    alike = SLOPES + np.array([3.0, 0.0, 3.0]) * SLOPES[:, 1:2]
-    target = Target({"lv_volume": Samples(np.arange(12.0), alike @ np.array([0.6, -1.5, 1.0]))}, NOISE)
+    collinear = SLOPES + np.array([3.0, 0.0, 3.0]) * SLOPES[:, 1:2]
+    target = Target({"lv_volume": Samples(np.arange(12.0), collinear @ np.array([0.6, -1.5, 1.0]))}, NOISE)
     lower = np.array([-np.inf, 0.0, -np.inf])
-    stacked, values = np.vstack([alike / 0.05, np.eye(3)]), np.append(target.values() / 0.05, np.zeros(3))
+    stacked, values = np.vstack([collinear / 0.05, np.eye(3)]), np.append(target.values() / 0.05, np.zeros(3))
     best = lsq_linear(stacked, values, (lower, np.full(3, np.inf))).x
     start = best + np.array([0.0, 0.5, 0.0])
-    walk = walked(started(lambda x: alike @ x, alike, lower, target, start))
+    walk = walked(started(lambda x: collinear @ x, collinear, lower, target, start))
     assert walk.converged
     assert best[1] == pytest.approx(0.0, abs=1e-6)
     assert walk.x == pytest.approx(best, abs=0.01)

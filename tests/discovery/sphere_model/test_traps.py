@@ -17,7 +17,7 @@ from heartfit.synthetic.campaign import PlantedPlan
 from tests.discovery.sphere_model.hearts import healthy, recorded
 
 CALIBRATED = ("cavity", "sigma_0", "mu", "c_1", "R_p", "k_RS", "k_ATP")
-SEEN = np.array([parameter.name.rsplit(".", 1)[-1] in CALIBRATED for parameter in FREE_PARAMETERS])
+IS_CALIBRATED = np.array([parameter.name.rsplit(".", 1)[-1] in CALIBRATED for parameter in FREE_PARAMETERS])
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +32,7 @@ def context():
 
 def frozen(full: Hypothesis) -> Hypothesis:
     """Hypothesis with the uncalibrated parameters held at the prior's mean."""
-    free = np.concatenate([SEEN, np.ones(len(full.coordinates) - SEEN.size, dtype=bool)])
+    free = np.concatenate([IS_CALIBRATED, np.ones(len(full.coordinates) - IS_CALIBRATED.size, dtype=bool)])
 
     def forward(x: Floats) -> Floats | None:
         whole = np.zeros(free.size)

@@ -41,11 +41,11 @@ def posterior(noise: float) -> Posterior:
 
 
 def result(case: str, notes: tuple[str, ...]) -> CaseResult:
-    met = posterior(0.0)
+    noise_free = posterior(0.0)
     return CaseResult(
         case, SETTING, "abc", {"V_min": 6e-5}, {"V_min": 2e-6}, {"V_min": 9e-5}, {"V_min": 6.3e-5},
         PRIOR.physical(), dict(zip(PRIOR.names, PRIOR.sd, strict=True)),
-        met.estimate.physical(), dict(zip(PRIOR.names, met.estimate.sd, strict=True)),
+        noise_free.estimate.physical(), dict(zip(PRIOR.names, noise_free.estimate.sd, strict=True)),
         UNITS, 0, 5, shift=0.02, notes=notes,
     )  # fmt: skip
 
