@@ -10,7 +10,7 @@ PAGE = Path(__file__).parents[1] / "docs" / "parameters.md"
 
 
 def test_the_parameter_page_is_in_step():
-    assert PAGE.read_text() == parameter_page(), "write it anew: heartfit parameters > docs/parameters.md"
+    assert PAGE.read_text() == parameter_page(), "regenerate: heartfit parameters > docs/parameters.md"
 
 
 def test_every_mechanism_has_its_rows():
@@ -24,5 +24,5 @@ def test_the_paper_s_parameters_have_a_prior():
     assert [name for name in PAPER_PARAMETERS if f"| {name} * |" not in page] == []
 
 
-def test_a_dotted_path_is_a_name_too():
+def test_a_dotted_path_names_a_parameter():
     assert declaration("circulation.pulmonary_tree.R_p").value != declaration("R_p").value

@@ -46,7 +46,7 @@ def test_a_project_without_compiled_kernels_is_copied(project: Path, tmp_path: P
     assert not list((tmp_path / "copy").rglob("*.nbi"))
 
 
-def test_a_study_takes_over_results_with_what_snakemake_knows_of_them(tmp_path: Path) -> None:
+def test_a_study_copies_results_with_their_snakemake_metadata(tmp_path: Path) -> None:
     root, study = tmp_path / "root", TinyStudy.__new__(TinyStudy)
     study.folder = tmp_path / "study"
     study.adopt(root)

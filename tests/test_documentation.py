@@ -49,7 +49,7 @@ def test_dead_links_are_listed(tmp_path):
     assert list(dead_links(page)) == ["page.md: page.md#two", "page.md: nowhere.md#", "page.md: #three"]
 
 
-def test_every_page_stands_in_the_index_once():
+def test_every_page_is_in_the_index_once():
     docs = ROOT / "docs"
     listed = re.findall(r"\]\(([\w/]+\.md)\)", (docs / "index.md").read_text())
     pages = {page.name for page in docs.glob("*.md")} - {"index.md"}

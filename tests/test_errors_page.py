@@ -49,7 +49,7 @@ def test_every_message_of_the_code_is_on_the_page():
     texts = messages(TREES, "InputError") | messages(CONFIGURATION, "ValueError")
     untold = [text for text in sorted(texts) if not any(matches(phrase, text) for phrase in PHRASES)]
     assert len(texts) > 200
-    assert not untold, "tell in docs/errors.md what they mean"
+    assert not untold, "explain them in docs/errors.md"
 
 
 def test_the_page_lists_no_message_that_the_code_lacks():

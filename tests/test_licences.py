@@ -47,7 +47,7 @@ def test_no_dependency_of_the_core_is_gpl_alone():
     assert [name for name in sorted(names) if is_strong(licences(name))] == []
 
 
-def test_the_check_can_tell():
+def test_strong_licences_are_recognised():
     assert is_strong(["GPL-3.0-or-later"])
     assert is_strong(["", "License :: OSI Approved :: GNU Affero General Public License v3"])
     assert not is_strong(["LGPL-3.0"])

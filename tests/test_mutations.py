@@ -80,6 +80,6 @@ def test_survivors_are_distinguished_from_caught_mutants(tmp_path, monkeypatch, 
         list(run.verdicts((Mutant("change", "kernel.py", "left", text, "tests"),)))
 
 
-def test_a_row_shows_what_was_dropped():
+def test_a_row_shows_the_dropped_text():
     shown = row(Verdict(Mutant("drop", "kernel.py", "    x -= y\n", "", "t"), "mechanics/test_x.py::test_y"))
     assert shown == "| drop | `kernel.py`: nothing | `x -= y` | `mechanics/test_x.py::test_y` |\n"

@@ -23,11 +23,11 @@ LOGIC = (
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
-def test_a_script_holds_no_logic(script):
+def test_scripts_have_no_logic(script):
     text = script.read_text()
     tree = ast.parse(text)
     assert text.count("\n") <= 30
-    assert ast.get_docstring(tree), "say in one sentence what it does"
+    assert ast.get_docstring(tree), "describe the script in one sentence"
     assert not [node for node in ast.walk(tree) if isinstance(node, LOGIC)]
 
 
@@ -47,7 +47,7 @@ def test_rules_are_short(file):
 
 @pytest.mark.parametrize("file", RULES, ids=lambda file: file.stem)
 def test_shared_code_of_rules_is_defined_once(file):
-    assert not re.search(r"^def ", file.read_text(), flags=re.MULTILINE), "it belongs into workflow/common"
+    assert not re.search(r"^def ", file.read_text(), flags=re.MULTILINE), "define it in workflow/common"
 
 
 def test_the_snakefile_lists_targets_and_all_rule_files():

@@ -32,7 +32,7 @@ def test_an_unknown_command_names_the_known_ones(study):
     assert [name for name in ("tset", *study.COMMANDS) if name not in run.stderr.splitlines()[0]] == []
 
 
-def test_the_time_that_remains_is_added_to_the_count_of_steps(study):
+def test_the_remaining_time_is_added_to_the_count_of_steps(study):
     assert numbers_in(study.remaining("20 of 80 steps (25%) done", 120.0)) == [2.0, 6.0]
     assert study.remaining("rule all:", 120.0) == ""
 

@@ -47,7 +47,7 @@ def test_figures_carry_the_ratios_and_their_verdicts(measured):
     assert not Figure("none", float("nan"), 1.0, "s").met
 
 
-def test_the_page_shows_every_figure_and_what_was_tried(measured):
+def test_the_page_shows_every_figure_and_its_verdict(measured):
     text = page(measured, figures(measured))
     assert text.count("**missed**") == 2, "the growth of both elements"
     assert "| 15.0 x | 3000 x |" in text, "1.5 s over 0.1 s, and over an iteration of 0.2 / 400 s"

@@ -48,7 +48,7 @@ def errors(mean: float) -> Errors:
     return Errors(0.1, -0.2, -0.05, mean, 4e-3, 2, 0.15, 0.2, 0.17, 0.3)
 
 
-def test_the_page_shows_every_method_and_who_refused():
+def test_the_page_shows_every_method_and_its_refusals():
     methods = {family: {name: Row(0.5, errors(2e-3)) for name in named} for family, named in METHODS.items()}
     contrasts = {"usual": [Row(0.5, errors(1e-3)), Row(1.0, None, "frames [3] fold the wall")]}
     text = page(methods, contrasts, same=False)

@@ -108,7 +108,7 @@ def test_every_colour_is_shown_with_its_scale(heart: Locator, shade: str) -> Non
     heart.locator(".shade").select_option("activation")
 
 
-def test_the_inside_is_seen_through_the_outside(heart: Locator) -> None:
+def test_the_inside_is_visible_through_the_outside(heart: Locator) -> None:
     scene, box = heart.locator(".scene").first, heart.locator(".through")
     closed = pixels(scene)
     box.check()
@@ -143,6 +143,6 @@ def test_the_report_prints(opened: Opened) -> None:
     assert len(opened.page.pdf()) > 100_000
 
 
-def test_the_page_has_stayed_quiet(opened: Opened) -> None:
+def test_the_page_has_no_console_errors(opened: Opened) -> None:
     assert opened.errors == []
     assert opened.requests == [opened.page.url]

@@ -21,9 +21,7 @@ def test_round_trip() -> None:
         ({"mu": 7e3}, {"nu": 0.2}, r"\['mu'\].*\['nu'\]"),
     ],
 )
-def test_a_prior_that_cannot_be_is_refused(
-    mean: dict[str, float], sd: dict[str, float], message: str
-) -> None:
+def test_an_invalid_prior_is_refused(mean: dict[str, float], sd: dict[str, float], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         Gaussian.from_relative(mean, sd)
 

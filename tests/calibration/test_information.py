@@ -32,7 +32,7 @@ def test_one_observation_removes_the_variance_given_by_the_signal_to_noise_ratio
     assert np.abs(informed.informed[:, 0]) == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
 
 
-def test_a_sum_informs_the_sum_in_prior_deviations_and_leaves_the_exchange_unseen():
+def test_an_observed_sum_informs_the_sum_and_not_the_difference():
     posterior = posterior_of(prior(), np.array([[1.0, 1.0, 0.0]]), 1e-6, np.zeros(3))
     informed = information(posterior.prior, posterior.estimate)
     assert np.abs(informed.informed[:, 0]) == pytest.approx(
@@ -67,7 +67,7 @@ def test_shrinkage_is_undone_in_observed_directions():
     shrunk = (posterior.estimate.mean - before.mean) / before.sd
     assert shrunk[0] == pytest.approx(0.9)
     assert informed.unshrunk(shrunk) == pytest.approx([1.0, 0.0, 0.0], abs=1e-9), (
-        "b is hardly seen, c not at all"
+        "b is hardly informed, c not at all"
     )
 
 

@@ -52,7 +52,7 @@ def test_every_parameter_is_selected_once(seed: int) -> None:
 
 
 @pytest.mark.parametrize("count", [0, 9])
-def test_a_count_that_cannot_be_is_refused(count: int) -> None:
+def test_an_invalid_count_is_refused(count: int) -> None:
     with pytest.raises(ValueError, match=r"\b8 parameters.*\b1 to 8"):
         select(random_rows(0), count)
 

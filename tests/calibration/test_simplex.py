@@ -43,6 +43,6 @@ def test_two_lost_points_are_refused_by_name() -> None:
         transform(points, np.ones((5, 3)), Simplex(), np.array([True, False, True, False, True]))
 
 
-def test_a_centre_that_takes_all_weight_is_refused() -> None:
+def test_a_centre_point_with_all_weight_is_refused() -> None:
     with pytest.raises(ValueError, match=r"centre=1\.0"):
         Simplex(1.0)

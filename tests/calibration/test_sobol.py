@@ -56,14 +56,14 @@ def test_the_same_seed_gives_the_same_indices() -> None:
 @pytest.mark.parametrize(
     ("planted", "reason"), [({"Z": float("nan")}, "Z not finite"), ("no balance", "no balance")]
 )
-def test_a_lost_output_takes_its_block_with_it_and_is_counted(planted: Outcome, reason: str) -> None:
+def test_a_lost_output_removes_its_block_and_is_counted(planted: Outcome, reason: str) -> None:
     indices = sobol_indices(PRIOR, Linear({7: planted}), SAMPLES, seed=0)
     assert indices.samples == SAMPLES - 1
     assert indices.lost == (reason,)
     assert indices.total[:2, 0] == pytest.approx([0.2, 0.8], abs=0.06)
 
 
-def test_many_lost_outputs_stop_the_study() -> None:
+def test_many_lost_outputs_are_refused() -> None:
     lost: dict[int, Outcome] = {BLOCK * block: {"Z": float("inf")} for block in range(8)}
     with pytest.raises(SobolError, match=r"8 of 128\b.*Z not finite"):
         sobol_indices(PRIOR, Linear(lost), SAMPLES, seed=0)

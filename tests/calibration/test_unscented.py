@@ -80,7 +80,7 @@ def test_a_linear_map_is_exact_despite_failed_points_or_the_points_are_refused(
 
 
 @given(seed=some.integers(0, 1000), lost=some.integers(1, 8))
-def test_a_failed_point_spoils_only_what_it_was_to_tell(seed: int, lost: int) -> None:
+def test_a_failed_point_keeps_the_covariances_of_other_parameters(seed: int, lost: int) -> None:
     """A square of one parameter bends no covariance with another, though the mean moves off the centre."""
     prior = random_prior(4, seed)
     points = sigma_points(prior)
@@ -103,7 +103,7 @@ def test_points_that_do_not_suffice_are_refused(lost: list[int], message: str) -
         transform(sigma_points(prior), points_of(prior, Scaling()), completed=completed)
 
 
-def test_a_nan_that_no_mask_explains_is_refused() -> None:
+def test_an_unmasked_nan_is_refused() -> None:
     prior = random_prior(2, 0)
     z = np.ones((5, 1))
     z[3] = np.nan

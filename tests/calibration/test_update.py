@@ -125,7 +125,7 @@ def test_a_long_step_is_reported() -> None:
 
 
 @pytest.mark.parametrize("lost", [lost for n in (4, 7) for lost in losses(n)], ids=str)
-def test_whichever_beats_fail_the_closed_form_is_met_or_the_update_refuses(lost: tuple[int, ...]) -> None:
+def test_with_any_failed_beats_the_closed_form_holds_or_the_update_refuses(lost: tuple[int, ...]) -> None:
     """Every one and every two of the sigma points of 4 and 7 parameters; the first number is n."""
     n, *failed = lost
     prior, a, z, observed = linear(n, 3, sum(lost))

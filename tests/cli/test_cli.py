@@ -60,10 +60,10 @@ def test_a_beat_imports_no_library_that_it_does_not_use():
     }
     script = f"import sys, heartfit.cli.main; print(*sorted({slow!r} & set(sys.modules)))"
     run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert run.stdout == "\n", "each takes 0.05 to 0.4 s of every job"
+    assert run.stdout == "\n", "each import takes 0.05 to 0.4 s of every job"
 
 
-def test_tolerances_are_written_anew(tmp_path, capsys):
+def test_tolerances_are_renewed(tmp_path, capsys):
     numbers, table = tmp_path / "numbers.csv", tmp_path / "tolerances.tsv"
     numbers.write_text("table,setting,case,quantity,value,unit\ntable1,paper,v1,V_min,1.25,%\n")
     header = "table\tsetting\tcase\tquantity\texpected\ttolerance\twhy\n"
@@ -80,7 +80,7 @@ def test_check_lists_what_is_left_out(tmp_path, capsys):
     assert "patient1 left out" in capsys.readouterr().out
 
 
-def test_a_beat_is_summed_up_in_clinical_units():
+def test_a_beat_is_summarised_in_clinical_units():
     time = np.linspace(0.0, 1.0, 101)
     volume = 1e-4 + 5e-5 * np.cos(2 * np.pi * time)
     same = dict.fromkeys(("lv", "rv", "aorta", "pulmonary_artery"), np.full(101, 12e3))

@@ -96,7 +96,9 @@ def test_every_mistake_is_reported_at_once(project, capsys):
     assert main(["check", "heart1"]) == 2
     errors = lines(capsys)
     assert any("nowhere/control_points: missing" in line for line in errors)
-    assert any("column lv_pressure has no unit" in line for line in errors), "the data are read all the same"
+    assert any("column lv_pressure has no unit" in line for line in errors), (
+        "the data are read despite other mistakes"
+    )
 
 
 @pytest.mark.parametrize(("pressure", "expected"), [(12.0, 12.0 * 133.322368), (-2.0, None)])
@@ -119,6 +121,8 @@ def test_the_pressure_at_the_trigger_is_the_filling_pressure(project, pressure, 
 def test_a_measured_heart_is_described(project, capsys, measured_heart_folder):
     folder = str(measured_heart_folder.resolve())
     assert main(["init", "heart1", "--fit", folder, "--conduction", "healthy"]) == 0
-    assert "\t0.8288\thealthy" in (project / "config" / "heart1.tsv").read_text(), "the data say the period"
+    assert "\t0.8288\thealthy" in (project / "config" / "heart1.tsv").read_text(), (
+        "the period is read from the data"
+    )
     assert main(["check", "heart1", "--no-picture"]) == 0
     assert "heart1: surfaces in 25 phases, beat of 0.829 s" in capsys.readouterr().out

@@ -161,6 +161,6 @@ def run_python(script: str, **environment: str) -> str:
     return subprocess.run(command, env=free, capture_output=True, text=True, check=True).stdout.strip()
 
 
-def test_numba_keeps_them_there():
+def test_numba_keeps_kernels_in_the_folder_of_the_package():
     kept = run_python("import heartfit, numba; print(numba.config.CACHE_DIR)")
     assert kept == str(kernel_cache.kernel_folder(Path(heartfit.__file__).parent))

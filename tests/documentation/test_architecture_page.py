@@ -50,12 +50,12 @@ def test_the_picture_is_the_drawn_one(rooms):
     assert rooms.draw(*rooms.read_imports()) in TEXT, "python docs/rooms.py"
 
 
-def test_an_arrow_too_few_is_noticed():
+def test_a_missing_arrow_is_detected():
     line = next(line for line in TEXT.splitlines() if re.search(r" cli .*  x$", line))
     assert drawn_arrows(TEXT.replace(line, line[:-1] + ".")) < arrows_of_the_sources()
 
 
-def test_a_cycle_of_imports_has_no_floor(rooms):
+def test_a_cycle_of_imports_has_no_lowest_room(rooms):
     assert rooms.floor("top", {"top": {"middle"}, "middle": {"bottom"}, "bottom": set()}) == 2
     with pytest.raises(RecursionError):
         rooms.floor("left", {"left": {"right"}, "right": {"left"}})

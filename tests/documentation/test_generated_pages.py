@@ -37,7 +37,9 @@ def sentences(name: str) -> str:
 @pytest.mark.parametrize("name", sorted(set(NAMES) - NOT_KEPT))
 def test_the_sentences_of_a_page_are_those_of_its_template(name):
     page = COMMITTED[name].read_text()
-    assert re.fullmatch(sentences(name), page), f"write docs/{name}.md anew, or take its sentences over"
+    assert re.fullmatch(sentences(name), page), (
+        f"write docs/{name}.md again, or copy its sentences into the template"
+    )
 
 
 def test_a_sentence_changed_by_hand_is_detected():

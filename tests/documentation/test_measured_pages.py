@@ -55,7 +55,7 @@ def test_a_number_changed_by_hand_is_detected(pages, tmp_path, monkeypatch):
     ]
 
 
-def test_numbers_of_a_study_are_taken(pages, tmp_path):
+def test_numbers_of_a_study_are_stored(pages, tmp_path):
     numbers = tmp_path / "numbers.csv"
     numbers.write_text(
         "# made by heartfit\ntable,setting,case,quantity,value\ntable1,paper,mean of 7,V_min,1.23456\n"

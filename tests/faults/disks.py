@@ -10,7 +10,7 @@ from pathlib import Path
 from tests.faults.outcome import Outcome, half_written, last_words, one_more_call
 from tests.faults.tiny import TinyStudy
 
-ROOM = 100_000  # bytes that are free on a disk that will be full
+ROOM = 100_000  # free bytes on a disk that will be full
 NEEDS_ROOT = "not tried: needs root, to mount a disk in memory"
 
 

@@ -27,7 +27,7 @@ def kills(
     while len(seconds) < times:
         after = chance.uniform(0.0, STARTING + SPREAD)
         if not kill(study.start(), after):
-            begin()  # it was done before
+            begin()  # it had ended before
             continue
         seconds.append(after)
         spoilt += half_written(study, expected)
@@ -47,7 +47,7 @@ def _from_halfway(study: TinyStudy) -> None:
     drawn_again = (
         "templates/generator.vtu",
         "templates/calibrator.vtu",
-    )  # what is kept needs the third no more
+    )  # kept results do not need the third
     study.remove(*drawn_again, "volunteer1", "sensitivity", "tables", "figures")
 
 

@@ -20,7 +20,7 @@ def box() -> Cavity:
     return Cavity.from_endocardium(SimpleNamespace(surfaces={"lv_endo": BOX}), "lv_endo")
 
 
-def test_an_open_box_holds_its_edges_product_wherever_it_stands(box: Cavity) -> None:
+def test_an_open_box_holds_the_product_of_its_edges_at_every_place(box: Cavity) -> None:
     assert box.volume(CORNERS) == pytest.approx(6.0)
     assert box.volume(CORNERS + np.array([7.0, -4.0, 2.0])) == pytest.approx(6.0)
 

@@ -29,7 +29,7 @@ def test_triangles_may_be_turned_either_way(ventricles: LabelledSurface) -> None
     assert weld_surfaces(ventricles.points, turned).volume() == pytest.approx(ventricles.volume(), rel=1e-12)
 
 
-def test_a_base_that_is_no_plane_is_refused(ventricles: LabelledSurface) -> None:
+def test_a_base_that_is_not_planar_is_refused(ventricles: LabelledSurface) -> None:
     bent = ventricles.points.copy()
     bent[:, 2] += 12.0 * bent[:, 0] ** 2
     with pytest.raises(InputError, match="plane"):

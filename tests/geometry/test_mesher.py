@@ -17,7 +17,7 @@ def surface() -> LabelledSurface:
     return ParametricVentricles(130e-6, 10e-3, 1.8, 140e-6, 4.5e-3).surface()
 
 
-def test_the_wall_is_filled_with_good_tetrahedra_in_silence(
+def test_the_wall_is_filled_with_good_tetrahedra_without_output(
     surface: LabelledSurface,
     capfd: pytest.CaptureFixture[str],
     tmp_path: Path,
@@ -66,7 +66,7 @@ def test_the_angle_of_regular_and_flat_tetrahedra() -> None:
     assert np.rad2deg(angles[1]) < 1.0
 
 
-def test_a_triangle_surrounded_by_another_name_takes_it() -> None:
+def test_a_triangle_surrounded_by_another_label_takes_that_label() -> None:
     pairs = np.array([[0, 1], [0, 2], [0, 3]])
     labels = mesher._remove_islands(np.array(["base", "epi", "epi", "epi"]), pairs)
     assert labels.tolist() == ["epi"] * 4

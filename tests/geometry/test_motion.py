@@ -24,7 +24,7 @@ def test_a_motion_within_one_period_is_taken() -> None:
         (TIMES, 1.0, np.full_like(POSITIONS, np.nan), "NaN"),
     ],
 )
-def test_a_motion_that_cannot_be_is_refused(
+def test_an_invalid_motion_is_refused(
     times: np.ndarray, period: float, positions: np.ndarray, message: str
 ) -> None:
     with pytest.raises(InputError, match=message):

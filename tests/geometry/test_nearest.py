@@ -33,7 +33,7 @@ def test_no_point_of_the_triangle_is_closer(seed: int) -> None:
     assert np.linalg.norm(foot - query) <= np.linalg.norm(others - query, axis=1).min() + 1e-12
 
 
-def test_the_far_side_of_a_thin_wall_is_not_taken_for_the_near_one() -> None:
+def test_the_near_side_of_a_thin_wall_is_selected() -> None:
     points = np.vstack([TRIANGLE, TRIANGLE - [0, 0, 0.1]])
     sheets = np.array([[0, 1, 2], [3, 5, 4]])
     query, down = np.array([[0.2, 0.2, -0.01]]), np.array([[0.0, 0.0, -1.0]])

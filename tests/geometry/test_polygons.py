@@ -26,7 +26,7 @@ def test_both_sides_of_a_cut_add_up_to_the_whole() -> None:
     kept, left = clip_polygon(TRIANGLE, height), clip_polygon(TRIANGLE, -height)
     assert area(kept) == pytest.approx(0.5 * 0.75**2)
     assert area(kept) + area(left) == pytest.approx(0.5)
-    assert kept[:, 3] == pytest.approx(kept[:, 0]), "values go along"
+    assert kept[:, 3] == pytest.approx(kept[:, 0]), "values are split as well"
 
 
 def test_a_polygon_below_the_plane_is_removed_and_one_above_is_kept() -> None:

@@ -18,7 +18,7 @@ def sheet(height: float, middle: float = 0.5) -> tuple[Floats, Integers]:
     return points, np.vstack([lower, np.column_stack([corner + 1, corner + SIDE, corner + SIDE + 1])])
 
 
-def test_parallel_sheets_are_their_distance_apart_everywhere() -> None:
+def test_parallel_sheets_have_their_distance_everywhere() -> None:
     points, triangles = sheet(0.0)
     distances, weights = surface_distances(points, sheet(0.3)[0], triangles)
     assert distances == pytest.approx(np.full(2 * len(triangles), 0.3))
@@ -31,7 +31,7 @@ def test_nodes_that_glide_along_the_surface_are_no_distance() -> None:
     assert distances == pytest.approx(0.0, abs=1e-12)
 
 
-def test_fine_triangles_count_no_more_than_coarse_ones() -> None:
+def test_fine_triangles_have_no_more_weight_than_coarse_ones() -> None:
     """Over a slope dz = x, the mean distance is that of the area, wherever the nodes are crowded."""
     flat, triangles = sheet(0.0, middle=0.1)
     slope = flat + flat[:, :1] * [0.0, 0.0, 0.02]

@@ -31,12 +31,12 @@ def test_setting_all_parameters_to_their_values_changes_no_parameter() -> None:
     assert heart.with_parameters(heart.parameters()) == heart
 
 
-def test_an_unknown_name_is_answered_with_the_nearest() -> None:
+def test_an_unknown_name_is_refused_with_the_nearest_known_one() -> None:
     with pytest.raises(KeyError, match=r"'sigma0'.*\['sigma_0'"):
         Heart().with_parameters({"sigma0": 1.0})
 
 
-def test_an_ambiguous_name_is_answered_with_its_paths() -> None:
+def test_an_ambiguous_name_is_refused_with_its_paths() -> None:
     with pytest.raises(KeyError, match=r"circulation\.mitral\.open.*circulation\.aortic\.open"):
         Heart().with_parameters({"open": 1e-6})
 
@@ -46,7 +46,7 @@ def test_an_inadmissible_value_is_refused() -> None:
         Heart().with_parameters({"R_p": -1.0})
 
 
-def test_a_mechanism_is_added_and_replaces_its_own_kind() -> None:
+def test_a_mechanism_is_added_and_replaces_one_of_its_kind() -> None:
     heart = Heart() + MitralRegurgitation(area=1e-5) + MitralRegurgitation(area=2e-5)
     assert heart.mechanisms == (AtrialKick(), MitralRegurgitation(area=2e-5))
     assert Heart().mechanisms == (AtrialKick(),)

@@ -30,7 +30,7 @@ def test_the_first_shift_removes_the_deficit_by_the_guessed_response() -> None:
 
 
 @pytest.mark.parametrize("feedback", [0.8, 1.0, 1.8, 3.0])
-def test_two_beats_show_the_response_and_where_it_leads(feedback: float) -> None:
+def test_two_beats_give_the_response_and_its_limit(feedback: float) -> None:
     """The deficit falls linearly with the pressure, by the feedback: the second shift ends on its zero."""
     tree, periodic, decay = Windkessel(), 12e3, 1.0 - np.exp(-0.5)
 

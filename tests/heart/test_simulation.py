@@ -91,7 +91,7 @@ def test_a_failing_heart_reports_time_and_reason(spherical_heart: Heart, spheres
     assert beat.diagnostics["beats"] == 0.0
 
 
-def test_a_heart_that_cannot_be_filled_fails_too(spherical_heart: Heart) -> None:
+def test_a_heart_that_cannot_be_filled_fails(spherical_heart: Heart) -> None:
     balloon = spherical_heart.with_parameters({"c_1": 5.0, "c_2": 0.0})
     body = SphericalBody(
         Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6), balloon.tissue

@@ -47,7 +47,7 @@ def test_stiff_modes_are_damped() -> None:
     assert abs(y[-1]) < 1e-12
 
 
-def test_halves_make_a_whole() -> None:
+def test_the_halves_of_a_step_add_up_to_the_step() -> None:
     whole = TimeStep(0.3, 4e-3, 0.8, last=4e-3)
     first, second = whole.half(second=False), whole.half(second=True)
     assert (first.start, second.end) == (whole.start, pytest.approx(whole.end))

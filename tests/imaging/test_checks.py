@@ -80,7 +80,7 @@ def test_the_wall_may_lie_halfway_between_lung_and_blood(painted: np.ndarray) ->
     assert agreement(painted / BLOOD, painted) == 1.0
 
 
-def test_noise_knows_half(painted: np.ndarray) -> None:
+def test_noise_agrees_by_one_half(painted: np.ndarray) -> None:
     assert agreement(np.random.default_rng(2).random(painted.shape), painted) == pytest.approx(0.5, abs=0.03)
 
 

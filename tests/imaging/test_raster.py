@@ -64,7 +64,7 @@ def test_the_voxels_of_a_tetrahedron_are_those_with_no_negative_barycentric_coor
 
 
 @pytest.mark.parametrize("order", [[0, 1, 2, 3], [2, 3, 0, 1], [1, 2, 3, 0]])
-def test_a_face_along_the_rows_bounds_what_is_painted(order: list[int]) -> None:
+def test_a_face_along_the_rows_bounds_the_painted_voxels(order: list[int]) -> None:
     """An edge along i, and with it two slanted faces that no row crosses; voxels lie on it and on corners."""
     corners = np.array([[2.0, 2, 2], [12, 2, 2], [5, 12, 3], [6, 4, 12]])[order]
     mask = painted(corners, ONE_TETRAHEDRON)
@@ -183,7 +183,7 @@ def test_rows_through_edges_and_corners_cross_a_surface_once(turn: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_displaced_slice_shows_what_lies_where_its_samples_are(seed: int) -> None:
+def test_a_displaced_slice_is_sampled_at_its_displaced_places(seed: int) -> None:
     """Equal to the opposite displacement of the surface, including places beyond the image's edge."""
     rng = np.random.default_rng(seed)
     corners, triangles = sphere(np.array([12.3, 11.6, 10.7]), 9.0, 300)

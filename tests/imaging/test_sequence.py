@@ -40,7 +40,7 @@ def test_index_undoes_points(grid):
         ({"size": (4, 0, 2)}, "size"),
     ],
 )
-def test_a_grid_that_cannot_be_is_refused(grid, change, message):
+def test_an_invalid_grid_is_refused(grid, change, message):
     with pytest.raises(InputError, match=message):
         Grid(
             **{"size": grid.size, "spacing": grid.spacing, "origin": grid.origin, "direction": TURN} | change

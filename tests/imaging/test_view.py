@@ -31,7 +31,7 @@ def test_a_linear_image_is_shown_exactly(grid: Grid) -> None:
     assert picture == pytest.approx(place @ slope + 4.0, abs=1e-12)
 
 
-def test_beyond_the_image_it_is_dark(grid: Grid) -> None:
+def test_places_beyond_the_image_are_dark(grid: Grid) -> None:
     view = View(
         grid.points(np.array([60.0, 14.0, 13.0])), TURN[:, 1], TURN[:, 2], np.zeros(2), np.full(2, 0.01)
     )

@@ -21,7 +21,7 @@ def test_jobs_are_named_by_their_files_and_one_too_short_to_be_sampled_has_no_me
     assert read_benchmarks(tmp_path) == expected
 
 
-def test_a_folder_without_benchmarks_and_a_table_of_something_else_are_refused(tmp_path: Path) -> None:
+def test_a_folder_without_benchmarks_and_an_unrelated_table_are_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no benchmark of a job"):
         read_benchmarks(tmp_path)
     (tmp_path / "other.tsv").write_text("a\tb\n1\t2\n")

@@ -41,7 +41,7 @@ def path(tmp_path):
     return tmp_path / "cause.json"
 
 
-def test_the_picture_is_there_in_numbers_and_in_words(path):
+def test_the_figure_is_stored_in_numbers_and_in_words(path):
     content = read_cause(path)
     (departure,), (miss,) = content["departures"], content["misses"]
     assert departure["curve"] == "lv_pressure"
@@ -50,7 +50,7 @@ def test_the_picture_is_there_in_numbers_and_in_words(path):
     assert [part for part in ("kPa", " high", "ejection") if part not in miss] == []
 
 
-def test_every_key_is_asked_for(path):
+def test_every_key_is_required(path):
     content = json.loads(path.read_text())
     required = json.loads(cause_schema())["required"]
     assert required == [
@@ -80,7 +80,7 @@ def test_a_broken_file_is_reported_in_one_line(path, old, new, expected):
 
 def test_the_schema_is_in_step():
     assert SCHEMA.read_text() == cause_schema(), (
-        "write it anew: heartfit cause-schema > config/cause.schema.json"
+        "regenerate: heartfit cause-schema > config/cause.schema.json"
     )
 
 

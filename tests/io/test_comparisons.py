@@ -18,7 +18,7 @@ def reading(scale: float) -> Reading:
     return Reading.from_curves({"lv_volume": curve}, {"lv_volume": VolumeFeatures(frames=12)})
 
 
-def test_a_comparison_there_and_back(tmp_path: Path) -> None:
+def test_a_comparison_round_trip(tmp_path: Path) -> None:
     random = np.random.default_rng(0)
     strain = random.standard_normal((2, 12, 3, 16))
     error, folded = 1e-3 * random.random((12, 2)), np.arange(12)

@@ -25,7 +25,7 @@ def test_a_published_file_arrives(published):
     assert (folder / "part" / "file.txt").read_text() == "control points"
 
 
-def test_a_file_that_is_right_is_not_fetched_again(published):
+def test_a_correct_file_is_not_fetched_again(published):
     address, manifest, folder = published
     fetch(manifest, address, folder)
     fetch(manifest, "file:///nowhere/", folder)

@@ -50,7 +50,7 @@ def test_a_table_is_read_as_it_was_written(tmp_path):
     assert read_table(Need, tmp_path / "costs.tsv") == rows
 
 
-def test_another_table_and_none_are_refused_in_one_line(tmp_path):
+def test_an_unrelated_table_and_a_missing_one_are_refused_in_one_line(tmp_path):
     with pytest.raises(InputError, match=r"costs\.tsv: no such file; expected measured costs"):
         read_table(Need, tmp_path / "costs.tsv")
     (tmp_path / "costs.tsv").write_text(as_table(Footprint, [Footprint("study", "", 3.0, 1.0)]))

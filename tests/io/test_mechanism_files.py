@@ -22,7 +22,7 @@ def _own_registry(monkeypatch):
 
 @pytest.fixture
 def pump(tmp_path):
-    file = tmp_path / "numpy.py"  # a name that hides no module
+    file = tmp_path / "numpy.py"  # a name that shadows no module
     file.write_text(PUMP)
     return file
 

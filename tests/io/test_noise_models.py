@@ -16,7 +16,7 @@ def require_same(one: Scatter, other: Scatter) -> None:
     assert np.array_equal(one.covariance, other.covariance)
 
 
-def test_a_noise_model_there_and_back(tmp_path: Path) -> None:
+def test_a_noise_model_round_trip(tmp_path: Path) -> None:
     sample = np.random.default_rng(0).standard_normal((24, 25))
     protocol = {"snr": 30.0, "slices": 9, "method": "demons", "breath_hold": True}
     model = NoiseModel(
@@ -32,7 +32,7 @@ def test_a_noise_model_there_and_back(tmp_path: Path) -> None:
     assert read_fingerprint(tmp_path / "model.json") == "abc"
 
 
-def test_the_sensors_there_and_back(tmp_path: Path) -> None:
+def test_the_sensors_round_trip(tmp_path: Path) -> None:
     sample = np.random.default_rng(0).standard_normal((24, 3))
     sensors = Scatter.from_sample(("shrinkage", "smoothing", "delay"), sample)
     write_sensors(tmp_path / "sensors.json", sensors, "abc")

@@ -80,7 +80,7 @@ def test_recordings_are_read_by_seed(tmp_path):
     assert fuller.values.max() > recording.curves["lv_volume"].values.max()
 
 
-def test_the_job_that_diagnoses_rests_on_no_code_that_plants_or_opens_a_seal():
+def test_the_diagnosing_job_imports_no_code_that_plants_or_opens_a_seal():
     diagnosing = {
         path.relative_to(PACKAGE).as_posix() for path in modules_below(SCRIPTS / "diagnose_planted.py")
     }

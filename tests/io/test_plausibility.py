@@ -24,13 +24,13 @@ def test_the_published_limits_are_in_si() -> None:
     assert limits["dPdt_min"].holds(-200e3)
 
 
-def test_ranges_survive(tmp_path: Path) -> None:
+def test_ranges_round_trip(tmp_path: Path) -> None:
     original = Plausible((PlausibleRange("K", 1e6, End(0.5, "cap"), End(1.5, "EF")),), ("dPdt_min",))
     write_ranges(tmp_path / "ranges.json", original, "abc")
     assert read_ranges(tmp_path / "ranges.json") == original
 
 
-def test_sensitivities_survive(tmp_path: Path) -> None:
+def test_sensitivities_round_trip(tmp_path: Path) -> None:
     prior = Gaussian.from_relative({"sigma_0": 3e5, "mu": 9e3}, {"sigma_0": 0.2, "mu": 0.2})
     original = Sensitivity(prior, ("V_min",), np.ones(1), np.eye(2)[:, :1], np.ones((2, 1)), ("mu+ (cold)",))
     write_sensitivity(tmp_path / "found.json", original, "abc")
@@ -41,7 +41,7 @@ def test_sensitivities_survive(tmp_path: Path) -> None:
     assert again.prior.sd == pytest.approx(prior.sd)
 
 
-def test_indices_survive(tmp_path: Path) -> None:
+def test_indices_round_trip(tmp_path: Path) -> None:
     values = np.arange(2.0)[:, None]
     original = SobolIndices(("a", "b"), ("Z",), values, values, values, values, 8, ("cold",))
     write_sobol(tmp_path / "sobol.json", original, "abc")

@@ -34,7 +34,7 @@ def read(path, **options):
         ("time_s,PLV", 1.0, 1e3, {"unit": "kPa", "column": "PLV"}),
     ],
 )
-def test_every_unit_comes_to_the_same(tmp_path, header, time, pressure, options):
+def test_every_unit_gives_the_same_pressure(tmp_path, header, time, pressure, options):
     curve = read(table(tmp_path, header, TIMES / time, PASCALS / pressure), **options)
     assert curve.values == pytest.approx(PASCALS, abs=0.5)
     assert curve.times == pytest.approx(TIMES, abs=1e-9)

@@ -54,7 +54,7 @@ def test_mistakes_are_reported_in_one_line(tmp_path, header, rows, period, expec
     assert "\n" not in str(problem.value)
 
 
-def test_a_mark_of_the_byte_order_and_letters_in_comments_are_no_obstacle(tmp_path):
+def test_a_byte_order_mark_and_letters_in_comments_are_accepted(tmp_path):
     rows = [(k * 0.03, 100 + k) for k in range(30)]
     text = "# period_s = 0.9\n# gemäß Gerät\n" + table("time_s,lv_volume_ml", rows)
     path = tmp_path / "m.csv"

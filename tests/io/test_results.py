@@ -46,11 +46,11 @@ def beat() -> Beat:
         flow={"mitral": 1e-4 * wave, "mitral_regurgitation": 1e-5 * wave},
         period=0.8,
         trigger=0.18,
-        diagnostics={"drift": 1e-7, "beats": 3.0, "cpu_s": 0.3},  # the cost is another each time
+        diagnostics={"drift": 1e-7, "beats": 3.0, "cpu_s": 0.3},  # costs differ between runs
     )
 
 
-def test_posterior_there_and_back(tmp_path: Path) -> None:
+def test_a_posterior_round_trip(tmp_path: Path) -> None:
     write_posterior(tmp_path / "p.json", posterior(), "abc")
     restored = read_posterior(tmp_path / "p.json")
     assert restored.estimate.physical() == pytest.approx(posterior().estimate.physical(), rel=1e-14)
@@ -61,7 +61,7 @@ def test_posterior_there_and_back(tmp_path: Path) -> None:
     assert read_result(tmp_path / "p.json")["summary"]["estimate"] == posterior().estimate.physical()
 
 
-def test_sigma_points_there_and_back(tmp_path: Path) -> None:
+def test_sigma_points_round_trip(tmp_path: Path) -> None:
     points = sigma_points(PRIOR)
     write_sigma_points(tmp_path / "p.json", PRIOR, points, "abc")
     prior, restored = read_sigma_points(tmp_path / "p.json")
@@ -70,7 +70,7 @@ def test_sigma_points_there_and_back(tmp_path: Path) -> None:
     assert restored[3].parameters == points[3].parameters
 
 
-def test_observations_there_and_back(tmp_path: Path) -> None:
+def test_observations_round_trip(tmp_path: Path) -> None:
     observations = [
         Observation("V_min", 72e-6, "m^3", 1.3e-6, 2e-6),
         Observation("q_max", 4e-4, "m^3/s", 3e-5),
@@ -82,7 +82,7 @@ def test_observations_there_and_back(tmp_path: Path) -> None:
     assert np.array_equal(restored.covariance, measurement.covariance)
 
 
-def test_beat_there_and_back(tmp_path: Path) -> None:
+def test_a_beat_round_trip(tmp_path: Path) -> None:
     write_beat(tmp_path / "3.json", beat(), "abc")
     restored = read_beat(tmp_path / "3.json")
     assert restored.completed
@@ -129,7 +129,7 @@ def test_numbers_that_json_cannot_hold_become_null(tmp_path: Path) -> None:
     assert read_result(tmp_path / "r.json") == {"shift": None, "count": 3}
 
 
-def test_a_case_there_and_back(tmp_path: Path) -> None:
+def test_a_case_round_trip(tmp_path: Path) -> None:
     numbers = {"sigma_0": 240e3}
     record = CaseResult(
         *("real", "physical", "abc"),

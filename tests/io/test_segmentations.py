@@ -44,7 +44,7 @@ def test_round_trip(tmp_path: Path, frames: tuple[Segmentation, ...], suffix: st
         ({**LABELS, "rv_cavity": 7}, "no voxel has 7, stated for rv_cavity; found are 1, 2, 3"),
     ],
 )
-def test_labels_that_cannot_be_meant(
+def test_implausible_labels_are_refused(
     tmp_path: Path, frames: tuple[Segmentation, ...], labels: dict[str, int], what: str
 ) -> None:
     file = tmp_path / "labels.nrrd"
@@ -53,7 +53,7 @@ def test_labels_that_cannot_be_meant(
         read_segmentation(file, labels)
 
 
-def test_an_image_is_no_segmentation(tmp_path: Path) -> None:
+def test_an_image_is_refused_as_a_segmentation(tmp_path: Path) -> None:
     file = tmp_path / "image.nrrd"
     sitk.WriteImage(sitk.GetImageFromArray(np.full((3, 3, 3), 1.37, np.float32)), str(file))
     with pytest.raises(InputError, match=r"no whole numbers, the first 1\.37"):
@@ -63,7 +63,7 @@ def test_an_image_is_no_segmentation(tmp_path: Path) -> None:
         read_segmentation(file, LABELS)
 
 
-def test_a_file_that_is_cut_off_or_flat(tmp_path: Path, frames: tuple[Segmentation, ...]) -> None:
+def test_a_truncated_or_flat_file_is_refused(tmp_path: Path, frames: tuple[Segmentation, ...]) -> None:
     file = tmp_path / "labels.nii.gz"
     write_segmentation(file, frames[:1], LABELS)
     file.write_bytes(file.read_bytes()[:-40])

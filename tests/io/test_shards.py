@@ -40,7 +40,7 @@ def test_a_shard_is_a_table_of_cases_and_a_configuration_over_the_study(tmp_path
     assert [row.split("\t")[0] for row in rows] == ["case", "heart3", "heart0", "heart1"]
 
 
-def test_a_reference_that_is_no_case_is_refused(tmp_path):
+def test_a_reference_that_is_not_a_case_is_refused(tmp_path):
     (tmp_path / "cases.tsv").write_text(CASES)
     with pytest.raises(InputError, match="expected heart9 for every shard"):
         write_shards(tmp_path / "shards", tmp_path / "cases.tsv", "heart9", 2, "results", {})

@@ -32,6 +32,6 @@ def test_a_failed_beat_is_a_motion_without_phases(tmp_path: Path) -> None:
     assert read_simulated_motion(tmp_path / "motion.npz") is None
 
 
-def test_a_missing_one_is_refused(tmp_path: Path) -> None:
+def test_a_missing_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="missing"):
         read_simulated_motion(tmp_path / "nothing.npz")

@@ -42,7 +42,7 @@ def test_a_truncated_changed_or_longer_file_is_detected(results, spoil):
     assert not altered(results)
 
 
-def test_a_file_that_is_gone_or_was_written_again_is_not_altered(results):
+def test_a_deleted_or_rewritten_file_does_not_count_as_altered(results):
     for name in ("gone", "again"):
         write_text(results / name, "one")
     (results / "gone").unlink()

@@ -170,7 +170,7 @@ def test_a_folder_with_a_fault_is_refused(closed: Path, fault: str) -> None:
     assert "\n" not in str(refused.value)
 
 
-def test_open_surfaces_that_cannot_be_joined(tmp_path: Path, ventricles: LabelledSurface) -> None:
+def test_open_surfaces_that_cannot_be_joined_are_refused(tmp_path: Path, ventricles: LabelledSurface) -> None:
     write_open(tmp_path, ventricles, "ply")
     for phase in range(PHASES):
         (tmp_path / f"mine_RV_ENDOCARDIAL_{phase:02d}.ply").unlink()

@@ -46,7 +46,7 @@ MALFORMED = [
     Malformed(
         "configuration: empty", "check|--no-picture|--config|bad.yaml", "cases is missing", {"bad.yaml": ""}
     ),
-    # YAML that is none, or more than a configuration needs
+    # invalid YAML, or more than a configuration needs
     over("JSON cut off", '{"mesh": {"edge_length": 0.01', "not YAML"),
     over("a tab for indentation", "mesh:\n\tedge_length: 0.01\n", "not YAML"),
     over("a list", "- mesh\n", "holds a list"),

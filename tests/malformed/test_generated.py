@@ -47,7 +47,7 @@ def numbers_of_examples(wanted: int) -> Iterator[object]:
 
 @pytest.mark.parametrize("wanted", numbers_of_examples(3 * MANY_EXAMPLES))
 @pytest.mark.parametrize("spoilt", [of_another_kind(), of_another_name()], ids=["kind", "name"])
-def test_a_configuration_of_another_kind_or_name(
+def test_a_configuration_with_another_type_or_key_is_refused(
     wanted: int, spoilt: st.SearchStrategy[tuple[str, str]], here: Path, refused: Refused
 ) -> None:
     @examples(wanted)
@@ -62,7 +62,7 @@ def test_a_configuration_of_another_kind_or_name(
 
 
 @pytest.mark.parametrize("wanted", numbers_of_examples(2 * MANY_EXAMPLES))
-def test_a_table_of_cases(wanted: int, here: Path, refused: Refused) -> None:
+def test_a_random_table_of_cases_is_refused(wanted: int, here: Path, refused: Refused) -> None:
     @examples(wanted)
     @given(TABLES_OF_CASES)
     def check(text: str) -> None:
@@ -73,7 +73,7 @@ def test_a_table_of_cases(wanted: int, here: Path, refused: Refused) -> None:
 
 
 @pytest.mark.parametrize("wanted", numbers_of_examples(2 * MANY_EXAMPLES))
-def test_a_recording(wanted: int, here: Path, refused: Refused) -> None:
+def test_a_random_recording_is_refused_in_one_line(wanted: int, here: Path, refused: Refused) -> None:
     @examples(wanted)
     @given(RECORDINGS)
     def check(text: str) -> None:
@@ -87,7 +87,7 @@ def test_a_recording(wanted: int, here: Path, refused: Refused) -> None:
 
 @pytest.mark.parametrize("wanted", numbers_of_examples(MANY_EXAMPLES // 2))
 @pytest.mark.parametrize("name", ["sound.vtu", *PARTS])
-def test_a_binary_file_that_is_cut_off(wanted: int, name: str, here: Path, refused: Refused) -> None:
+def test_a_truncated_binary_file_is_refused(wanted: int, name: str, here: Path, refused: Refused) -> None:
     whole = (here / name).read_bytes()
 
     @examples(wanted)

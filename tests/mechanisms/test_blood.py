@@ -35,7 +35,7 @@ def parametrize_kinds(kinds: dict[str, type]) -> pytest.MarkDecorator:
 
 @parametrize_kinds(ALL)
 @pytest.mark.parametrize("compiled", [True, False])
-def test_switched_off_it_leaves_no_trace(
+def test_a_mechanism_that_is_off_changes_no_bit(
     kind: type[Mechanism], compiled: bool, spherical_heart: Heart, spheres: SphericalBody
 ) -> None:
     """Equal to the bit in every curve; a mechanism that is on changes a curve."""
@@ -52,7 +52,7 @@ def test_switched_off_it_leaves_no_trace(
     assert not np.allclose(on.pressure["lv"], without.pressure["lv"], rtol=1e-3)
 
 
-def test_elements_do_not_notice_what_is_off(coarse_body: FiniteElementBody) -> None:
+def test_mechanisms_that_are_off_do_not_change_elements(coarse_body: FiniteElementBody) -> None:
     """All mechanisms together, over a beat of long steps, equal to the bit."""
     few = replace(ONE_BEAT, time_step=0.02)
     heart = replace(Heart(), mechanisms=())
@@ -109,7 +109,7 @@ def test_pressures_act_on_atria_and_arteries(kind: type[Pressure]) -> None:
 
 
 @parametrize_kinds(FLOWS)
-def test_flows_run_down_the_gradient_with_their_own_slope(kind: type[Flow]) -> None:
+def test_flows_follow_the_gradient_with_their_slope(kind: type[Flow]) -> None:
     assert {kind.upstream, kind.downstream} <= set(COMPARTMENTS)
     drops = np.linspace(-1e4, 1e4, 2001)
     flows = np.array([kind().flow(0.3, drop)[0] for drop in drops])
@@ -142,7 +142,7 @@ def test_blood_is_conserved_with_another_branch(
         assert 1.5 * V[2:] - 2.0 * V[1:-1] + 0.5 * V[:-2] == pytest.approx(dt * inflow[2:], abs=1e-9)
 
 
-def test_they_work_in_three_dimensions(coarse_body: FiniteElementBody) -> None:
+def test_leaks_act_on_finite_elements(coarse_body: FiniteElementBody) -> None:
     """Mitral regurgitation takes from the forward stroke volume what it gives back to the atrium."""
     healthy, leaking = (
         simulate(heart, coarse_body, ONE_BEAT)

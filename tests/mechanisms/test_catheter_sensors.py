@@ -25,7 +25,7 @@ def test_an_offset_is_added_to_every_sample(offset: float) -> None:
 
 
 @pytest.mark.parametrize("lag", [0.0137, -0.008])
-def test_a_late_pressure_is_that_of_earlier_times(lag: float) -> None:
+def test_a_delayed_pressure_is_that_of_earlier_times(lag: float) -> None:
     shown = CatheterDelay(lag).distort(TIMES, pressure(TIMES), PERIOD)
     assert shown == pytest.approx(pressure(TIMES - lag), abs=1e-9)
 

@@ -61,7 +61,7 @@ def test_a_delayed_curve_is_the_curve_of_earlier_times(delay: float) -> None:
     assert shown == pytest.approx(harmonics(TIMES - delay), rel=1e-12)
 
 
-def test_a_delay_of_whole_samples_moves_any_curve_as_it_is() -> None:
+def test_a_delay_of_whole_samples_shifts_a_curve_exactly() -> None:
     values = np.random.default_rng(1).standard_normal(COUNT)
     shown = ImageTriggerDelay(8 * PERIOD / COUNT).distort(TIMES, values, PERIOD)
     assert shown == pytest.approx(np.roll(values, 8), abs=1e-12)

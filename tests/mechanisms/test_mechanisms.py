@@ -120,7 +120,7 @@ def test_lost_bridges_are_a_share_and_the_remote_region_keeps_its_own(kind: type
 
 
 @parametrize_kinds({name: kind for name, kind in MUSCLES.items() if issubclass(kind, Delay)})
-def test_a_delay_never_hastens_and_leaves_the_earliest_region(kind: type[Delay]) -> None:
+def test_a_delay_never_advances_activation_and_keeps_the_earliest_region(kind: type[Delay]) -> None:
     delay = kind().delay()
     assert delay.shape == (18,)
     assert delay[0] == delay.min() == 0.0 < delay.max()
@@ -168,7 +168,7 @@ def test_a_sensor_that_is_off_changes_no_curve(
 
 
 @parametrize_kinds(SENSORS)
-def test_a_sensor_has_no_other_zero_than_its_curve(
+def test_a_sensor_has_the_time_zero_of_its_curve(
     kind: type[Sensor], sampled: tuple[np.ndarray, np.ndarray]
 ) -> None:
     """Instruments are affine: an offset of the whole curve is an offset of the recorded one."""
@@ -177,7 +177,7 @@ def test_a_sensor_has_no_other_zero_than_its_curve(
     assert raised - shown == pytest.approx(np.full(166, 3e3), rel=1e-9)
 
 
-def test_the_heart_does_not_feel_its_sensors(spherical_heart: Heart, spheres: SphericalBody) -> None:
+def test_sensors_do_not_change_the_heart(spherical_heart: Heart, spheres: SphericalBody) -> None:
     observed = replace(
         spherical_heart, mechanisms=(*spherical_heart.mechanisms, *(k() for k in SENSORS.values()))
     )

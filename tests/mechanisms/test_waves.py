@@ -63,7 +63,7 @@ def beat(heart: Heart, *mechanisms: Mechanism) -> Indices:
     return Indices(result)
 
 
-def test_a_stenotic_valve_takes_the_gradient_that_is_stated(human: Heart) -> None:
+def test_a_stenotic_valve_has_the_stated_gradient(human: Heart) -> None:
     """Compared with the healthy valve; the peak of the flow is lower and later."""
     healthy, tight = beat(human), beat(human, AorticStenosis(gradient=8e3))
     q = tight.beat.flow["aortic"][tight.systole]

@@ -17,12 +17,12 @@ def beat(samples: int, late: float = 0.0) -> Curve:
 
 
 @given(late=some.floats(-0.39, 0.39))
-def test_planted_shift_is_found(late: float) -> None:
+def test_planted_shift_is_recovered(late: float) -> None:
     shift = fit_shift(beat(25), beat(800, late))
     assert shift == pytest.approx(late, abs=2e-4)
 
 
-def test_the_limit_holds() -> None:
+def test_the_shift_stays_within_its_limit() -> None:
     assert fit_shift(beat(25), beat(800, 0.2), limit=0.05) == pytest.approx(0.05, abs=1e-3)
 
 

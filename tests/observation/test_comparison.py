@@ -41,7 +41,7 @@ def compared(ventricle: VentricularMesh) -> Callable[[Motion, Motion], Compariso
     return lambda true, registered: compare_motions(ventricle, true, registered, FEATURES)
 
 
-def test_a_motion_is_itself(ventricle: VentricularMesh, compared: Callable) -> None:
+def test_a_motion_has_no_error_to_itself(ventricle: VentricularMesh, compared: Callable) -> None:
     motion = contraction(ventricle, 0.8, 0.85)
     comparison = compared(motion, motion)
     assert comparison.observation_errors() == dict.fromkeys(("V_min", "q_max", "q_min"), 0.0)
@@ -85,7 +85,7 @@ def test_an_even_dilation_gives_the_strain_and_volume_of_its_scale(
     assert comparison.strain_error_of_beat() == pytest.approx(np.full((3, 16), np.sqrt((expected**2).mean())))
 
 
-def test_each_direction_sees_its_own_stretch(ventricle: VentricularMesh) -> None:
+def test_each_direction_measures_its_own_stretch(ventricle: VentricularMesh) -> None:
     """A stretch along the axis and one across it: circumference and radius change alike in an affine map."""
     strain = segment_strain(ventricle, contraction(ventricle, 0.9, 0.7))[6]
     expected = {"circumferential": 0.9, "longitudinal": 0.7, "radial": 0.9}
@@ -127,7 +127,7 @@ def test_a_segment_is_the_mean_over_its_volume(ventricle: VentricularMesh) -> No
     assert strain[5, DIRECTIONS.index("longitudinal"), 13] == pytest.approx(expected)
 
 
-def test_a_fold_is_counted_where_it_is(ventricle: VentricularMesh, compared: Callable) -> None:
+def test_a_fold_is_counted_in_its_segment(ventricle: VentricularMesh, compared: Callable) -> None:
     true = contraction(ventricle, 0.9, 0.9)
     positions = true.positions.copy()
     a, b, c, d = positions[3, ventricle.tets[100]]

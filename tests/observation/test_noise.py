@@ -16,7 +16,7 @@ def test_a_band_limited_curve_has_no_noise() -> None:
     assert frame_noise(Curve(TIMES, SMOOTH, PERIOD)) == pytest.approx(0, abs=1e-12)
 
 
-def test_planted_noise_is_found() -> None:
+def test_planted_noise_is_recovered() -> None:
     random = np.random.default_rng(3)
     deviations = [
         frame_noise(Curve(TIMES, SMOOTH + 1.3e-6 * random.standard_normal(25), PERIOD)) for _ in range(200)

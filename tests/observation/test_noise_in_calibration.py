@@ -67,7 +67,7 @@ def errors() -> Callable[[bool], tuple[np.ndarray, np.ndarray]]:
     return tried
 
 
-def test_a_noise_model_keeps_missing_motion_from_being_taken_for_weak_muscle(errors: Callable) -> None:
+def test_a_noise_model_prevents_a_bias_of_contractility_from_missing_motion(errors: Callable) -> None:
     without, known = errors(False)[0][:, 0], errors(True)[0][:, 0]
     assert without.mean() < -1.0
     assert abs(known.mean()) < 0.2

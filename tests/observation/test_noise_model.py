@@ -47,7 +47,7 @@ def model(sequences: int, first: int = 0) -> NoiseModel:
     return NoiseModel.from_pairs([pair(first + seed) for seed in range(sequences)], PROTOCOL, FRAMES)
 
 
-def test_planted_bias_and_covariance_are_found_within_their_sampling_error() -> None:
+def test_planted_bias_and_covariance_are_recovered_within_their_sampling_error() -> None:
     estimated = model(1000)
     variance = np.diag(SPREAD)
     assert (np.abs(estimated.observations.mean - BIAS) < 3.0 * np.sqrt(variance / 1000)).all()
@@ -157,7 +157,7 @@ def test_intervals_cover_the_truth_of_new_sequences_at_their_nominal_rate() -> N
         assert abs(share - 0.95) < 2.58 * np.sqrt(0.95 * 0.05 / 300), name
 
 
-def test_coverage_of_a_good_model_holds_95_percent_and_sees_a_model_that_boasts() -> None:
+def test_coverage_of_a_good_model_is_95_percent_and_reveals_an_overconfident_one() -> None:
     known, fresh = model(1000), [pair(5000 + seed) for seed in range(400)]
     shares = coverage(known, fresh)
     assert set(shares) == {*NAMES, "lv_volume"}

@@ -72,7 +72,7 @@ def test_the_sensors_of_the_images_are_found_with_their_scatter(volumes: list[Cu
     shrinkage, smoothing, delay = scatter.mean
     assert shrinkage == pytest.approx(0.15, abs=3.0 * 0.04 / np.sqrt(48))
     assert delay == pytest.approx(0.005, abs=3.0 * 0.004 / np.sqrt(48))
-    assert smoothing < 0.01  # none was planted
+    assert smoothing < 0.01  # no effect was planted
     assert scatter.sd[[0, 2]] == pytest.approx([0.04, 0.004], rel=3.0 / np.sqrt(2 * 48))
     with pytest.raises(InputError, match=r"\b1 sequences"):
         sensor_scatter([imaged(volumes[0], rng)])

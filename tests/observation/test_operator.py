@@ -49,7 +49,7 @@ def test_observations_do_not_depend_on_which_frame_is_first(turn: int, seed: int
     assert list(turned.values()) == pytest.approx(list(first.values()), rel=1e-9)
 
 
-def test_a_dense_curve_is_seen_through_the_measured_frames() -> None:
+def test_a_dense_curve_is_observed_at_the_measured_frames() -> None:
     """The same heart sampled finely must give what its 25 frames give, not its own steeper peak."""
     dense, frames = cosine(800, phase=0.3), cosine(25, phase=0.3)
     operator = VolumeFeatures(frames=25)
@@ -68,6 +68,6 @@ def test_pressure_observations_have_their_signs_and_units() -> None:
 
 
 @pytest.mark.parametrize(("window", "order"), [(4, 2), (3, 3), (27, 2), (3, 0)])
-def test_a_window_that_cannot_be_is_refused(window: int, order: int) -> None:
+def test_an_invalid_window_is_refused(window: int, order: int) -> None:
     with pytest.raises(ValueError, match="odd"):
         VolumeFeatures(frames=25, window=window, order=order)

@@ -163,7 +163,7 @@ def test_ends_at_rest_miss_the_descent_of_the_base(surface: LabelledSurface, mot
     assert gained == pytest.approx(sunk * areas[0] - 2.0 / 3.0 * sunk * areas[-1], rel=1e-6)
 
 
-def test_a_comparison_holds_every_slice_and_refuses_what_does_not_belong_together(
+def test_a_comparison_holds_every_slice_and_refuses_mismatched_data(
     surface: LabelledSurface, motion: SliceMotion
 ) -> None:
     positions, times = displaced(surface), 0.1 * np.arange(FRAMES)

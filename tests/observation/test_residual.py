@@ -34,7 +34,7 @@ def measured(beat: dict[str, Curve]) -> dict[str, Curve]:
 def test_the_valves_divide_the_beat(beat: dict[str, Curve]) -> None:
     phases = BeatPhases.from_curves(beat)
     steps = np.mod(np.diff([*phases.starts, phases.starts[0]]), phases.period)
-    assert steps.sum() == pytest.approx(phases.period), "each follows the one before, once round"
+    assert steps.sum() == pytest.approx(phases.period), "phases follow each other once per beat"
     spans = phases.spans()
     assert {name for name, _, _ in spans} == set(PHASES)
     assert sum(end - start for _, start, end in spans) == pytest.approx(phases.period)

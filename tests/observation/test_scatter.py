@@ -18,7 +18,7 @@ def walks(count: int, steps: int = 25) -> np.ndarray:
     return np.random.default_rng(4).standard_normal((count, steps)).cumsum(axis=1)
 
 
-def test_mean_and_covariance_are_found_within_their_sampling_error() -> None:
+def test_mean_and_covariance_are_recovered_within_their_sampling_error() -> None:
     scatter = Scatter.from_sample("abc", draw(4000, 0))
     assert np.abs(scatter.mean - 0.3).max() < 3.0 * np.sqrt(2.0 / 4000)
     variance = np.diag(SPREAD)
@@ -37,7 +37,7 @@ def test_the_next_vector_lies_in_its_interval_at_the_nominal_rate() -> None:
         assert np.abs(held / 2000 - level).max() < 2.58 * np.sqrt(level * (1.0 - level) / 2000)
 
 
-def test_the_reach_is_students() -> None:
+def test_the_reach_is_the_quantile_of_student() -> None:
     scatter = Scatter(("a",), 24, np.zeros(1), np.array([[4.0]]))
     assert scatter.half_width(0.9) == pytest.approx([2.0 * student.ppf(0.95, 23) * np.sqrt(25.0 / 24.0)])
     assert scatter.predictive == pytest.approx(np.array([[4.0 * 25.0 / 24.0]]))

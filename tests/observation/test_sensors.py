@@ -40,7 +40,7 @@ def planted(curve: Curve, parameters: dict[str, float]) -> Curve:
     return apply_sensors({"lv_volume": curve}, (*scanner, registration))["lv_volume"]
 
 
-def test_a_sensor_acts_on_the_curves_it_measures_and_on_no_other() -> None:
+def test_a_sensor_acts_only_on_its_curves() -> None:
     plain, distorted = beat_curves(beat()), beat_curves(beat(), [ImageShrinkage(0.2)])
     changed = {name for name in plain if not (plain[name].values == distorted[name].values).all()}
     assert changed == {"lv_volume", "rv_volume"}
@@ -82,7 +82,7 @@ def test_each_beat_is_observed_through_its_own_sensors() -> None:
     ],
 )
 @pytest.mark.parametrize("true", [TRUE, FRAMES], ids=["fine", "frames"])
-def test_planted_sensors_are_found(true: Curve, parameters: dict[str, float]) -> None:
+def test_planted_sensors_are_recovered(true: Curve, parameters: dict[str, float]) -> None:
     assert fit_sensors(true, planted(true, parameters)) == pytest.approx(parameters, rel=1e-3, abs=1e-6)
 
 
@@ -91,7 +91,7 @@ def test_without_distortion_the_sensors_are_zero() -> None:
     assert sensors == pytest.approx({"shrinkage": 0.0, "smoothing": 0.0, "delay": 0.0}, abs=1e-3)
 
 
-def test_noise_scatters_what_is_found_about_the_truth() -> None:
+def test_noise_scatters_the_estimates_about_the_truth() -> None:
     """The mean of 60 fits to frames with 1 mL of noise lies within three standard errors of what was planted."""
     parameters = {"shrinkage": 0.15, "smoothing": 0.03, "delay": 0.02}
     clean, random = planted(FRAMES, parameters), np.random.default_rng(3)

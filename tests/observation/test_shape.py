@@ -33,7 +33,7 @@ def shape_of(ventricle: VentricularMesh) -> Callable[[Callable], Shape]:
     return look
 
 
-def test_a_heart_that_only_moves_and_turns_has_no_shape_to_see(shape_of: Callable) -> None:
+def test_a_rigid_motion_has_no_change_of_shape(shape_of: Callable) -> None:
     def move(x: np.ndarray, share: float) -> np.ndarray:
         return _turned(x + np.array([0.0, 0.0, 0.01 * share]), np.full(len(x), 0.3 * share))
 
@@ -53,9 +53,7 @@ def test_a_stretch_along_the_axis_is_shortening_and_descent(shape_of: Callable) 
     assert abs(shape.rise).max() < 0.1 * shape.descent[-1]
 
 
-def test_a_heart_that_shrinks_evenly_does_so_in_every_quantity(
-    shape_of: Callable, ventricle: VentricularMesh
-) -> None:
+def test_a_uniform_contraction_shrinks_every_quantity(shape_of: Callable, ventricle: VentricularMesh) -> None:
     shape = shape_of(lambda x, share: x * (1.0 - 0.1 * share))
     assert shape.shortening == pytest.approx(0.1 * SHARE)
     assert shape.thickening == pytest.approx(-0.1 * SHARE)

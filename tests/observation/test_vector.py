@@ -81,7 +81,7 @@ def test_an_uncertain_period_adds_what_a_stretched_curve_shows() -> None:
     assert uncertain.corrected == plain.corrected
 
 
-def test_a_noise_model_refuses_what_it_never_saw() -> None:
+def test_a_noise_model_refuses_unknown_observations() -> None:
     curves = measured() | {"lv_pressure": beat_curves(beat())["lv_pressure"]}
     with pytest.raises(InputError, match="P_max, dPdt_max, dPdt_min"):
         observe_measured(curves, operators(curves), noise_model=MODEL)
@@ -97,7 +97,7 @@ def test_time_zero_is_the_trigger() -> None:
     assert indices["EF"] == pytest.approx(80 / 150)
 
 
-def test_a_failed_beat_is_its_reason_and_has_no_curves() -> None:
+def test_a_failed_beat_has_a_reason_and_no_curves() -> None:
     failed = failed_beat("inverted", PERIOD, TRIGGER, {})
     assert observe_beats([beat(), failed], operators(measured()))[1] == "inverted"
     with pytest.raises(ValueError, match="curve lv_volume"):

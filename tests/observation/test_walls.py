@@ -37,7 +37,7 @@ def walls(septal: dict[float, float]) -> WallMotion:
     return WallMotion(TIMES, curve(septal), np.zeros(160), *strains, CAVITY)
 
 
-def test_a_flash_is_found_with_its_size_its_time_and_its_rebound() -> None:
+def test_a_flash_has_its_size_its_time_and_its_rebound() -> None:
     flash = septal_flash(walls(FLASHING))
     assert flash is not None
     assert (flash.start, flash.end) == (pytest.approx(-0.02), pytest.approx(0.08))
@@ -66,7 +66,7 @@ def test_stretch_and_delay_are_those_of_the_curves() -> None:
     assert shortening_delay(walls(FLASHING)) == pytest.approx(0.13)
 
 
-def test_the_beat_is_seen_starting_before_trigger_in_order() -> None:
+def test_the_beat_is_shown_from_before_the_trigger_in_order() -> None:
     motion = walls(FLASHING).starting_before_trigger()
     assert motion.times == pytest.approx(TIMES - PRE_TRIGGER)
     assert motion.septal[30:] == pytest.approx(curve(FLASHING)[:130])

@@ -72,7 +72,7 @@ OBSERVATIONS = [
 ]
 
 
-def test_noise_takes_off_the_bias_and_weighs_by_the_whole_covariance_and_the_paper_does_neither() -> None:
+def test_noise_subtracts_the_bias_and_weighs_by_the_covariance_unlike_the_paper() -> None:
     independent = Measurement.independent(OBSERVATIONS)
     sd = np.array([observation.noise for observation in OBSERVATIONS])
     correlation = np.array([[1.0, -0.3, 0.2], [-0.3, 1.0, -0.8], [0.2, -0.8, 1.0]])

@@ -45,7 +45,7 @@ def test_the_figure_has_a_panel_for_each_judge_and_colours_what_surely_helps() -
         "base descent",
     ]
     colours = [line.get_color() for line in panels[0].lines[1::2]]
-    assert len(set(colours)) == 3, "helps, leaves it open, harms"
+    assert len(set(colours)) == 3, "helpful, undecided and harmful"
     assert len(volume.lines) == 5
 
 

@@ -9,7 +9,7 @@ from heartfit.results.card import POOLED, cards, cards_table, coverage_table
 from heartfit.results.card_figure import plot_card, plot_cards
 
 
-def test_a_card_knows_places_and_cover_in_prior_deviations(cohort):
+def test_a_card_has_places_and_coverage_in_prior_deviations(cohort):
     volunteer = cohort[0]
     assert volunteer.true_place()[3] == pytest.approx(np.log(0.9 * 0.8) / 0.25)
     assert set(volunteer.covered(volunteer.noise_aware.estimate)) == {"sigma_0", "mu", "c_1", "R_p"}

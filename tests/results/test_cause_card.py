@@ -80,7 +80,7 @@ def test_a_sentence_gives_sizes_with_intervals_but_not_of_a_group():
     assert not any(numbers[verdict] for verdict in ("none", "group", "unknown", "insufficient"))
 
 
-def test_a_curve_that_departs_and_was_not_searched_is_excepted():
+def test_a_departing_curve_outside_the_search_is_excepted():
     departing = diagnosis(
         "none", traces=(replace(TRACE, curve="rv_volume"),), unsearched={"rv_volume": "no right side"}
     )
@@ -129,7 +129,7 @@ def bullets(text):
     return [line for line in text.splitlines() if line.startswith("- ")]
 
 
-def test_a_curve_that_was_not_searched_is_listed_with_the_reason():
+def test_a_curve_outside_the_search_is_listed_with_the_reason():
     listed = bullets(markdown_card(diagnosis("none", unsearched=UNSEARCHED), "case 1"))
     for curve, reason in UNSEARCHED.items():
         assert [line for line in listed if CURVES[curve] in line and reason in line]

@@ -79,7 +79,7 @@ def test_volumes_are_compared_with_the_surface(cine: CineComparison) -> None:
     assert table.loc["registered", "RMS (mL)"] == pytest.approx(5.0 / 2.0)
 
 
-def test_the_figures_draw_what_was_compared(cine: CineComparison) -> None:
+def test_the_figures_draw_the_comparison(cine: CineComparison) -> None:
     grid = Grid((40, 40, 3), np.full(3, 2e-3), np.array([-0.04, -0.04, -2e-3]), np.eye(3))
     voxels = np.random.default_rng(1).uniform(0.0, 100.0, (FRAMES, 3, 40, 40))
     images = ImageSequence(grid, voxels, 0.1 * np.arange(FRAMES), 0.8)

@@ -46,7 +46,7 @@ def test_drifted_and_missing_numbers_are_listed_with_advice():
     assert "heartfit tolerances" in lines[3]
 
 
-def test_a_number_that_is_none_drifted():
+def test_nan_counts_as_drifted():
     with pytest.raises(DriftError, match=r"failed points.*nan"):
         require_no_drift(NUMBERS, tolerances(("v1", "failed points", 0.0, 1.0)))
 

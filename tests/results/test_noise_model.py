@@ -57,7 +57,7 @@ def test_sensors_stand_in_percent_and_milliseconds() -> None:
     assert table["sd"].to_numpy() == pytest.approx([4.0, 3.0, 4.0])
 
 
-def test_fresh_sequences_are_drawn_in_the_intervals_of_the_model(tmp_path: Path) -> None:
+def test_new_sequences_are_drawn_in_the_intervals_of_the_model(tmp_path: Path) -> None:
     figure = plot_noise_model(MODEL, [pair(0.1), pair(0.2)])
     observations, errors, volume = figure.axes
     bar, reach = observations.patches[0], MODEL.observations.half_width()[0]

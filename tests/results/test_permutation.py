@@ -24,7 +24,7 @@ def test_equal_members_give_a_p_value_of_one():
     assert (test.p, test.less, test.greater) == (1.0, 1.0, 1.0)
 
 
-def test_p_of_labels_at_random_is_uniform_enough():
+def test_p_values_of_random_labels_are_uniform():
     random = np.random.default_rng(5)
     p_values = [permutation_test(x[:2], x[2:]).p for x in random.standard_normal((300, 6))]
     assert np.mean(np.array(p_values) <= 0.2) == pytest.approx(0.2, abs=0.07)

@@ -129,7 +129,7 @@ def test_the_page_lists_seeds_refusals_and_gain():
     assert {0.5, 3000.0, 20.0} <= set(numbers)
 
 
-def test_effects_that_cannot_show_are_not_counted_as_missed():
+def test_undetectable_effects_are_not_counted_as_missed():
     table = rates_table(CASES, LEAST.rates()).set_index("rate")
     assert table.loc["singles detected at 2 scales", "count"] == "2 of 3"
     assert table.loc["singles above their limit, detected", "count"] == "2 of 2"

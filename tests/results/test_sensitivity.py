@@ -77,7 +77,7 @@ def test_the_rule_prefers_what_is_independent_and_sets_are_ranked() -> None:
     assert set(rule["parameters"].iloc[1].split(", ")) >= {"k_RS", "k_ATP", "alpha"}
     paper = table[table["chosen by"] == "Marchesseau et al. 2012"]
     assert paper["parameters"].tolist() == [", ".join(FOUR), ", ".join(SEVEN)]
-    assert paper["volume of Z (%)"].iloc[1] < 1.0, "nothing moves what alpha does"
+    assert paper["volume of Z (%)"].iloc[1] < 1.0, "no other parameter acts as alpha does"
     assert rule["place by volume"].iloc[1] == "1 of 3432"
 
 

@@ -55,17 +55,17 @@ def unseen(card: Card) -> Card:
     return replace(card, noise_aware=replace(card.noise_aware, estimate=estimate))
 
 
-def test_a_difference_that_the_data_do_not_see_is_warned_of(cohort, groups):
+def test_a_difference_not_informed_by_the_data_has_a_warning(cohort, groups):
     table = specificity_table(compare_groups([unseen(card) for card in cohort], groups))
     assert (table["warning"] != "").all()
     assert table["seen"].dropna().tolist() == pytest.approx([0.0] * 19, abs=1e-9), (
-        "nothing is left of what was unshrunk"
+        "no unshrunk information is left"
     )
     informed = specificity_table(compare_groups(cohort, groups))
     assert (informed["warning"] == "").all()
 
 
-def test_both_claims_hold_in_truth_and_one_does_not_where_the_prior_pulls(compared):
+def test_both_claims_hold_for_the_truth_and_one_fails_under_the_prior(compared):
     claims = claims_table([compared]).set_index(["claim", "reading"])
     weakest = claims.loc[("sigma_0 of lbbb1 and lbbb2 below", "truth"), "over healthy"]
     assert weakest == pytest.approx(compared.ratios("truth", "sigma_0")["lbbb1"]), "the less weak one decides"
@@ -75,7 +75,7 @@ def test_both_claims_hold_in_truth_and_one_does_not_where_the_prior_pulls(compar
     assert table.loc[("c_1 of lbbb2 above", "noise and fixed")] == "does not hold"
 
 
-def test_K_is_held_against_the_true_stiffness(cohort, groups):
+def test_K_is_compared_with_the_true_stiffness(cohort, groups):
     def renamed(card: Card) -> Card:
         names = tuple("K" if name == "c_1" else name for name in card.prior.names)
         noise_free, noise_aware = (

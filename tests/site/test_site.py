@@ -23,7 +23,7 @@ def test_marks_of_prose_are_kept_and_those_of_roles_left(text, kept):
     assert prose.plain(text) == kept
 
 
-def test_a_formula_of_a_docstring_is_left():
+def test_a_formula_of_a_docstring_is_unchanged():
     lines = ["A norm |x|.", "", ".. math:: |x| =", "", "          a * b", "", "Then |y|."]
     prose.keep_marks(None, "module", "name", None, {}, lines)
     assert lines == [r"A norm \|x\|.", "", ".. math:: |x| =", "", "          a * b", "", r"Then \|y\|."]

@@ -74,7 +74,7 @@ class Lab:
         if PLACE.exists():
             raise LabError(f"{PLACE} exists: this machine has a SLURM of its own, which is left alone")
         PLACE.parent.mkdir(exist_ok=True)
-        PLACE.unlink(missing_ok=True)  # a link to a lab that is gone
+        PLACE.unlink(missing_ok=True)  # a link to a removed lab
         PLACE.symlink_to(self.folder / "slurm.conf")
         self._start_munge()
         self.run("slurmctld")
@@ -161,7 +161,7 @@ class Lab:
             "log-file": "log",
         }
         options = [f"--{option}={munge / name}" for option, name in files.items()]
-        with (self.folder / "munged.log").open("wb") as log:  # what it tells in the foreground
+        with (self.folder / "munged.log").open("wb") as log:  # its output in the foreground
             command = ["munged", "--foreground", *options]
             self.munged = subprocess.Popen(command, user="munge", group="munge", stderr=log)
         await_that((munge / "socket").exists, "munge's socket")

@@ -26,7 +26,7 @@ def test_all_beats_are_grouped():
     )
 
 
-def test_status_is_asked_of_squeue_and_what_is_lost_is_tried_again_by_snakemake():
+def test_status_comes_from_squeue_and_lost_jobs_are_repeated_by_snakemake():
     assert PROFILE["slurm-status-command"] == "squeue"
     assert PROFILE["slurm-no-requeue"]
     assert PROFILE["retries"] >= 2

@@ -31,7 +31,7 @@ class Study:
 
     def __init__(self, arguments: list[str]) -> None:
         profile = ["--workflow-profile", "profiles/slurm"]
-        # the lab looks more often than one should on a cluster that others use
+        # polls more often than is polite on a shared cluster
         often = ["--slurm-init-seconds-before-status-checks", "3", "--seconds-between-status-checks", "3"]
         command = [sys.executable, "-m", "snakemake", *profile, *often, *arguments]
         say(" ".join(command[1:]))

@@ -77,14 +77,14 @@ def test_an_unknown_parameter_names_the_nearest_known_one(content):
         ("end_diastolic_pressure", "lv", 120e3, "less than 5000"),
     ],
 )
-def test_a_number_that_cannot_be_is_refused(content, table, key, value, expected):
+def test_an_invalid_number_is_refused(content, table, key, value, expected):
     content[table][key] = value
     message = complaint(Study, content)
     assert f"{table}.{key} = {value!r}" in message
     assert expected in message
 
 
-def test_a_parameter_that_cannot_be_is_refused(content):
+def test_an_invalid_parameter_is_refused(content):
     content["settings"]["physical"]["heart"] = {"alpha": -1.0}
     assert re.search(r"alpha = -1 .*\b0\b", complaint(Study, content))
 
@@ -250,7 +250,7 @@ def test_a_period_that_is_not_the_measured_one_is_refused(content, tmp_path, mea
 
 def test_the_schema_is_in_step():
     assert (ROOT / "config" / "schema.json").read_text() == schema(), (
-        "write it anew: heartfit configuration-schema > config/schema.json"
+        "regenerate: heartfit configuration-schema > config/schema.json"
     )
 
 

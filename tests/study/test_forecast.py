@@ -40,7 +40,7 @@ def test_optional_parts_of_cases_count_with_their_share_and_jobs_on_request_not_
     assert (setting.jobs, setting.seconds) == (200 + 50, 200.0 + 200.0)
 
 
-def test_a_subject_adds_all_parts_but_those_of_the_study():
+def test_a_subject_adds_all_parts_except_those_of_the_study():
     parts = forecast(ROWS, PRINTS, SUBJECTS)
     assert total_of(parts).jobs == 5 + 100 * part_per_subject(parts, SUBJECTS).jobs
     assert part_per_subject(parts, SUBJECTS).jobs == 1 + 2.5 + 18

@@ -30,7 +30,7 @@ def content():
         (ImageContrast(), Contrast(**ImageContrast().model_dump()), Contrast),
     ],
 )
-def test_every_knob_is_in_the_configuration_with_its_own_default(table, record, kind):
+def test_every_option_is_in_the_configuration_with_its_default(table, record, kind):
     assert record == kind()
     assert {field.name for field in fields(kind)} <= set(type(table).model_fields)
 

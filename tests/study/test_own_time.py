@@ -8,7 +8,7 @@ OWN = OwnTime(start=3.0, job=0.01, square=1e-6)
 
 
 @pytest.mark.parametrize("cpus", [1, 4, 8])
-def test_the_largest_graph_just_stays_below_the_share(cpus):
+def test_the_largest_graph_stays_below_the_share(cpus):
     size = largest_shard(30.0, 150.0, cpus, OWN)
 
     def share(subjects):

@@ -17,7 +17,7 @@ LABELS = {"lv_cavity": 1, "lv_wall": 2, "rv_cavity": 3}
         {"segmentation": "a.nrrd", "labels": LABELS, "images": "cine", "end_diastole": 3},
     ],
 )
-def test_each_kind_of_wall_is_taken(content):
+def test_each_kind_of_wall_is_accepted(content):
     source = validate(Source, content, "x.yaml")
     assert source.segmented == ("segmentation" in content)
 

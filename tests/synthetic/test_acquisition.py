@@ -37,7 +37,7 @@ def trial(ventricle):
     return carry_out
 
 
-def test_both_readings_have_six_observations_and_the_truth_is_the_motion_s(trial, ventricle):
+def test_both_readings_have_six_observations_and_the_true_one_is_that_of_the_motion(trial, ventricle):
     comparison = trial(1)
     true = comparison.pair.true
     assert len(true.observations) == len(comparison.pair.measured.observations) == 6

@@ -54,7 +54,7 @@ def test_the_recording_at_rest_does_not_know_of_another_condition():
     assert np.array_equal(values(plant(replace(LEAK, reloaded=True))), values(plant(LEAK)))
 
 
-def test_a_pressure_that_no_reader_takes_is_drawn_anew(monkeypatch):
+def test_an_unreadable_pressure_is_redrawn(monkeypatch):
     calm = plant(PlantedPlan(8, "none"))
     lowest = values(calm, "lv_pressure").min()
     monkeypatch.setattr(cases, "PRESSURE_RANGE", (lowest + 1.0, 40e3))
@@ -81,7 +81,7 @@ def test_both_signs_are_drawn_where_there_are_two():
     assert min(leak.area for leak in leaks) > 0.0
 
 
-def test_the_kick_that_every_heart_has_is_not_planted():
+def test_the_atrial_kick_is_not_planted():
     assert "AtrialKick" not in plantable()
 
 

@@ -54,7 +54,7 @@ def test_noise_is_white_and_the_zero_is_drawn_once_a_recording(beat: Beat) -> No
 
 
 @pytest.mark.parametrize("wrong", [{"rate": 0.0}, {"noise": -1.0}, {"offset": -1.0}, {"rate": np.nan}])
-def test_a_catheter_that_cannot_be_is_refused(wrong: dict[str, float]) -> None:
+def test_an_invalid_catheter_is_refused(wrong: dict[str, float]) -> None:
     with pytest.raises(InputError, match=r"rate.*deviations"):
         Catheter(**wrong)
 

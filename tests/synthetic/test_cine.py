@@ -72,13 +72,13 @@ def test_slices_are_as_thick_and_as_far_apart_as_asked(plan: ScanPlan) -> None:
     assert plan.grid.size == (8, 8, 5)
 
 
-def test_a_voxel_lies_where_its_mean_is(plan: ScanPlan) -> None:
+def test_a_voxel_lies_at_the_place_of_its_mean(plan: ScanPlan) -> None:
     """The mean of a linear brightness over a box is its value at the centre, wherever the gaps are."""
     slope = np.array([30.0, -20.0, 50.0])
     assert plan.mean(places(plan.fine) @ slope) == pytest.approx(places(plan.grid) @ slope, rel=1e-12)
 
 
-def test_a_plate_shows_by_the_part_of_the_slice_that_it_fills(plan: ScanPlan) -> None:
+def test_a_plate_has_the_partial_volume_of_its_slice(plan: ScanPlan) -> None:
     """A plate of 3 fine voxels that a slice of 6 holds, holds partly, or that lies partly in the gap of 2."""
     for first, expected in ((8, [0, 0.5, 0, 0, 0]), (13, [0, 1 / 6, 0, 0, 0]), (14, [0, 0, 1 / 6, 0, 0])):
         image = np.zeros(plan.fine.shape)
@@ -142,7 +142,7 @@ def test_a_slice_is_displaced_in_its_plane_as_a_whole_and_each_by_its_own_breath
     shift = centres(shifted)[:, heart] - centres(straight)[:, heart]
     draws = 2 * heart.sum()
     assert draws > 30
-    assert np.ptp(shift, axis=0).max() == 0.0, "a still heart is displaced alike in every frame"
+    assert np.ptp(shift, axis=0).max() == 0.0, "a still heart is displaced equally in every frame"
     assert np.sqrt((shift**2).mean()) == pytest.approx(4e-3, rel=3.0 / np.sqrt(2.0 * draws))
     assert np.corrcoef(shift[0, :-1].ravel(), shift[0, 1:].ravel())[0, 1] < 3.0 / np.sqrt(draws)
 
@@ -171,7 +171,7 @@ def test_the_bright_voxels_of_the_left_ventricle_have_its_volume(
     )
 
 
-def test_images_are_all_that_leaves_the_scanner(clean: ImageSequence) -> None:
+def test_the_scanner_returns_images_only(clean: ImageSequence) -> None:
     assert {field.name for field in fields(clean)} == {"grid", "voxels", "times", "period"}
     assert set(vars(clean)) == {"grid", "voxels", "times", "period"}
     assert clean.voxels.dtype == np.float32

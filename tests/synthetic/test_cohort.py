@@ -50,7 +50,7 @@ def test_the_hidden_hearts_scatter_about_the_standard() -> None:
     assert drawn.std() == pytest.approx(0.15, rel=0.2)
 
 
-def test_a_heart_is_hidden_at_its_share_of_the_standard_and_the_others_scatter() -> None:
+def test_a_hidden_heart_has_its_ratios_to_the_standard_and_other_parameters_scatter() -> None:
     ratios = {"sigma_0": 0.6, "mu": 1.1, "c_1": 1.48, "R_p": 0.9}
     first, second = (hide_heart(STANDARD, ratios, PERIOD, seed)[1] for seed in (1, 2))
     standard = {name: Heart().parameters()[Heart().parameter_path(name)] for name in ESTIMATED} | STANDARD
@@ -76,7 +76,7 @@ def test_the_motion_begins_at_the_trigger_and_is_interpolated_between_steps(beat
         assert motion.at(time) == pytest.approx(expected, abs=1e-12)
 
 
-def test_drawn_anatomies_are_those_of_healthy_adults_and_fit_together() -> None:
+def test_drawn_anatomies_are_consistent_and_those_of_healthy_adults() -> None:
     drawn = [draw_anatomy(seed) for seed in range(60)]
     assert draw_anatomy(3) == drawn[3] != drawn[4]
     volumes = 1e6 * np.array([volunteer.shape.edv for volunteer in drawn])

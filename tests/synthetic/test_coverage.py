@@ -41,7 +41,7 @@ def test_the_noise_of_what_is_fixed_is_that_of_its_slopes() -> None:
     assert fixed_noise(linear_hearts()) == pytest.approx(slopes.T @ slopes)
 
 
-def test_a_calibration_that_failed_is_not_covered() -> None:
+def test_a_failed_calibration_is_not_covered() -> None:
     coverage = Coverage("nothing", "R = 0", ("a", "b"), np.array([[0.0, 3.0], [np.nan, np.nan]]))
     assert [share.covered for share in coverage.shares().values()] == [0.5, 0.0]
     assert (coverage.pooled().covered, coverage.pooled().sequences) == (0.25, 2)

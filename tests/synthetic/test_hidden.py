@@ -47,7 +47,7 @@ def test_deviates_are_standard_normal_but_cut_off():
     assert deviates.std() == pytest.approx(1.0, abs=4.0 / np.sqrt(2.0 * deviates.size))
 
 
-def test_size_alone_changes_no_pressure(monkeypatch):
+def test_size_changes_no_pressure(monkeypatch):
     def beat_of(size):
         monkeypatch.setattr("heartfit.synthetic.hidden.SIZE", SIZE if size else 0.0)
         return draw_hidden(np.random.default_rng(0)).beat()

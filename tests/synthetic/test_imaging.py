@@ -21,12 +21,12 @@ def path(times):
 MOTION = Motion(TIMES, PERIOD, path(TIMES))
 
 
-def test_a_late_trigger_shows_every_node_where_it_was():
+def test_a_delayed_trigger_shows_every_node_at_its_earlier_place():
     late = distort_motion(MOTION, [ImageTriggerDelay(0.05)])
     assert late.positions == pytest.approx(path(TIMES - 0.05))
 
 
-def test_motion_that_is_lost_is_lost_of_every_node():
+def test_lost_motion_is_lost_at_every_node():
     half = distort_motion(MOTION, [ImageShrinkage(0.5)])
     assert half.positions == pytest.approx(0.5 * (path(TIMES) + path(TIMES[:1])))
 

@@ -15,7 +15,7 @@ def hiding(name, scales, sign=1.0):
     return Scored(Answer(1, "single", (effect,), {}, {}, 0.02), ScoredDiagnosis("none"))
 
 
-def test_a_size_is_held_against_the_limit_of_its_own_sign(monkeypatch):
+def test_a_size_is_compared_with_the_limit_of_its_sign(monkeypatch):
     def known(hearts, names, threshold):
         assert (hearts, names, threshold) == (1, ["CatheterDelay"], 7.0)
         switch = CatheterDelay.switch()

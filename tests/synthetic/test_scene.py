@@ -41,7 +41,7 @@ def test_the_prism_of_a_patch_is_closed_and_holds_area_times_height() -> None:
     patch = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
     surface = prism(patch, len(corners))
     edges = np.vstack([surface[:, [0, 1]], surface[:, [1, 2]], surface[:, [2, 0]]]).tolist()
-    assert sorted(edges) == sorted([b, a] for a, b in edges), "every edge is passed once in each direction"
+    assert sorted(edges) == sorted([b, a] for a, b in edges), "every edge is traversed once in each direction"
     assert enclosed(np.vstack([corners, corners + np.array([0.3, -0.2, 3.0])]), surface) == pytest.approx(6.0)
 
 
@@ -73,7 +73,7 @@ def test_at_end_diastole_muscle_shows_its_own_texture(ventricle: VentricularMesh
 
 
 @pytest.mark.parametrize("descent", [0.0, 12e-3])
-def test_blood_goes_on_beyond_the_leaflets(ventricle: VentricularMesh, descent: float) -> None:
+def test_blood_continues_beyond_the_leaflets(ventricle: VentricularMesh, descent: float) -> None:
     """Includes a lowered base: the atrium's roof stays, and the column of blood is longer."""
     scene = scene_of(ventricle, PLAIN)
     ring = ventricle.points[rim_loops(ventricle.surfaces["lv_endo"])[0]].mean(axis=0)

@@ -88,7 +88,7 @@ def test_targets_are_met_or_missed_by_the_share_itself():
 @pytest.mark.parametrize(
     ("count", "at_most"), [(0, True), (3, True), (16, True), (0, False), (9, False), (16, False)]
 )
-def test_doubt_is_the_tail_of_the_binomial(count, at_most):
+def test_the_p_value_is_the_tail_of_the_binomial(count, at_most):
     claim, n = 0.3, 16
     worse = range(count, n + 1) if at_most else range(count + 1)
     tail = sum(comb(n, k) * claim**k * (1.0 - claim) ** (n - k) for k in worse)

@@ -61,7 +61,7 @@ def test_the_other_template_refills_the_same_wall_with_other_nodes(
     template: Template, other: Template
 ) -> None:
     acquired = template.deformed_to(DILATED)
-    bulge = 1.0 + 0.03 * np.sin(40.0 * acquired.points[:, 2:])  # of a beat, which no shape has
+    bulge = 1.0 + 0.03 * np.sin(40.0 * acquired.points[:, 2:])  # of a beat; shapes have none
     acquired = acquired.with_points(acquired.points * bulge)
     refilled = other.fill_wall_of(acquired, template.mesh)
     assert refilled.wall_volume() == pytest.approx(acquired.wall_volume(), rel=0.02)
@@ -79,7 +79,7 @@ def test_a_wall_spoilt_by_morphing_is_remeshed(template: Template) -> None:
     assert np.rad2deg(smallest_dihedral_angles(mesh.points, mesh.tets).min()) >= 8.0
 
 
-def test_a_wall_of_another_mesh_is_meshed_anew(template: Template, other: Template) -> None:
+def test_a_wall_of_another_mesh_is_remeshed(template: Template, other: Template) -> None:
     with pytest.warns(UserWarning, match="numbered differently"):
         mesh = other.fill_wall_of(template.deformed_to(DILATED), other.mesh)
     assert mesh.wall_volume() == pytest.approx(DILATED.surface().volume(), rel=0.04)

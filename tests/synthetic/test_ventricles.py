@@ -79,7 +79,7 @@ def test_a_seed_gives_one_case(hidden, sound):
     assert np.array_equal(volumes(hidden.plant(SOUND)[1]), volumes(sound[1]))
 
 
-def test_a_heart_that_does_not_beat_is_counted_and_drawn_anew(hidden, monkeypatch):
+def test_hearts_that_do_not_beat_are_counted_and_redrawn(hidden, monkeypatch):
     beat, calls = ventricles.generate, []
 
     def failing_once(*arguments):
@@ -93,7 +93,7 @@ def test_a_heart_that_does_not_beat_is_counted_and_drawn_anew(hidden, monkeypatc
     assert case.answer.rejected == {"no beat": 1}
 
 
-def test_the_study_hides_what_the_project_set_itself():
+def test_the_study_plants_enough_cases_of_every_kind():
     plans = read_study([CONFIG / "config.yaml"]).discovery_benchmark.ventricles.plans()
     assert sum(plan.kind == "single" for plan in plans) >= 20
     assert sum(plan.kind == "none" for plan in plans) >= 5

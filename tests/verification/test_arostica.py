@@ -35,7 +35,7 @@ def test_the_law_converges_to_it_with_the_step(exact, time):
     assert order(long, short, 4.0) > 1.9
 
 
-def test_a_held_fibre_does_not_ask_how_stiff_or_brittle_its_bridges_are():
+def test_an_isometric_fibre_does_not_depend_on_stiffness_or_destruction_of_its_bridges():
     usual, other = (active_stress(2e-3, law)[1] for law in (LAW, replace(LAW, k_0=2.0 * LAW.k_0, alpha=0.0)))
     assert other == pytest.approx(usual, rel=1e-3, abs=1.0)
 

@@ -33,7 +33,7 @@ def test_static_forces_are_the_derivative_of_what_is_stored(element: str) -> Non
 @pytest.mark.parametrize(
     "spoilt", ["sigma_0", "k_0", "alpha", "mu", "c_1", "c_2", "eta", "k_b", "c_b", "k_p"]
 )
-def test_an_audit_by_other_parameters_does_not_close(spoilt: str) -> None:
+def test_an_audit_with_other_parameters_does_not_close(spoilt: str) -> None:
     """The remainder moves by the share of the parameter; round-off of the same states is below 1e-12."""
     watched_beat = watched(LONG_STEP)
     heart = Heart()

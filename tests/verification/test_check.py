@@ -8,7 +8,7 @@ from verification.check import AtLeast, Check
 @pytest.mark.parametrize(
     ("measured", "passed"), [(2.0, True), (2.1, True), (1.8, False), (2.2, False), (float("nan"), False)]
 )
-def test_within_the_tolerance(measured, passed):
+def test_a_check_passes_within_its_tolerance(measured, passed):
     assert Check("order", measured, 2.0, 0.15, "1", "theory").passed is passed
 
 

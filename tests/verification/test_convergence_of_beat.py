@@ -25,7 +25,7 @@ def test_the_coarsest_mesh_within_two_percent_is_named():
     rows = [row(3000, 0.05), row(10000, -0.015), row(20000, 0.001), row(30000, 0.0)]
     assert coarsest_within(rows, 0.02).size.tetrahedra == 10000
     assert coarsest_within([rows[0], rows[-1]], 0.02) is None
-    assert rows[0].beside(rows[-1])["q_min"] == pytest.approx(0.05), "negative numbers count the same"
+    assert rows[0].beside(rows[-1])["q_min"] == pytest.approx(0.05), "negative numbers count equally"
 
 
 def test_the_page_compares_meshes_at_the_usual_step_and_steps_on_the_same_mesh():

@@ -88,5 +88,5 @@ def test_the_pressure_alone_makes_the_ventricle_larger_and_the_tension_smaller()
         assert sign * (cavity.volume(displaced) - cavity.volume(loading.mesh.points)) > 0.0
 
 
-def test_half_the_beam_is_half_a_beam():
+def test_half_of_the_beam_has_half_its_volume():
     assert half_beam(4, 1, 2).wall_volume() == pytest.approx(5e-9)

@@ -74,7 +74,7 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert counts["try_acquisition"] == 21 + 3 + 6 * 2
     assert counts["build_template"] == 3
     assert counts["tabulate_costs"] == counts["report_study"] == 1
-    assert "diagnose_planted" not in counts, "hours of search that nobody asked for"
+    assert "diagnose_planted" not in counts, "the search takes hours and was not requested"
     assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
     beating = {"generate_volunteer", "draw_volunteer", "simulate_point", "simulate_calibrated"}
     beating |= {
@@ -88,7 +88,7 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     targets = inputs(dict(jobs(planned.stdout))["all"])
     assert sum("/beats/" in name for name in targets) == (
         counts["simulate_point"] + counts["simulate_surrounding"]
-    ), "a deleted one is not missed"
+    ), "a deleted beat would go unnoticed"
 
 
 @pytest.mark.measured
@@ -199,7 +199,7 @@ def test_bad_input_is_refused_in_one_line_before_anything_runs(workflow, file, t
     assert not (workflow.folder / "results").exists()
 
 
-def test_numbers_are_checked_where_it_is_asked_for(workflow, planned):
+def test_numbers_are_checked_on_request(workflow, planned):
     assert "check_numbers" not in job_counts(planned.stdout)
     run = workflow.snakemake("-n", "check_numbers", "--configfile", "config/smoke.yaml")
     assert job_counts(run.stdout)["check_numbers"] == job_counts(run.stdout)["make_tables"] == 1

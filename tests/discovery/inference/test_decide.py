@@ -44,7 +44,7 @@ def evidences(
         (evidences(12.0, discrepancy=30.0, on_top=30.0, pair=50.0), Decision("two", AB)),
     ],
 )
-def test_the_rules(evidence, expected) -> None:
+def test_decision_rules(evidence, expected) -> None:
     assert decide(evidence) == expected
 
 

@@ -47,7 +47,7 @@ def test_the_curve_is_that_of_the_process_given_the_data() -> None:
     assert min(distance) < 1e-9
 
 
-def test_a_bump_is_found_where_it_is() -> None:
+def test_a_bump_is_located() -> None:
     tight = Noise((0.05,), 0.0, 0.02, discrepancy=0.5)
     discrepancy, fitted_model = fitted(BUMP, tight)
     (curve,) = discrepancy.curves(fitted_model)

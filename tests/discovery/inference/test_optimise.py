@@ -33,7 +33,7 @@ def test_a_linear_problem_is_solved_by_a_damped_step_and_full_ones() -> None:
     assert runs <= 1 + 2 * 3 + 2
 
 
-def test_a_bound_holds_and_the_others_settle_beside_it() -> None:
+def test_a_bound_holds_and_other_coordinates_are_optimal_beside_it() -> None:
     J = slopes(3)
     away = hypothesis(J * [1.0, 1.0, -1.0], Coordinate("a", one_sided=True, amplitude=True))
     optimum, _ = fitted(away, away.at(1.0))
@@ -60,7 +60,7 @@ def test_a_model_that_never_runs_has_no_fit() -> None:
     assert fitted(dead, np.ones(2))[0] is None
 
 
-def test_borrowed_slopes_lead_to_the_same_place_for_fewer_runs() -> None:
+def test_reused_slopes_lead_to_the_same_optimum_with_fewer_runs() -> None:
     truth = oscillator.observed(oscillator.curves(np.array([1.0, 0.5, -1.0, 0.3])), 1)
     whitening, cost = Whitening.from_data(truth), []
     at_centre = CountedHypothesis(oscillator.NONE).jacobian(np.zeros(4), oscillator.curves(np.zeros(4)))
@@ -73,7 +73,7 @@ def test_borrowed_slopes_lead_to_the_same_place_for_fewer_runs() -> None:
     assert cost[1][1] == pytest.approx(cost[0][1], abs=0.05)
 
 
-def test_trusted_slopes_are_not_taken_anew() -> None:
+def test_trusted_slopes_are_reused() -> None:
     J = slopes(3)
     model = CountedHypothesis(hypothesis(J))
     optimum = fit(model, Y, Whitening.from_data(data(Y, KNOWN)), np.zeros(3), J, trusted=2)
@@ -81,7 +81,7 @@ def test_trusted_slopes_are_not_taken_anew() -> None:
     assert model.runs <= 1 + 1 + 2
 
 
-def test_a_fit_that_cannot_reach_its_target_is_given_up_with_the_first_fresh_slopes() -> None:
+def test_a_fit_that_cannot_reach_its_target_ends_with_its_first_new_slopes() -> None:
     whole, runs = fitted(hypothesis(slopes(3)), np.zeros(3))
     for above, ended in ((0.1, True), (-0.1, False)):
         model = CountedHypothesis(hypothesis(slopes(3)))

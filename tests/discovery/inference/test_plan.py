@@ -63,7 +63,7 @@ def test_unknown_parameters_of_a_measurement_lower_its_expected_gain() -> None:
     assert unknown.gain < 0.1 * known.gain
 
 
-def test_the_cheapest_that_decides_leads_and_what_fails_is_left_out() -> None:
+def test_the_cheapest_decisive_measurement_leads_and_failed_ones_are_excluded() -> None:
     group = [explained("a"), explained("b")]
     dead = FurtherMeasurement("dead", 0.1, NEW, lambda effects: lambda x: None)
     offered = [

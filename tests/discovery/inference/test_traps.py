@@ -44,7 +44,7 @@ def share_of_alarms(frozen: int) -> float:
     return np.mean([verdict != "none" for verdict in verdicts])
 
 
-def test_parameters_that_are_held_invent_effects() -> None:
+def test_fixed_parameters_cause_false_alarms() -> None:
     assert share_of_alarms(frozen=2) > 0.8
     assert share_of_alarms(frozen=0) == 0.0
 
@@ -102,7 +102,7 @@ def test_a_base_fit_in_a_local_minimum_is_detected() -> None:
     assert result.decision.verdict == "none"
 
 
-def test_a_simulation_that_fails_is_no_curve() -> None:
+def test_a_failed_simulation_gives_no_curve() -> None:
     """An effect whose simulation fails from some amplitude on is fitted below it; one that always fails is excluded.
 
     If the simulation returned its truncated curve, no choice of coordinates would explain the data.
@@ -123,7 +123,7 @@ def test_a_simulation_that_fails_is_no_curve() -> None:
 
 
 @pytest.mark.parametrize("effect", list(oscillator.EFFECTS))
-def test_intervals_hold_what_was_hidden(effect) -> None:
+def test_intervals_cover_the_hidden_amplitudes(effect) -> None:
     """95 % of 40; fewer than 33 would be a chance below 1 in 1000."""
     hidden, held = oscillator.single(effect), 0
     for seed in range(40):

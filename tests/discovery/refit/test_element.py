@@ -39,7 +39,7 @@ def _measured(beat: Beat) -> MeasuredCase:
     return MeasuredCase.from_curves({"lv_volume": volume, "lv_pressure": pressure}, [])
 
 
-def test_the_element_is_named_and_no_leak(comparisons: Mapping[str, CompetingModel]) -> None:
+def test_the_element_is_preferred_to_a_leak(comparisons: Mapping[str, CompetingModel]) -> None:
     factors = dict(
         zip(comparisons, element_table([*comparisons.values()], PARAMETERS)["ln Bayes factor"], strict=True)
     )

@@ -136,7 +136,7 @@ def test_fixed_parameters_of_a_setting_are_freed_about_its_heart() -> None:
     assert tau == pytest.approx(heart["circulation.systemic.tau"] * np.exp(0.2))
 
 
-def test_a_heart_that_contracts_for_shorter_is_given_a_leak_where_that_is_frozen_only() -> None:
+def test_a_heart_with_a_shorter_contraction_gets_a_leak_only_if_the_duration_is_frozen() -> None:
     plain = Extension(PLAIN)
     off = plain.parameters(plain.start()) | {"tissue.control.duration": 0.30}
     curves = beat_curves(run(plain, off))

@@ -77,14 +77,14 @@ def beat() -> dict[str, Curve]:
     return beat_curves(simulate_spheres(heart, [Sphere.from_volumes(1.2e-4, 2.2e-4)], numerics))
 
 
-def test_a_centre_follows_the_beat_that_it_is_fitted_to(beat: dict[str, Curve]) -> None:
+def test_the_nominal_heart_follows_the_beat_that_it_is_fitted_to(beat: dict[str, Curve]) -> None:
     heart = ADULT.heart.with_parameters({"sigma_0": 260e3})
     centre = fit_nominal_heart(heart, beat)
     assert centre.wall == pytest.approx(2.2e-4, rel=0.25)
     assert centre.heart.period == heart.period
 
 
-def test_a_beat_that_no_sphere_has_is_refused(
+def test_a_beat_without_a_matching_sphere_is_refused(
     monkeypatch: pytest.MonkeyPatch, beat: dict[str, Curve]
 ) -> None:
     monkeypatch.setattr(recentred_module, "ROUNDS", 1)
@@ -140,4 +140,4 @@ def test_a_sphere_that_fails_its_self_test_has_stricter_rules(
         centred_search, "self_test", lambda *arguments: tested_beats.extend(arguments[2]) or tested
     )
     assert conclusion([beat, {}, beat]) == ("sphere", rules.detected, tested)
-    assert len(tested_beats) == 1, "the centre's own beat and one that failed"
+    assert len(tested_beats) == 1, "without the nominal heart's beat and a failed one"

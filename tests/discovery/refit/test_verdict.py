@@ -131,7 +131,7 @@ def test_names_that_do_not_help_are_withdrawn() -> None:
     assert (one.verdict, one.mechanisms, one.withdrawn) == ("named", (OTHER,), ("MitralRegurgitation",))
 
 
-def test_a_group_stands_or_falls_with_the_one_that_was_tried() -> None:
+def test_a_group_is_kept_or_withdrawn_with_its_tried_member() -> None:
     assert withdraw_unhelpful(GROUP, ("MitralRegurgitation",)) is GROUP
     assert withdraw_unhelpful(GROUP, ()).withdrawn == ("MitralRegurgitation",)
 
@@ -179,13 +179,13 @@ def test_an_attempt_needs_no_search() -> None:
         cast("ExtensionTrial", judge), "AorticStenosis", fitted(Extension(PLAIN), 1.0)
     )
     assert [mechanism.name for mechanism in trial.refitted.extension] == ["AorticStenosis"]
-    assert np.isnan(trial.refitted.extension[0].ln_bayes_factor), "no search gave one"
+    assert np.isnan(trial.refitted.extension[0].ln_bayes_factor), "a trial without a search has none"
     assert trial.refitted.ln_bayes_factor == 3.0
     assert trial.refitted.simulations == 9 + 9 + 2
     assert trial.gain[0].curve == "rv_volume"
 
 
-def test_a_trial_is_not_taken_for_a_name() -> None:
+def test_a_trial_is_no_named_effect() -> None:
     proof = judged(NOTHING, ())
     assert (proof.verdict, proof.mechanisms, proof.withdrawn) == ("none", (), ())
     assert spaced_name("AorticStenosis") in gain_subject(proof)

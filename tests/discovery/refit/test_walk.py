@@ -55,7 +55,7 @@ def test_a_linear_model_ends_at_its_posterior() -> None:
     assert walk.covariance() == pytest.approx(np.linalg.inv(precision))
 
 
-def test_slopes_that_are_off_are_corrected_on_the_way() -> None:
+def test_inexact_slopes_are_corrected_by_updates() -> None:
     off = 1.5 * np.random.default_rng(3).standard_normal(SLOPES.shape)
     walk = walked(started(bent, SLOPES + off), 12)
     assert walk.converged
@@ -102,4 +102,4 @@ def test_a_failed_beat_only_shortens_the_step() -> None:
     assert np.array_equal(walk.jacobian, SLOPES)
     walked(walk)
     assert 0.0 < np.abs(walk.x).max() < 0.5
-    assert not walk.converged, "it would go on"
+    assert not walk.converged, "the optimisation has not converged"

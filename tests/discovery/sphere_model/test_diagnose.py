@@ -79,7 +79,7 @@ def test_no_effect_is_found_in_a_healthy_heart(seed):
     assert diagnosis.next_measurement == ""
 
 
-def test_a_volume_alone_is_not_enough():
+def test_a_volume_alone_is_insufficient():
     both = healthy(4)
     diagnosis = diagnose(replace(both, curves={"lv_volume": both.curves["lv_volume"]}))
     assert diagnosis.verdict == "insufficient"

@@ -33,7 +33,7 @@ def test_every_hypothesis_begins_with_the_same_coordinates_and_none_is_in_it():
         assert not np.array_equal(single.forward(single.at(1.0)), without), candidate.name
 
 
-def test_effects_join():
+def test_effects_combine():
     library = candidates(BOTH)
     pair = hypothesis(BOTH, (library["CatheterOffset"], library["MitralRegurgitation"]))
     assert pair.effects == ("CatheterOffset", "MitralRegurgitation")

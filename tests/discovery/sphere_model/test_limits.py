@@ -3,7 +3,7 @@
 from heartfit.discovery.sphere_model.limits import detection_limits
 
 
-def test_a_delay_shows_and_a_scar_does_not():
+def test_a_delay_is_detectable_and_a_scar_is_not():
     limits = {
         (limit.name, limit.sign): limit for limit in detection_limits(1, names=("CatheterDelay", "Scar"))
     }

@@ -48,7 +48,7 @@ def test_no_effect_is_found_in_beats_of_the_sphere_model(
     assert self_test(recording, ADULT, beats) < SELF_TEST_LIMIT
 
 
-def test_a_centre_whose_pressure_comes_early_fails(
+def test_a_nominal_heart_with_an_early_pressure_fails(
     recording: Recording, beats: list[dict[str, Curve]]
 ) -> None:
     late = [beat | {"lv_pressure": beat["lv_pressure"].shifted(-0.04)} for beat in beats]

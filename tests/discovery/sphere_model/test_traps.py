@@ -51,7 +51,7 @@ def best_bayes_factor(context: FitContext, hypotheses: Sequence[Hypothesis]) -> 
     return max(explanation.log_evidence for explanation in effects) - none.log_evidence
 
 
-def test_frozen_parameters_invent_an_effect(context):
+def test_frozen_parameters_cause_a_false_alarm(context):
     judge, model = context
     library = candidates(model)
     effects = [library[name] for name in ("CatheterDelay", "CatheterOffset", "ImageTriggerDelay")]

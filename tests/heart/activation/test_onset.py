@@ -70,7 +70,7 @@ def test_each_layer_has_its_own_speed(ventricle: VentricularMesh, blocked: Ventr
     assert later[ventricle.segments == 0].mean() > 0.010
 
 
-def test_a_block_starts_on_the_right_side_only(ventricle: VentricularMesh) -> None:
+def test_left_bundle_branch_block_starts_on_the_right_side_only(ventricle: VentricularMesh) -> None:
     septal = np.unique(septal_faces(ventricle, LeftVentricularAxes.from_mesh(ventricle)))
     on_septum = [node in septal for node in onset_times(ventricle, LBBB.sites)]
     assert on_septum == [True, False]

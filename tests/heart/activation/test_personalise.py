@@ -13,7 +13,7 @@ def test_without_a_duration_the_mesh_is_unchanged(ventricle: VentricularMesh) ->
     assert fit_conduction(ventricle, HEALTHY, None) is HEALTHY
 
 
-def test_a_faster_layer_is_over_sooner(ventricle: VentricularMesh) -> None:
+def test_a_faster_layer_shortens_the_activation(ventricle: VentricularMesh) -> None:
     speeds = (0.4, 0.7, 1.0, 1.5)
     durations = [total_duration(ventricle, replace(LBBB, left_layer=speed)) for speed in speeds]
     assert durations == sorted(durations, reverse=True)
@@ -27,7 +27,7 @@ def test_the_layer_alone_reaches_a_usual_duration(ventricle: VentricularMesh) ->
 
 
 @pytest.mark.parametrize(("duration", "layer"), [(0.095, LAYER_SPEEDS[1]), (0.180, LAYER_SPEEDS[0])])
-def test_beyond_its_reach_the_wall_changes_too(
+def test_durations_beyond_the_reach_of_the_layer_change_the_wall_speed(
     ventricle: VentricularMesh, duration: float, layer: float
 ) -> None:
     fit = fit_conduction(ventricle, LBBB, duration)

@@ -58,7 +58,7 @@ def test_loads_add_up_with_their_slope() -> None:
     assert_derivative(lambda V: np.array([outside_pressure(loads, 0, 0, V[0])[0]]), slope * step, x, step)
 
 
-def test_a_septal_load_is_the_left_ventricles_alone() -> None:
+def test_a_septal_load_acts_on_the_left_ventricle_only() -> None:
     time = np.linspace(0.0, 0.8, 9)
     table = load_table((SeptalLoad(), Pericardium()), ("lv", "rv"), time, 0.8)
     assert table.shape == (9, 2, 2, 4)
@@ -87,7 +87,7 @@ def test_the_enclosed_sphere_resists_with_its_wall_and_its_load(spheres: Spheric
 
 
 @pytest.mark.parametrize("coupled", [True, False])
-def test_a_diving_heart_beats_as_on_land(spherical_heart: Heart, coupled: bool) -> None:
+def test_a_uniform_external_pressure_does_not_change_the_beat(spherical_heart: Heart, coupled: bool) -> None:
     """The same pressure outside the walls and in all vessels leaves every volume, and raises every pressure by it."""
     left, right = Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6)
     diver = replace(spherical_heart, mechanisms=(*spherical_heart.mechanisms, *DIVING))
@@ -102,7 +102,9 @@ def test_a_diving_heart_beats_as_on_land(spherical_heart: Heart, coupled: bool) 
         assert below.pressure[name][1:] - pressure[1:] == pytest.approx(DEPTH, abs=0.1), name
 
 
-def test_elements_dive_too(coarse_body: FiniteElementBody) -> None:
+def test_a_uniform_external_pressure_does_not_change_the_beat_of_elements(
+    coarse_body: FiniteElementBody,
+) -> None:
     heart = Heart()
     atria, trees = heart.circulation.atrial(0.0, heart.period, ()), heart.circulation.start(heart.period)
     filled = inflate(coarse_body, atria)
@@ -117,10 +119,10 @@ def test_elements_dive_too(coarse_body: FiniteElementBody) -> None:
     on_land, below = states
     assert below.volumes == pytest.approx(on_land.volumes, abs=1e-10)
     assert below.pressures - on_land.pressures == pytest.approx(DEPTH, abs=1.0)
-    assert abs(on_land.volumes - coarse_body.volumes(filled.x)).min() > 1e-7, "it fills"
+    assert abs(on_land.volumes - coarse_body.volumes(filled.x)).min() > 1e-7, "the ventricle fills"
 
 
-def test_a_load_that_grows_and_changes_keeps_the_second_order(spherical_heart: Heart) -> None:
+def test_a_variable_load_keeps_second_order(spherical_heart: Heart) -> None:
     """The volume of a ventricle that fills through a tight valve, under a sac and a pulse."""
     slow = replace(spherical_heart, circulation=Circulation(mitral=LinearValve(open=1e-7)), period=0.8)
     heart = slow + Pericardium(pressure=100.0, volume=80e-6) + SeptalLoad(200.0, peak=0.06, width=0.24)

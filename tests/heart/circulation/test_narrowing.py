@@ -20,7 +20,7 @@ DROPS = [1e-3, 30.0, 400.0, 6e3, 3e4]
 
 
 @pytest.mark.parametrize("drop", DROPS)
-def test_a_conductance_keeps_what_the_narrowing_leaves(drop: float) -> None:
+def test_a_conductance_and_a_narrowing_combine_in_closed_form(drop: float) -> None:
     """The drop is q / K + (rho / 2) q^2 / A^2."""
     q, _ = LINEAR.with_narrowing(AREA**-2).flow(drop)
     assert q / LINEAR.conductance + LOSS * q * q == pytest.approx(drop, rel=1e-13)
@@ -57,13 +57,13 @@ def test_a_narrower_valve_has_less_flow_and_closes_as_before(law: Branch) -> Non
 
 
 @laws
-def test_a_narrowing_as_wide_as_the_world_is_none(law: Branch) -> None:
+def test_a_narrowing_of_zero_resistance_changes_no_flow(law: Branch) -> None:
     """Equal to the bit."""
     assert all(law.with_narrowing(0.0).flow(drop) == law.flow(drop) for drop in (-50.0, 0.0, 7.0, 123.4, 9e3))
 
 
 @laws
-def test_blood_with_inertia_feels_it_too(law: Branch) -> None:
+def test_a_narrowing_acts_on_blood_with_inertia(law: Branch) -> None:
     table = np.array([[law.with_narrowing(AREA**-2)]])
     q, _ = inertial_flow(table, 0, 0, 5e3, 3e6, 2e-4)
     assert q == pytest.approx(branch_flow(table, 0, 0, 5e3 - 3e6 * (q - 2e-4))[0], rel=1e-9)

@@ -58,14 +58,14 @@ def test_blood_runs_forward_through_open_valves_only() -> None:
     assert -2e-7 < flow["tricuspid"] < 0.0
 
 
-def test_atria_rest_at_their_pressure_and_kick_on_top_of_it() -> None:
+def test_atria_have_their_resting_pressure_plus_the_kick() -> None:
     circulation, kick = Circulation(left_atrium=700.0, right_atrium=300.0), AtrialKick(rise=1000.0, right=0.5)
     assert circulation.atrial(0.5, 0.8, (kick,)) == pytest.approx([700.0, 300.0])
     assert circulation.atrial(kick.peak, 0.8, (kick,)) == pytest.approx([1700.0, 800.0])
     assert circulation.atrial(kick.peak, 0.8, ()) == pytest.approx([700.0, 300.0])
 
 
-def test_a_branch_may_change_with_time_and_its_laws_come_for_many_times_at_once() -> None:
+def test_a_time_dependent_branch_gives_laws_for_many_times() -> None:
     @dataclass(frozen=True)
     class Shutter(Flow):
         upstream, downstream = "aorta", "lv"

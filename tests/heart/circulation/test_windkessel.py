@@ -72,7 +72,7 @@ def test_oscillating_flow_meets_the_impedance(tree: Windkessel) -> None:
     assert errors[-1] < 0.03 * abs(peripheral + inertial)
 
 
-def test_raised_by_its_deficit_the_same_inflow_leads_back_to_the_start(tree: Windkessel) -> None:
+def test_a_pressure_raised_by_its_deficit_returns_to_the_start(tree: Windkessel) -> None:
     inflow = np.clip(3e-4 * np.random.default_rng(2).standard_normal(4000), 0.0, None)
 
     def after(state: WindkesselState) -> WindkesselState:

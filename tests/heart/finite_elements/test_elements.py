@@ -36,7 +36,7 @@ def test_the_displacement_element_locks(deflection: Callable[[str, float], float
     assert soft > 2.5 * stiff
 
 
-def test_the_mixed_element_does_not(deflection: Callable[[str, float], float]) -> None:
+def test_the_mixed_element_does_not_lock(deflection: Callable[[str, float], float]) -> None:
     """The change allowed is that of E and of the clamp, whose end cannot widen; then K has no more effect."""
     soft, stiff, stiffer = (deflection("mixed", ratio) for ratio in (10.0, 1e3, 1e4))
     assert stiff == pytest.approx(soft, rel=0.08)

@@ -38,7 +38,7 @@ def test_every_node_is_eliminated_once(dissected: tuple[np.ndarray, Fronts]) -> 
     assert (np.diff(fronts.starts) > 0).all()
 
 
-def test_a_front_touches_what_its_nodes_touch(dissected: tuple[np.ndarray, Fronts]) -> None:
+def test_a_front_has_the_rows_of_its_nodes(dissected: tuple[np.ndarray, Fronts]) -> None:
     tets, fronts = dissected
     touched = filled(tets, fronts.order)
     for s in range(len(fronts.parents)):

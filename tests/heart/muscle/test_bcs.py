@@ -220,7 +220,7 @@ def test_the_length_dependence_of_the_additive_rheology_is_in_engineering_strain
     assert law.unstressed(np.array([0.105])) == pytest.approx([0.1])
 
 
-def test_a_stiff_spring_hands_the_strain_to_the_sarcomere() -> None:
+def test_a_stiff_spring_passes_the_strain_to_the_sarcomere() -> None:
     """The strain of the spring vanishes as 1/E_s."""
     step, _, e_new, state = random_steps(200, seed=7)
     e_old = state[0]

@@ -44,7 +44,7 @@ def test_an_action_potential_longer_than_the_period_is_refused() -> None:
         CONTROL.mean(0.0, 5e-3, ACTIVATION, 0.3)
 
 
-def test_a_tail_takes_its_share_of_the_rate_from_every_step() -> None:
+def test_a_tail_reduces_the_rate_of_every_step_by_its_share() -> None:
     """Compared with the rate at 4000 times of each step, including the short one after the longest pause."""
     tail = SlowRelaxation(slowing=0.7, transition=0.05)
     slowed, dt = replace(CONTROL, tails=(tail,)), PERIOD / 23

@@ -24,7 +24,7 @@ def test_full_slope_is_the_table_of_the_shifted_extension(shift: float) -> None:
     assert law.available_fraction(beyond) == pytest.approx(0.0)
 
 
-def test_half_a_slope_takes_half_of_what_the_table_lacks() -> None:
+def test_half_the_slope_halves_the_missing_bridges_of_the_table() -> None:
     e_c = green_lagrange(np.linspace(-0.3, 0.9, 40))
     half, full = (1.0 - Starling(slope=s).available_fraction(e_c) for s in (0.5, 1.0))
     assert half == pytest.approx(0.5 * full)

@@ -101,6 +101,6 @@ def test_the_stiffening_adds_to_the_base_law(kind: type[Stress]) -> None:
     assert (both.K, both.eta, both.shear_modulus) == (base.K, base.eta, base.shear_modulus)
 
 
-def test_a_sphere_refuses_it_on_a_law_with_fibres() -> None:
+def test_a_sphere_refuses_stiffening_of_a_law_with_fibres() -> None:
     with pytest.raises(InputError, match=r"isotropic.*Guccione"):
         require_isotropic(Stiffened(Guccione(), ())).in_plane_stress(np.ones(1))

@@ -92,7 +92,7 @@ def test_the_compiled_beat_is_that_of_the_coupled_path(
     assert (compiled.period, compiled.trigger) == (coupled.period, coupled.trigger)
 
 
-def test_a_left_ventricle_alone_beats_as_beside_a_right_one(spherical_heart: Heart) -> None:
+def test_a_single_left_ventricle_beats_as_beside_a_right_one(spherical_heart: Heart) -> None:
     heart = spherical_heart + MitralRegurgitation()
     alone, both = (simulate_spheres(heart, spheres, TWO_BEATS) for spheres in ([LEFT], [LEFT, RIGHT]))
     assert alone.volume.keys() == {"lv"}
@@ -165,7 +165,7 @@ def test_a_failing_heart_reports_time_and_reason(inviscid: Heart) -> None:
     assert beat.diagnostics["beats"] == 0.0
 
 
-def test_a_heart_that_cannot_be_filled_fails_too(spherical_heart: Heart) -> None:
+def test_a_heart_that_cannot_be_filled_fails(spherical_heart: Heart) -> None:
     balloon = spherical_heart.with_parameters({"c_1": 5.0, "c_2": 0.0})
     beat = simulate_spheres(balloon, [LEFT, RIGHT])
     assert beat.reason.startswith("beat 1: ")

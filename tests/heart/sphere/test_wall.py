@@ -25,7 +25,7 @@ def test_the_tabulated_passive_law_is_the_law() -> None:
 
 
 @pytest.mark.parametrize("added", [ExponentialStiffening(), FibreStiffening()])
-def test_a_stiffened_law_is_tabulated_too(added: Stress) -> None:
+def test_a_stiffened_law_is_tabulated(added: Stress) -> None:
     """An interval of the table is a sixteenth of the strain over which fibres are straightened."""
     law = Stiffened(MooneyRivlin(), (added,))
     stretches = STRETCHES[(STRETCHES > 0.75) & (STRETCHES < 1.3)]

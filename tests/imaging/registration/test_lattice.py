@@ -45,7 +45,7 @@ def test_polynomials_up_to_cubic_are_reproduced(shape: tuple[int, ...], degree: 
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_on_a_grid_it_is_what_it_is_at_scattered_places(shape: tuple[int, ...]) -> None:
+def test_sampling_on_a_grid_equals_sampling_at_scattered_places(shape: tuple[int, ...]) -> None:
     lattice = Lattice(shape, KNOTS)
     places = [np.sort(np.random.default_rng(a).random(4 + a)) * (n - 1) for a, n in enumerate(shape)]
     scattered = np.stack(np.meshgrid(*places, indexing="ij"), axis=-1).reshape(-1, len(shape))

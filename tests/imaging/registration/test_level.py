@@ -39,7 +39,7 @@ def test_detail_smaller_than_a_block_is_averaged_away() -> None:
     assert np.abs(PyramidLevel.from_shape(SHAPE, 2).reduce(checks)[1:-1, 1:-1, 1:-1]).max() < 1e-6
 
 
-def test_a_weight_is_summed_over_each_block_and_the_rest_left_out(level: PyramidLevel) -> None:
+def test_a_weight_is_summed_over_each_block_without_the_remainder(level: PyramidLevel) -> None:
     weight = np.random.default_rng(0).random(SHAPE)
     total = level.block_sums(weight)
     s = level.shrink

@@ -63,7 +63,7 @@ def test_a_contracting_disc_keeps_its_area_to_one_per_cent(motion: SliceMotion, 
     assert place[..., 2] == pytest.approx(k, abs=1e-9)
 
 
-def test_smoothing_holds_back_what_contracts(motion: SliceMotion) -> None:
+def test_smoothing_reduces_the_measured_contraction(motion: SliceMotion) -> None:
     """Effect of three voxels, as in the study of real images: a tenth of the area at end systole."""
     smooth = relative_areas(followed(3.0), 0)[FRAMES // 2]
     assert 1.08 < smooth < 1.10

@@ -177,7 +177,7 @@ def test_a_frame_starts_from_the_displacement_of_its_neighbour(box: VentricularM
     assert error.mean() < 0.1
 
 
-def test_muscle_keeps_its_volume_the_more_the_more_it_weighs(box: VentricularMesh) -> None:
+def test_a_larger_weight_preserves_the_muscle_volume_more(box: VentricularMesh) -> None:
     """Images of a wall that grows by 1.06^3: recovered with free volume, and hardly with penalised volume."""
 
     def growth(incompressibility: float) -> float:

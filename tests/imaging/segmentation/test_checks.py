@@ -16,7 +16,7 @@ def spoilt(segmentation: Segmentation, **parts: np.ndarray) -> Segmentation:
     return Segmentation(segmentation.grid, {**segmentation.parts, **parts})
 
 
-def test_a_heart_may_lie_as_hearts_do_but_not_mirrored(segmentation: Segmentation) -> None:
+def test_only_the_unmirrored_orientation_of_a_heart_is_accepted(segmentation: Segmentation) -> None:
     for signs in product((1.0, -1.0), repeat=3):
         grid = segmentation.grid
         turned = Segmentation(
@@ -30,7 +30,7 @@ def test_a_heart_may_lie_as_hearts_do_but_not_mirrored(segmentation: Segmentatio
                 require_upright(Stack.from_segmentation(turned), turned)
 
 
-def test_a_part_that_is_empty_or_missing(segmentation: Segmentation) -> None:
+def test_an_empty_or_missing_part_is_refused(segmentation: Segmentation) -> None:
     with pytest.raises(InputError, match=r"voxel.*rv_cavity"):
         spoilt(segmentation, rv_cavity=np.zeros(segmentation.grid.shape, bool))
     with pytest.raises(InputError, match=r"rv_cavity.*missing"):
@@ -44,14 +44,14 @@ def test_stray_voxels_are_named(segmentation: Segmentation) -> None:
         wall_surface(spoilt(segmentation, rv_cavity=stray))
 
 
-def test_a_slice_that_was_left_out(segmentation: Segmentation) -> None:
+def test_a_missing_slice_is_refused(segmentation: Segmentation) -> None:
     cavity = segmentation.parts["lv_cavity"].copy()
     cavity[7] = False
     with pytest.raises(InputError, match=r"lv_cavity.*\b2\b|slice 7.*lv_cavity"):
         wall_surface(spoilt(segmentation, lv_cavity=cavity))
 
 
-def test_too_few_slices(segmentation: Segmentation) -> None:
+def test_too_few_slices_are_refused(segmentation: Segmentation) -> None:
     grid = segmentation.grid
     few = Segmentation(
         replace(grid, size=(*grid.size[:2], 3)),
@@ -61,13 +61,13 @@ def test_too_few_slices(segmentation: Segmentation) -> None:
         wall_surface(few)
 
 
-def test_swapped_labels(segmentation: Segmentation) -> None:
+def test_swapped_labels_are_refused(segmentation: Segmentation) -> None:
     left, right = segmentation.parts["lv_cavity"], segmentation.parts["rv_cavity"]
     with pytest.raises(InputError, match=r"correct the labels|do not touch wall|swapped"):
         wall_surface(spoilt(segmentation, lv_cavity=right, rv_cavity=left))
 
 
-def test_a_left_ventricle_without_base(segmentation: Segmentation) -> None:
+def test_a_left_ventricle_without_base_is_refused(segmentation: Segmentation) -> None:
     """Wall that closes above the cavity as below it: no slice shows the valves."""
     wall = segmentation.heart & ~segmentation.parts["rv_cavity"]
     cavity = segmentation.parts["lv_cavity"].copy()

@@ -83,7 +83,7 @@ def test_the_base_is_cut_where_it_is_stated(segmentation: Segmentation, surface:
     assert cavity(lower, "lv_endo") < cavity(surface, "lv_endo")
 
 
-def test_a_hole_in_the_wall_is_no_heart(segmentation: Segmentation, grid: Grid) -> None:
+def test_a_wall_with_a_hole_is_refused(segmentation: Segmentation, grid: Grid) -> None:
     wall = segmentation.parts["lv_wall"].copy()
     wall[6, :, 40:] = False
     with pytest.raises(InputError, match=r"slice 6, \d+ %"):

@@ -53,7 +53,7 @@ def test_the_density_is_that_of_each_draw(groups, calibrated):
 
 def test_the_file_is_read_by_arviz_with_units_and_the_same_to_the_byte(calibrated, tmp_path):
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of its own refactoring
+        warnings.simplefilter("ignore")  # of the refactoring itself
         import arviz
 
     files = [tmp_path / folder / "inference.nc" for folder in ("one", "two")]

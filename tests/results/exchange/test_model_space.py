@@ -59,7 +59,7 @@ def searched(folder, criteria, criterion=None):
         (tried(30.0, 12.0, 37.1), "CatheterDelay_and_MitralRegurgitation"),
     ],
 )
-def test_a_forward_search_comes_to_the_choice_of_the_thresholds(tmp_path, capsys, models, choice):
+def test_a_forward_search_selects_the_same_model_as_the_thresholds(tmp_path, capsys, models, choice):
     folder = exported(tmp_path, models)
     assert f"{choice} has the lowest criterion, the verdict is named" in capsys.readouterr().out
     assert searched(folder, "evidence.yaml") == choice
@@ -80,7 +80,7 @@ def test_criteria_are_their_formulas():
     assert best_model(models_by_evidence(tried(7.0, 1.0), 10.0)) == "none"
 
 
-def test_a_card_of_before_is_refused_in_a_line(tmp_path, capsys):
+def test_a_card_of_an_old_format_is_refused_in_one_line(tmp_path, capsys):
     card = Diagnosis("none", (), (), "", (), 0, 0.8, DEFAULT_RULES.detected)
     write_cause(tmp_path / "cause.json", card, (), "0123")
     assert cli.main(["petab-select", str(tmp_path)]) == 2

@@ -11,11 +11,11 @@ from heartfit.results.report.page import number, quantity, rows
 @pytest.mark.parametrize(
     ("value", "text"), [(0.12345, "0.123"), (-3.0, "−3"), (123456.0, "123456"), (math.nan, "–"), (None, "–")]
 )
-def test_numbers(value: float | None, text: str) -> None:
+def test_numbers_are_formatted(value: float | None, text: str) -> None:
     assert number(value) == text
 
 
-def test_quantities() -> None:
+def test_quantities_are_typeset() -> None:
     assert quantity("sigma_0 sd (%)") == "<i>σ</i><sub>0</sub> sd (%)"
     assert quantity("R_p (MPa.s/m^3)") == "<i>R</i><sub>p</sub> (MPa.s/m<sup>3</sup>)"
     assert quantity("dPdt_max (%)") == "d<i>P</i>/d<i>t</i><sub>max</sub> (%)"

@@ -80,7 +80,7 @@ def part(page: str, case: str) -> str:
     return re.search(rf'<section id="{case}".*?</section>', page, re.DOTALL)[0]
 
 
-def test_a_case_shows_what_became_of_its_fit_and_its_causes(page: str, ventricle: VentricularMesh) -> None:
+def test_a_case_shows_the_outcome_of_its_fit_and_its_causes(page: str, ventricle: VentricularMesh) -> None:
     sound, weak = part(page, "heart1"), part(page, "heart2")
     assert (sound.count('class="good"'), sound.count('class="doubt"')) == (1, 0)
     assert (weak.count('class="good"'), weak.count('class="doubt"')) == (0, 1)
@@ -95,9 +95,7 @@ def test_a_case_shows_what_became_of_its_fit_and_its_causes(page: str, ventricle
     assert len(set(refits)) == 2
 
 
-def test_a_case_shows_whose_it_is_how_it_conducts_and_which_curves_it_has(
-    page: str, ventricle: VentricularMesh
-) -> None:
+def test_a_case_shows_its_kind_its_conduction_and_its_curves(page: str, ventricle: VentricularMesh) -> None:
     cases = study(ventricle).cases
     for name, case in cases.items():
         assert " · ".join(facts(case)) in part(page, name)

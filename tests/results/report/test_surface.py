@@ -18,7 +18,7 @@ from tests.results.report.small_report import FRAMES
 from tests.results.report.small_report import beating as shrinking
 
 
-def test_numbers_survive_the_packing() -> None:
+def test_numbers_are_unchanged_by_packing() -> None:
     numbers = np.array([0, -1, 70_000, -2_000_000])
     assert unpack(pack(numbers)).tolist() == numbers.tolist()
 
