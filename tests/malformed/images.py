@@ -218,7 +218,9 @@ MALFORMED = [
     images("voxels in a list of files", "x.mhd", detached("LIST\na\nb"), "voxels from"),
     images("voxels that are not there", "x.mhd", detached("none.raw"), "voxels from"),
     images("voxels of an NRRD in a device", "x.nhdr", detached("/dev/zero", "nhdr"), "voxels from"),
-    images("voxels of an NRRD in a pipe", "x.nhdr", detached("data.raw", "nhdr"), "voxels from", data_raw=pipe),
+    images(
+        "voxels of an NRRD in a pipe", "x.nhdr", detached("data.raw", "nhdr"), "voxels from", data_raw=pipe
+    ),
     images("a frame that is missing", "f", frames(remove("f4.mha")), "but 4 missing"),
     images("a frame twice", "f", frames(copied("f4.mha", "f04.mha")), "the number of frame"),
     images("frames of two series", "f", frames(copied("f4.mha", "g4.mha")), "two series in one folder"),

@@ -125,7 +125,7 @@ def simulated(name: str, arguments: str, message: str, **files: Content) -> Malf
 
 MALFORMED = [
     Malformed("mesh: missing", "simulate|none.vtu", "no such file"),
-    Malformed("mesh: to compare references, missing", "reference|none.vtu", "no such file|expected"),
+    Malformed("mesh: a command that has moved", "reference|none.vtu", "python -m verification reference"),
     mesh("a folder", folder, "is a folder"),
     mesh("a device", lambda path: path.symlink_to("/dev/zero"), "not a regular file"),
     mesh("a pipe that nobody fills", pipe, "not a regular file"),

@@ -43,7 +43,7 @@ def test_a_stale_number_is_detected():
 @pytest.mark.long
 def test_the_committed_page_has_the_current_numbers():
     assert not stale_lines(COMMITTED.read_text(), verification_page()), (
-        "heartfit verification > docs/verification.md"
+        "python -m verification > docs/verification.md"
     )
 
 
