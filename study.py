@@ -227,12 +227,19 @@ def tutorial(arguments: list[str]) -> int:
 
 
 def slurm(arguments: list[str]) -> int:
-    """Install the executor for SLURM and run its test; the arguments are those of `python -m tests.slurm`."""
+    """Install the executor for SLURM, run its test and remove the executor.
+
+    The arguments are those of `python -m tests.slurm`. An executor that is left installed asks the controller at every
+    start of Snakemake, in each job too, and waits nine seconds where none answers.
+    """
+    pip = [*create_environment()]
     hashed = ("--no-deps", "--require-hashes", "-r", str(SLURM_LOCK))
-    subprocess.run(
-        [*create_environment(), "install", "--quiet", "--disable-pip-version-check", *hashed], check=True
-    )
-    return subprocess.run(tool("python", "-m", "tests.slurm", *arguments), check=False).returncode
+    subprocess.run([*pip, "install", "--quiet", "--disable-pip-version-check", *hashed], check=True)
+    try:
+        return subprocess.run(tool("python", "-m", "tests.slurm", *arguments), check=False).returncode
+    finally:
+        names = re.findall(r"^([\w-]+)==", SLURM_LOCK.read_text(encoding="utf-8"), re.MULTILINE)
+        subprocess.run([*pip, "uninstall", "--quiet", "--yes", *names], check=False)
 
 
 def faults(arguments: list[str]) -> int:

@@ -89,6 +89,7 @@ def source_in(package: Path, function: Callable) -> Path:
     return package / Path(inspect.getfile(function)).relative_to(Path(heartfit.__file__).parent)
 
 
+@pytest.mark.long
 def test_an_edit_of_an_inlined_function_changes_the_beat(package: Path) -> None:
     """500 Pa more outside the ventricles; the kernels of the first beat are kept."""
     used = (Heart, Pericardium, Sphere, Numerics, simulate_spheres)

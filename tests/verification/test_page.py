@@ -64,33 +64,39 @@ def test_every_check_is_met():
     assert not missed
 
 
+@pytest.mark.long
 def test_p1_locks_and_mixed_does_not():
     assert growth("p1") > 1.4
     assert growth("mixed") == pytest.approx(1.0, abs=0.03)
 
 
+@pytest.mark.long
 def test_both_norms_of_both_elements_are_checked():
     names = " ".join(check.name for check in block_checks())
     assert all(f"{element}: order in {norm}" in names for element in ("p1", "mixed") for norm in ("L2", "H1"))
 
 
+@pytest.mark.long
 def test_the_page_has_a_row_per_check_and_no_missed_one(solved):
     page = verification_page()
     assert page.count("| met |") == len(page_checks())
     assert MISSED not in page
 
 
+@pytest.mark.long
 def test_the_command_prints_the_page(solved, capsys):
     assert main([]) == 0
     assert capsys.readouterr().out == verification_page()
 
 
+@pytest.mark.long
 def test_the_command_fails_if_a_check_is_missed(monkeypatch, capsys):
     monkeypatch.setattr(Problem, "answers", lambda problem, size: dict.fromkeys(problem.expected, 0.0))
     assert main([]) == 1
     assert MISSED in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_the_committed_page_has_the_same_checks(solved):
     rows = [
         line.split("|")[1].strip()

@@ -84,7 +84,7 @@ def volumes(text):
 
 
 def test_the_committed_page_meets_its_targets():
-    """At least 99 % of the prior's hearts complete; likewise at the paper's scale (`python -m verification robustness`)."""
+    """At least 99 % of the hearts of the prior complete, also at the paper's scale."""
     text = COMMITTED.read_text()
     rows = {
         row[0]: row

@@ -22,6 +22,9 @@ PARAMETERS = {"sigma_0": 255e3}
 NONE, ELEMENT, LEAK = competing_extensions(LOCKING, "mixed", "MitralRegurgitation")
 
 
+pytestmark = pytest.mark.long
+
+
 @pytest.fixture(scope="module")
 def comparisons(ventricle: VentricularMesh) -> Mapping[str, CompetingModel]:
     scheme = TimeScheme(time_step=0.02, max_beats=1, drift=0.99)
