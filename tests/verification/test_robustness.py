@@ -84,7 +84,9 @@ def volumes(text):
 
 
 def test_the_committed_page_meets_its_targets():
-    """At least 99 % of the hearts of the prior complete, also at the paper's scale."""
+    """At least 99 % of the hearts of the prior complete, and so does the paper's scale; regenerate by
+    `python -m verification robustness`.
+    """
     text = COMMITTED.read_text()
     rows = {
         row[0]: row
