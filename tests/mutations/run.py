@@ -15,7 +15,7 @@ from heartfit.core.pages import render_page
 from tests.mutations.mutants import MUTANTS, Mutant
 
 ROOT = Path(__file__).parents[2]
-PARTS = ("src", "tests", "config", "docs", "resources", "pyproject.toml")
+PARTS = ("src", "verification", "tests", "config", "docs", "resources", "pyproject.toml")
 PASSED, FAILED = 0, 1
 TIMEOUT = 900.0  # s
 PAGE = ROOT / "docs" / "mutations.md"
