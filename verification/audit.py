@@ -6,7 +6,7 @@ Without inertia the power of the cavity pressures is that of the internal forces
 
 U is stored in the matrix (shape and volume), the supports, the series springs (:math:`E_s e_s^2/2`) and the bridges
 (:math:`\tau_c^2/2k_c`); D is dissipated by the matrix (:math:`\eta \dot E : \dot E`), the dampers of the rings, the
-friction in the sarcomere (:math:`\mu \dot e_c^2`) and the destruction of bridges,
+friction in the sarcomere (:math:`\mu(k_c)\, \dot e_c^2`) and the destruction of bridges,
 :math:`(|u| + \alpha |\dot e_c|)\, \tau_c^2/2k_c`; the bridges that attach bring
 
 .. math:: \dot W_{bridges} = n_0 |u|_+ \Big(\sigma_0 \frac{\tau_c}{k_c} - \frac{k_0}{2} \frac{\tau_c^2}{k_c^2}\Big).
@@ -133,11 +133,12 @@ def _fibres(body: FiniteElementBody, a: BodyState, b: BodyState, step: TimeStep)
     )
     d, mean = b.fibres[0] - a.fibres[0], 0.5 * (a.fibres[2] + b.fibres[2])
     old, new = np.sqrt(a.fibres[1]), np.sqrt(b.fibres[1])
-    extension = mean / (0.5 * (old + new) if step.second_order else new)
+    root = 0.5 * (old + new) if step.second_order else new
+    extension = mean / root
     attached = dt * drive.n_0 * drive.attach * (active.sigma_0 * extension - 0.5 * active.k_0 * extension**2)
     broken = 0.5 * (dt * drive.rate + active.alpha * np.abs(d)) * mean**2
     stretched = fibre_strain(b.C, body.dyads) - fibre_strain(a.C, body.dyads)
-    terms = (b.stress * stretched, attached, active.mu * d**2 / dt, broken)
+    terms = (b.stress * stretched, attached, active.friction(root**2) * d**2 / dt, broken)
     return tuple(float(V @ term) for term in terms)
 
 
@@ -153,14 +154,15 @@ def lost_blood(heart: Heart, history: Sequence[HeartState], second_order: bool =
     dt, total, mean = heart.period / (len(history) - 1), np.zeros(4), np.zeros(4)
     for n, (before, state) in enumerate(pairwise(history)):
         step = TimeStep(n * dt, dt, heart.period, second_order, before.last)
-        mean = (_outflow(heart, state, step) + step.memory * mean) / (1.0 + step.memory)
+        mean = (_outflow(heart, before, state, step) + step.memory * mean) / (1.0 + step.memory)
         total += dt * mean
     return _contents(heart, history[-1]) - _contents(heart, history[0]) + total
 
 
-def _outflow(heart: Heart, state: HeartState, step: TimeStep) -> Floats:
+def _outflow(heart: Heart, before: HeartState, state: HeartState, step: TimeStep) -> Floats:
     """Outflow of the ventricles, and of the arteries through valves and periphery (4,) [m^3/s]."""
-    network = NetworkStep(heart.circulation, heart.mechanisms, step.end, step.effective, heart.period)
+    start = before.starting_branches(step)
+    network = NetworkStep(heart.circulation, heart.mechanisms, step.end, step.effective, heart.period, start)
     sides = zip(heart.circulation.trees(), state.trees, strict=True)
     periphery = [(state_of_tree.P_c - tree.P_ve) / tree.R_p for tree, state_of_tree in sides]
     flow: Floats = network.outflow(state.pressures)[0] + [0.0, 0.0, *periphery]

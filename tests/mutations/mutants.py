@@ -50,9 +50,15 @@ MUTANTS = (
         ),
         ("attaching bridges share no stress", "abs(d)) + loss)", "abs(d)))"),
         ("friction pushes", "tau + mu * d / dt - c,", "tau - mu * d / dt - c,"),
-        ("spring pulled by the old strain", "mean = 0.5 * (es_old + es_new)", "mean = es_old"),
+        ("friction of a relaxed sarcomere is zero", "mu * (rest + (1.0 - rest) * bound)", "mu * bound"),
+        ("friction without its slope", "(mu + mu_d * d) / dt - c_d", "mu / dt - c_d"),
         ("fibre slope without the sarcomere", "change, s_e + s_d * increment_slope, d", "change, s_e, d"),
         ("lambda ends at its mean", "new[2, i] = 2.0 * mean - lam", "new[2, i] = mean"),
+    ),
+    *_in(
+        "heart/muscle/spring.py",
+        BCS,
+        ("spring pulled by the old strain", "mean = 0.5 * (es_old + es_new)", "mean = es_old"),
     ),
     *_in(
         "heart/muscle/passive.py",
@@ -238,6 +244,18 @@ MUTANTS = (
             "a load of rank none",
             "self._softened = softened / (1.0 + w @ softened)",
             "self._softened = 0.0 * u",
+        ),
+    ),
+    *_in(
+        "roles/laws.py",
+        f"{CIRCULATION}/test_leaflets.py",
+        ("leaflets close at the rate of opening", "1.0 - closing * drop", "1.0 - opening * drop"),
+        ("open leaflets stop backflow", "leak - zeta * flow", "leak"),
+        ("slope without the motion of the leaflets", "slope += rise * move", "slope += 0.0 * move"),
+        (
+            "backward slope of open leaflets dropped",
+            "leak_slope + zeta * slope, -flow",
+            "leak_slope, -flow",
         ),
     ),
     *_in(

@@ -217,7 +217,7 @@ class _Run:
                 self.heart.circulation, self.heart.mechanisms, t, self.dt, self.heart.period
             )
             pressures.append([*state.pressures, *network.atrial])
-            flows.append(network.flows(state.pressures))
+            flows.append(network.flows(state.pressures, state.branches))
         pressure = dict(zip(COMPARTMENTS, np.array(pressures).T, strict=True))
         return pressure, {name: np.array([row[name] for row in flows]) for name in flows[0]}
 

@@ -2,7 +2,7 @@
 
 Amendment, Availability, Delay, Relaxation and Stress act on the muscle: on its constants, fibres, control and
 elasticity. The ventricles are made of :attr:`heartfit.heart.heart.Heart.muscle`, the tissue as these mechanisms change
-it. Flow, Narrowing, Pressure and External act on the blood, and a Sensor on the measurement alone.
+it. Flow, Dynamics, Narrowing, Pressure and External act on the blood, and a Sensor on the measurement alone.
 """
 
 from abc import ABC, abstractmethod
@@ -13,7 +13,7 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.core.parameter import Parameter, parameters_of
-from heartfit.roles.laws import Branch, Load
+from heartfit.roles.laws import Branch, Leaflets, Load
 
 
 class Mechanism(ABC):  # noqa: B024
@@ -109,6 +109,17 @@ class Narrowing(Mechanism):
     @abstractmethod
     def inverse_square(self) -> float:
         """Inverse square a = 1/A^2 [1/m^4] of the narrowing's effective area A."""
+
+
+class Dynamics(Narrowing):
+    """Inertia of the blood in a valve and leaflets that take time to move: flow and opening become states.
+
+    The narrowing is the loss of pressure by which the blood gains its speed in the valve.
+    """
+
+    @abstractmethod
+    def leaflets(self) -> Leaflets:
+        """Inertance of the blood in the valve, and rates of its opening and closing."""
 
 
 class Pressure(Mechanism):

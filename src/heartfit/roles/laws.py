@@ -12,6 +12,16 @@ backward flow. The orifice is Bernoulli's, its root smoothed over :math:`\epsilo
 
 and a smaller orifice. Valves and leaks are such branches.
 
+A valve may have leaflets that take time to move. Its opening :math:`\zeta`, 0 to 1, follows the pressure drop (Mynard
+et al. 2012),
+
+.. math:: \dot\zeta = \begin{cases} K_o (1 - \zeta)\, \Delta p & \Delta p > 0 \\
+                                   K_c\, \zeta\, \Delta p & \Delta p < 0, \end{cases}
+
+and it passes :math:`\zeta f(\Delta p)` in both directions, f being its forward law, beside its backward law. With the
+inertance L of the blood in it, :math:`q = \zeta f(\Delta p - L \dot q)`. For :math:`K_o, K_c \to \infty` and L = 0 it
+is the valve without leaflets.
+
 A load is a pressure on the outside of a ventricle,
 
 .. math:: p(\bar V) = p_0 + a\, e^{(\bar V - V_0) / v}
@@ -112,6 +122,89 @@ def inertial_flow(laws, t, k, drop, inertance, before):  # type: ignore[no-untyp
         if abs(change) <= FLOW_TOLERANCE * abs(q):
             break
     return q, slope / (1.0 + inertance * slope)
+
+
+class Leaflets(NamedTuple):
+    """Inertance [Pa s^2/m^3] of the blood in a valve, and rates of opening and of closing [1/(Pa s)].
+
+    Rates of zero stand for leaflets without delay.
+    """
+
+    inertance: float = 0.0
+    opening: float = 0.0
+    closing: float = 0.0
+
+
+INERTIA, OPENING_RATE, CLOSING_RATE, START_FLOW, START_OPENING, FLOW, OPENING = range(7)
+"""Rows of the states of branches in a step of effective length w: L/w, w K_o and w K_c, starting values of flow and
+opening, and the flow and the opening at its end."""
+
+STATE_ROWS = 7
+
+
+@njit(cache=True, error_model="numpy")
+def opening_at(drop, start, opening, closing):  # type: ignore[no-untyped-def]
+    """Opening of a valve at the end of a step with the pressure drop, and its derivative by the drop.
+
+    ``start`` is the opening at the start of the step; ``opening`` and ``closing`` are the rates times its length,
+    1/Pa.
+    """
+    if drop > 0.0:
+        per = 1.0 / (1.0 + opening * drop)
+        return (start + opening * drop) * per, opening * (1.0 - start) * per * per
+    per = 1.0 / (1.0 - closing * drop)
+    return start * per, closing * start * per * per
+
+
+@njit(cache=True, error_model="numpy")
+def leaflet_flow(laws, t, k, drop, zeta):  # type: ignore[no-untyped-def]
+    """Flow of branch k at the opening ``zeta``, and its derivatives by the drop and by the opening."""
+    if drop >= 0.0:
+        flow, slope = branch_flow(laws, t, k, drop)
+        return zeta * flow, zeta * slope, flow
+    flow, slope = branch_flow(laws, t, k, -drop)
+    leak, leak_slope = branch_flow(laws, t, k, drop)
+    return leak - zeta * flow, leak_slope + zeta * slope, -flow
+
+
+@njit(cache=True, error_model="numpy")
+def flow_with_leaflets(laws, t, k, drop, zeta, inertance, before):  # type: ignore[no-untyped-def]
+    r"""Solve :math:`q = f_\zeta(\Delta p - L \dot q)`; return the flow, and its derivatives by drop and opening.
+
+    ``inertance`` and ``before`` as in :func:`inertial_flow`.
+    """
+    driving, slope, rise = drop + inertance * before, 0.0, 0.0
+    if inertance == 0.0:
+        return leaflet_flow(laws, t, k, drop, zeta)
+    q, low, high = 0.0, min(0.0, driving / inertance), max(0.0, driving / inertance)
+    for _ in range(MAX_ITERATIONS):
+        flow, slope, rise = leaflet_flow(laws, t, k, driving - inertance * q, zeta)
+        if flow > q:
+            low = q
+        else:
+            high = q
+        following = q + (flow - q) / (1.0 + inertance * slope)
+        if not low <= following <= high:
+            following = 0.5 * (low + high)
+        change, q = following - q, following
+        if abs(change) <= FLOW_TOLERANCE * abs(q):
+            break
+    return q, slope / (1.0 + inertance * slope), rise / (1.0 + inertance * slope)
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def advance_branch(laws, t, k, drop, states):  # type: ignore[no-untyped-def]
+    """Flow of branch k at the end of a step, and its derivative by the drop; fills its rows FLOW and OPENING."""
+    inertance, before, closing = states[INERTIA, k], states[START_FLOW, k], states[CLOSING_RATE, k]
+    if closing == 0.0:
+        flow, slope = inertial_flow(laws, t, k, drop, inertance, before)
+    else:
+        zeta, move = opening_at(drop, states[START_OPENING, k], states[OPENING_RATE, k], closing)
+        flow, slope, rise = flow_with_leaflets(laws, t, k, drop, zeta, inertance, before)
+        slope += rise * move
+        states[OPENING, k] = zeta
+    states[FLOW, k] = flow
+    return flow, slope
 
 
 class Load(NamedTuple):

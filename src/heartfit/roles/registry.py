@@ -10,6 +10,7 @@ from heartfit.roles.interfaces import (
     Amendment,
     Availability,
     Delay,
+    Dynamics,
     External,
     Flow,
     Mechanism,
@@ -22,7 +23,7 @@ from heartfit.roles.interfaces import (
 
 ROLES: tuple[type[Mechanism], ...] = (
     *(Amendment, Availability, Delay, Relaxation, Stress),
-    *(Flow, Narrowing, Pressure, External),
+    *(Flow, Dynamics, Narrowing, Pressure, External),
     Sensor,
 )
 

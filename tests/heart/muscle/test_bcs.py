@@ -19,9 +19,10 @@ from tests.shrinking import assert_derivative
 
 LAW = BestelClementSorine(sigma_0=280e3)
 ADDITIVE = replace(LAW, additive=True)
+SLACK = replace(LAW, relaxed_friction=0.2)
 UNIT = np.ones(1)
 BOTH = pytest.mark.parametrize("second_order", [False, True])
-RHEOLOGIES = pytest.mark.parametrize("law", [LAW, ADDITIVE], ids=["A", "B"])
+RHEOLOGIES = pytest.mark.parametrize("law", [LAW, ADDITIVE, SLACK], ids=["A", "B", "slack"])
 
 
 def drive(attach: float, detach: float, dt: float, n_0: float = 0.8, second_order: bool = True) -> Drive:
@@ -159,12 +160,18 @@ def test_every_step_balances_its_energy(seed: int, law: BestelClementSorine, sec
         [
             energy(e_old, state) - energy(e_new, new),
             stress * (e_new - e_old),
-            -LAW.mu * d * d / step.dt,
+            -law.friction(root**2) * d * d / step.dt,
             -detached * mean**2,
             attached * LAW.sigma_0 / root * mean,
         ]
     )
     assert (abs(terms.sum(axis=0)) <= 1e-9 * abs(terms).sum(axis=0)).all()
+
+
+def away_from_kinks(law: BestelClementSorine, state: np.ndarray, new: np.ndarray) -> np.ndarray:
+    """Fibres whose bridges are above their floor and not near the number that carries the whole friction."""
+    doubled = 2.0 * (0.5 * (np.sqrt(state[1]) + np.sqrt(new[1]))) ** 2 / law.k_0
+    return (new[1] > 1.5 * BRIDGE_FLOOR) & (abs(doubled - 1.0) > 0.05)
 
 
 @BOTH
@@ -187,15 +194,39 @@ def test_tangent_is_the_derivative_of_the_stress(seed: int, second_order: bool) 
 
 
 @BOTH
-def test_the_additive_tangent_is_the_derivative_of_its_stress(second_order: bool) -> None:
-    """Central differences of one length, since the root of the strain adds too much round-off for shrinking ones."""
+@pytest.mark.parametrize("law", [ADDITIVE, SLACK], ids=["B", "slack"])
+def test_other_tangents_are_derivatives_of_their_stresses(
+    law: BestelClementSorine, second_order: bool
+) -> None:
+    """Central differences of one length: roots of the strain and slow iterations add round-off to shorter ones."""
     step, *strains, state = random_steps(2000, 3, second_order)
-    e_old, e_new = (strain(ADDITIVE, e) for e in strains)
-    _, slope, d = respond(ADDITIVE, step, e_old, e_new, state)
+    e_old, e_new = (strain(law, e) for e in strains)
+    _, slope, d = respond(law, step, e_old, e_new, state)
     h = 1e-5
-    upper, lower = (respond(ADDITIVE, step, e_old, e_new + sign * h, state)[0] for sign in (1.0, -1.0))
+    upper, lower = (respond(law, step, e_old, e_new + sign * h, state)[0] for sign in (1.0, -1.0))
     smooth = (abs(d) > 2e-4) & (abs(d) < 0.9 * LARGEST_INCREMENT)
+    smooth &= away_from_kinks(law, state, law.advance(step, state, np.clip(d, -0.099, 0.099)))
     assert slope[smooth] == pytest.approx(((upper - lower) / (2.0 * h))[smooth], rel=1e-4, abs=1.0)
+
+
+def test_friction_falls_with_the_bridges_to_the_share_of_a_relaxed_sarcomere() -> None:
+    """The whole friction from half the maximum stiffness on, the stated share without bridges."""
+    k_c = SLACK.k_0 * np.array([0.0, 0.25, 0.5, 0.8])
+    assert SLACK.friction(k_c) == pytest.approx(SLACK.mu * np.array([0.2, 0.6, 1.0, 1.0]))
+    assert (LAW.friction(k_c) == LAW.mu).all()
+
+
+@pytest.mark.parametrize("share", [1.0, 0.5, 0.1])
+def test_a_relaxed_sarcomere_creeps_with_its_own_friction(share: float) -> None:
+    """Few bridges, small strains: the spring of a stretched fibre relaxes with the time constant r mu / E_s."""
+    law = replace(LAW, relaxed_friction=share, E_s=3e5)
+    duration, steps, strain = share * law.mu / law.E_s, 400, 1e-4
+    rest, e = law.rest(1), np.full(1, strain)
+    step = drive(0.0, 1e-6, duration / steps)
+    state = rest
+    for _ in range(steps):
+        state = law.advance(step, state, respond(law, step, e, e, state)[2])
+    assert 1.0 - state[0, 0] / strain == pytest.approx(np.exp(-1.0), rel=5e-3)
 
 
 def test_both_rheologies_agree_at_small_strains() -> None:

@@ -68,7 +68,8 @@ class Tolerances:
 class HeartState:
     """State of wall and circuit at one time; ``before`` is the state one step of length ``last`` [s] earlier.
 
-    ``pressures`` (4,) [Pa] and ``volumes`` (2,) [m^3]; ``trend`` holds up to two velocities of x, the last one first.
+    ``pressures`` (4,) [Pa] and ``volumes`` (2,) [m^3]; ``branches`` (2, k) are the flows [m^3/s] and openings of the
+    branches, None at rest; ``trend`` holds up to two velocities of x, the last one first.
     """
 
     body: Any
@@ -78,6 +79,7 @@ class HeartState:
     trend: tuple[Floats, ...] = ()
     last: float | None = None
     before: "HeartState | None" = None
+    branches: Floats | None = None
 
     def starting_values(self, step: TimeStep) -> tuple[Floats, tuple[WindkesselState, WindkesselState]]:
         """Volumes and Windkessels at which the effective step starts."""
@@ -87,6 +89,15 @@ class HeartState:
             for now, then in zip(self.trees, before.trees, strict=True)
         )
         return step.starting_value(self.volumes, before.volumes), (systemic, pulmonary)
+
+    def starting_branches(self, step: TimeStep) -> Floats | None:
+        """Flows and openings (2, k) at which the effective step starts, openings between 0 and 1; None at rest."""
+        if self.branches is None:
+            return None
+        before = self.branches if self.before is None else self.before.branches
+        start = step.starting_value(self.branches, np.zeros_like(self.branches) if before is None else before)
+        start[1] = np.clip(start[1], 0.0, 1.0)
+        return start
 
     def shift_pressures(self, shifts: Sequence[float]) -> "HeartState":
         """State with the pressures of both Windkessels raised by ``shifts`` (2,) [Pa], now and one step before."""
@@ -172,7 +183,8 @@ class CoupledStep:
         trees = self._network.advance(self._trees, now.pressures)
         trend = ((now.x - state.body.x) / length, *state.trend[:1])
         before = replace(state, before=None)
-        return HeartState(self.step.commit(now.x), now.pressures, now.volumes, trees, trend, length, before)
+        body, branches = self.step.commit(now.x), self._network.branches()
+        return HeartState(body, now.pressures, now.volumes, trees, trend, length, before, branches)
 
 
 class Coupling:
@@ -193,7 +205,8 @@ class Coupling:
     def advance(self, state: HeartState, step: TimeStep) -> HeartState:
         """State after ``step``; raises StepFailed if Newton's method does not converge."""
         equations = self.body.step(state.body, step)
-        network = NetworkStep(self.circulation, self.mechanisms, step.end, step.effective, step.period)
+        start = state.starting_branches(step)
+        network = NetworkStep(self.circulation, self.mechanisms, step.end, step.effective, step.period, start)
         if step.effective != self._length:
             self._factor, self._length = None, step.effective
         coupled = CoupledStep(self.body, equations, network, step, state)

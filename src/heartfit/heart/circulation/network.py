@@ -14,8 +14,19 @@ from numba import njit
 from heartfit.core.arrays import Floats
 from heartfit.core.parameter import parameter
 from heartfit.heart.circulation.elements import PULMONARY, LinearValve, Valve, Windkessel, WindkesselState
-from heartfit.roles import COMPARTMENTS, Flow, Mechanism, Narrowing, Pressure
-from heartfit.roles.laws import Branch, inertial_flow
+from heartfit.roles import COMPARTMENTS, Dynamics, Flow, Mechanism, Narrowing, Pressure
+from heartfit.roles.laws import (
+    CLOSING_RATE,
+    FLOW,
+    INERTIA,
+    OPENING,
+    OPENING_RATE,
+    START_FLOW,
+    STATE_ROWS,
+    Branch,
+    Leaflets,
+    advance_branch,
+)
 
 ATRIOVENTRICULAR, ARTERIAL = LinearValve(open=4e-6), LinearValve(open=5e-6)
 ARTERIES, ATRIA = COMPARTMENTS[2:4], COMPARTMENTS[4:]
@@ -95,6 +106,8 @@ class Network:
         self.names = [*valves, *(type(leak).__name__ for leak in leaks)]
         ends = [*(VALVES[name] for name in valves), *((leak.upstream, leak.downstream) for leak in leaks)]
         self.ends = np.array([[COMPARTMENTS.index(end) for end in pair] for pair in ends])
+        moving = {m.valve: m.leaflets() for m in mechanisms if isinstance(m, Dynamics)}
+        self.leaflets = np.array([moving.get(name, Leaflets()) for name in self.names])
 
     def laws(self, time: Floats | float) -> Floats:
         """Coefficients (..., branches, 5) of the branches at ``time`` (...) [s]; see ``Branch``."""
@@ -108,22 +121,42 @@ class Network:
 
 
 class NetworkStep:
-    """Flows at the end of one step as functions of the unknown pressures (4,)."""
+    """Flows at the end of one step as functions of the unknown pressures (4,).
+
+    ``dt`` [s] is the effective length of the step, ``start`` (2, k) are the starting values of flow and opening of the
+    branches, zero without any.
+    """
 
     def __init__(
-        self, circulation: Circulation, mechanisms: Sequence[Mechanism], time: float, dt: float, period: float
+        self,
+        circulation: Circulation,
+        mechanisms: Sequence[Mechanism],
+        time: float,
+        dt: float,
+        period: float,
+        start: Floats | None = None,
     ) -> None:
         self._circulation, network = circulation, Network(circulation, mechanisms)
         self.dt, self._names = dt, network.names
         self.atrial = circulation.atrial(time, period, mechanisms)
         self._arterial = mechanism_pressures(ARTERIES, time, period, mechanisms)
         self.ends, self.laws = network.ends, network.laws(time)[None]
-        self.branch_states = np.zeros((3, len(self.ends)))
+        self.branch_states = np.zeros((STATE_ROWS, len(self.ends)))
+        self.branch_states[INERTIA] = network.leaflets[:, 0] / dt
+        self.branch_states[OPENING_RATE : CLOSING_RATE + 1] = network.leaflets[:, 1:].T * dt
+        if start is not None:
+            self.branch_states[START_FLOW : START_FLOW + 2] = start
+        self._stateful = network.leaflets.any(axis=1)
 
-    def flows(self, pressures: Floats) -> dict[str, float]:
-        """Flow of every branch by name [m^3/s]."""
+    def flows(self, pressures: Floats, states: Floats | None = None) -> dict[str, float]:
+        """Flow of every branch by name [m^3/s]; those with a state have the flow of ``states`` (2, k)."""
         self.outflow(pressures)
-        return dict(zip(self._names, self.branch_states[2].tolist(), strict=True))
+        flows = (
+            self.branch_states[FLOW]
+            if states is None
+            else np.where(self._stateful, states[0], self.branch_states[FLOW])
+        )
+        return dict(zip(self._names, flows.tolist(), strict=True))
 
     def outflow(self, pressures: Floats) -> tuple[Floats, Floats]:
         """Net outflow (4,) of the unknown compartments [m^3/s] and its Jacobian (4, 4)."""
@@ -137,6 +170,10 @@ class NetworkStep:
         rows = np.array([tree.affine_pressure(state, self.dt) for tree, state in sides])
         rows[:, 0] += self._arterial
         return rows
+
+    def branches(self) -> Floats:
+        """Flows and openings (2, k) at the pressures of the last evaluation."""
+        return self.branch_states[FLOW : OPENING + 1].copy()
 
     def advance(
         self, trees: Sequence[WindkesselState], pressures: Floats
@@ -152,9 +189,8 @@ def net_outflow(ends, laws, branch_states, atria, t, p, out, slope):  # type: ig
     """Fill row 0 of ``out`` with the net outflow (2 v,) of v ventricles and their arteries, and its Jacobian ``slope``.
 
     p (2 v,) are their pressures; ``atria`` (t, v) and ``laws`` (t, k, 5) are the atrial pressures and the coefficients
-    of the branches with the ``ends`` (k, 2) at many times, of which row t applies. The rows of ``branch_states`` (3, k)
-    are the inertances of the branches over the length of the step, the flows at its start and the flows, which are
-    filled.
+    of the branches with the ``ends`` (k, 2) at many times, of which row t applies. ``branch_states`` (7, k) has the
+    rows of :mod:`heartfit.roles.laws`; those at the end of the step are filled.
     """
     n = p.size
     for i in range(n):
@@ -166,8 +202,7 @@ def net_outflow(ends, laws, branch_states, atria, t, p, out, slope):  # type: ig
         i, j = _unknown(upstream, n // 2), _unknown(downstream, n // 2)
         up = p[i] if i >= 0 else atria[t, upstream - 4]
         down = p[j] if j >= 0 else atria[t, downstream - 4]
-        q, dq = inertial_flow(laws, t, k, up - down, branch_states[0, k], branch_states[1, k])
-        branch_states[2, k] = q
+        q, dq = advance_branch(laws, t, k, up - down, branch_states)
         if i >= 0:
             out[0, i] += q
             slope[i, i] += dq

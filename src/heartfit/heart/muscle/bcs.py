@@ -6,9 +6,13 @@ Attached cross-bridges of stiffness :math:`k_c` and stress :math:`\tau_c`, drive
     \dot k_c &= -(|u| + \alpha |\dot e_c|) k_c + n_0 k_0 |u|_+ \\
     \dot\tau_c &= -(|u| + \alpha |\dot e_c|) \tau_c + \dot e_c k_c + n_0 \sigma_0 |u|_+
 
-in series with an elastic element, :math:`1 + 2 e_{1D} = (1 + 2 e_c)(1 + 2 e_s)`,
+with a friction that the attached bridges carry in part,
 
-.. math:: \sigma_{1D} = \frac{\tau_c + \mu \dot e_c}{1 + 2 e_s} = \frac{E_s e_s}{1 + 2 e_c}.
+.. math:: \mu(k_c) = \mu \Big[ r + (1 - r) \min\big(1, 2 k_c / k_0\big) \Big] ,
+
+r = 1 in the standard sarcomere, in series with an elastic element, :math:`1 + 2 e_{1D} = (1 + 2 e_c)(1 + 2 e_s)`,
+
+.. math:: \sigma_{1D} = \frac{\tau_c + \mu(k_c) \dot e_c}{1 + 2 e_s} = \frac{E_s e_s}{1 + 2 e_c}.
 
 This is rheology A. Rheology B adds engineering strains, :math:`\sqrt{1 + 2 e_{1D}} - 1 = e_c + e_s`, with the tension
 :math:`T = E_s e_s = \tau_c + \mu \dot e_c` and :math:`\sigma_{1D} = T / \sqrt{1 + 2 e_{1D}}`.
@@ -36,6 +40,7 @@ from heartfit.core.arrays import Floats
 from heartfit.core.parameter import parameter, require_admissible
 from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.muscle.control import Starling
+from heartfit.heart.muscle.spring import frozen_spring_slope, green_strain, spring_response
 from heartfit.heart.time_step import TimeStep
 
 BRIDGE_FLOOR = 1.0
@@ -63,6 +68,13 @@ class BestelClementSorine:
     )
     mu: float = parameter(9e3, unit="Pa.s", symbol=r"\mu", meaning="friction in the sarcomere", sd=0.20)
     E_s: float = parameter(3e7, unit="Pa", symbol="E_s", meaning="stiffness of the series element", sd=0.30)
+    relaxed_friction: float = parameter(
+        1.0,
+        unit="1",
+        symbol="r",
+        meaning="friction of a sarcomere without bridges, as a share of mu",
+        low=0.01,
+    )
     starling: Starling = field(default_factory=Starling)
     additive: bool = False
 
@@ -80,7 +92,15 @@ class BestelClementSorine:
         return np.sqrt(1.0 + 2.0 * e) - 1.0 if self.additive else e
 
     def constants(self) -> Floats:
-        return np.array([self.sigma_0, self.k_0, self.alpha, self.mu, self.E_s, self.additive])
+        return np.array(
+            [self.sigma_0, self.k_0, self.alpha, self.mu, self.E_s, self.additive, self.relaxed_friction]
+        )
+
+    def friction(self, k_c: Floats) -> Floats:
+        """Friction mu(k_c) [Pa s] of fibres whose bridges have the stiffness ``k_c`` (any shape) [Pa]."""
+        bound = np.minimum(1.0, 2.0 * k_c / self.k_0)
+        result: Floats = self.mu * (self.relaxed_friction + (1.0 - self.relaxed_friction) * bound)
+        return result
 
     def drive(
         self, step: TimeStep, control: tuple[Floats, Floats], state: Floats, kept: Floats | float = 1.0
@@ -182,63 +202,29 @@ def bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam):  # type:
 
 
 @njit(cache=True, error_model="numpy")
-def frozen_spring_slope(additive, e, e_c):  # type: ignore[no-untyped-def]
-    """Derivative of the strain of the sarcomere by that of the fibre, at a fixed strain of the spring."""
-    return 1.0 / np.sqrt(1.0 + 2.0 * e) if additive else (1.0 + 2.0 * e_c) / (1.0 + 2.0 * e)
-
-
-@njit(cache=True, error_model="numpy")
-def green_strain(additive, e_c):  # type: ignore[no-untyped-def]
-    """Green-Lagrange strain of the sarcomere."""
-    return e_c * (1.0 + 0.5 * e_c) if additive else e_c
-
-
-@njit(cache=True, error_model="numpy")
-def _spring_response(d, e_old, e_new, e_c, E_s, additive):  # type: ignore[no-untyped-def]
-    """Fibre stress sigma# and contractile stress sigma_c# of the spring, both with their derivatives by e and d."""
-    return (
-        _additive_spring(d, e_old, e_new, e_c, E_s)
-        if additive
-        else _multiplicative_spring(d, e_old, e_new, e_c, E_s)
-    )
-
-
-@njit(cache=True, error_model="numpy")
-def _additive_spring(d, e_old, e_new, e_c, E_s):  # type: ignore[no-untyped-def]
-    old, new = np.sqrt(1.0 + 2.0 * e_old), np.sqrt(1.0 + 2.0 * e_new)
-    tension, tension_e, tension_d = (
-        E_s * (0.5 * (old + new) - 1.0 - e_c - 0.5 * d),
-        0.5 * E_s / new,
-        -0.5 * E_s,
-    )
-    per = 2.0 / (old + new)
-    s = tension * per
-    return s, (tension_e - 0.5 * s / new) * per, tension_d * per, tension, tension_e, tension_d
-
-
-@njit(cache=True, error_model="numpy")
-def _multiplicative_spring(d, e_old, e_new, e_c, E_s):  # type: ignore[no-untyped-def]
-    es_old = (e_old - e_c) / (1.0 + 2.0 * e_c)
-    es_e = 1.0 / (1.0 + 2.0 * (e_c + d))
-    es_new = (e_new - e_c - d) * es_e
-    es_d = -(1.0 + 2.0 * e_new) * es_e * es_e
-    mean = 0.5 * (es_old + es_new)
-    per_A, B = 1.0 / (1.0 + 2.0 * e_c + d), 1.0 + 2.0 * mean
-    s = E_s * mean * per_A
-    s_e, s_d = 0.5 * E_s * es_e * per_A, (0.5 * E_s * es_d - s) * per_A
-    return s, s_e, s_d, s * B, B * s_e + s * es_e, B * s_d + s * es_d
+def friction(d, rate, attach, n_0, dt, second_order, constants, k):  # type: ignore[no-untyped-def]
+    """Friction mu(k_c) [Pa s] at the mean stiffness of the bridges over the step, and its derivative by ``d``."""
+    k_0, mu, rest = constants[1], constants[3], constants[6]
+    if rest == 1.0:
+        return mu, 0.0
+    _, root, droot = _bridge_root(d, rate, attach, n_0, dt, second_order, constants, k)
+    bound = 2.0 * root * root / k_0
+    if bound >= 1.0:
+        return mu, 0.0
+    return mu * (rest + (1.0 - rest) * bound), mu * (1.0 - rest) * 4.0 * root * droot / k_0
 
 
 @njit(cache=True, error_model="numpy")
 def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, d):  # type: ignore[no-untyped-def]
     """Stress, its slope, increment and its slope, by Newton's method from the guess ``d``, safeguarded by bisection."""
-    mu, E_s, additive = constants[3], constants[4], constants[5] > 0.0
+    E_s, additive = constants[4], constants[5] > 0.0
     low, high = -LARGEST_INCREMENT, LARGEST_INCREMENT
     d = min(max(d, low), high)
     for _ in range(60):
         _, _, tau, tau_d = bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
-        s, s_e, s_d, c, c_e, c_d = _spring_response(d, e_old, e_new, e_c, E_s, additive)
-        value, slope = tau + mu * d / dt - c, tau_d + mu / dt - c_d
+        s, s_e, s_d, c, c_e, c_d = spring_response(d, e_old, e_new, e_c, E_s, additive)
+        mu, mu_d = friction(d, rate, attach, n_0, dt, second_order, constants, k)
+        value, slope = tau + mu * d / dt - c, tau_d + (mu + mu_d * d) / dt - c_d
         if value > 0.0:
             high = d
         else:

@@ -185,4 +185,4 @@ def advance(tissue, inputs, state, curves, first):  # type: ignore[no-untyped-de
     """
     n = 2 * state.sides.shape[1]
     equations = np.empty(n), np.zeros((n, 3 + n)), np.empty((3, n)), np.empty((n, n))
-    return _advance(tissue, inputs, state, curves, first, (state.branches[rows.PER_STEP :], *equations))
+    return _advance(tissue, inputs, state, curves, first, (state.branches[rows.STEP_STATES :], *equations))

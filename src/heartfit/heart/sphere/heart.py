@@ -15,6 +15,7 @@ from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.beat import SphereTissue, State, StepInputs
 from heartfit.heart.sphere.body import LARGEST_STRETCH, Sphere, fibre_activation
 from heartfit.heart.sphere.wall import cavity, passive_stress, tabulate
+from heartfit.roles.laws import FLOW, STATE_ROWS
 
 SMALLEST_FILLING_STRETCH = 0.8
 """Lower bound of the stretch of a filled sphere; no atrial pressure reaches it."""
@@ -54,6 +55,8 @@ class SphericalHeart:
         )
         self._network = Network(heart.circulation, heart.mechanisms, len(spheres))
         self.branches = self._network.names
+        self._leaflets = self._network.leaflets.copy()
+        self._leaflets[:, 0] += [dict(inertia.valves).get(name, 0.0) for name in self.branches]
 
     def inputs(self, start: Floats, length: float) -> StepInputs:
         """Inputs of steps of ``length`` [s] that begin at ``start`` (n,) [s]."""
@@ -74,13 +77,15 @@ class SphericalHeart:
         return heart.circulation.atrial(time, heart.period, heart.mechanisms, len(self.spheres))
 
     def flows(self, p: Floats, inert: Floats) -> Floats:
-        """Flows (k,) [m^3/s] as a beat starts at the pressures p (2 v,) [Pa]; ``inert`` in branches with inertance."""
-        inertances = dict(self.inertia.valves)
-        moving, work, zero = np.zeros((3, len(self.branches))), np.empty((len(p), len(p))), np.zeros(1)
+        """Flows (k,) [m^3/s] as a beat starts at the pressures p (2 v,) [Pa]; ``inert`` in branches with a state."""
+        moving, work, zero = (
+            np.zeros((STATE_ROWS, len(self.branches))),
+            np.empty((len(p), len(p))),
+            np.zeros(1),
+        )
         laws, atria = self._network.laws(zero), np.ascontiguousarray(self.atria(zero).T)
         net_outflow(self._network.ends, laws, moving, atria, 0, p, np.empty((1, len(p))), work)
-        massless = [inertances.get(name, 0.0) == 0.0 for name in self.branches]
-        return np.where(massless, moving[2], inert)
+        return np.where(self._leaflets.any(axis=1), inert, moving[FLOW])
 
     def start(self) -> State:
         """State of relaxed ventricles, filled at the resting atrial pressures; raises StepFailed if there is none."""
@@ -115,8 +120,8 @@ class SphericalHeart:
         return fibres
 
     def _resting_branches(self) -> Floats:
-        branches, inertances = np.zeros((rows.BRANCH_ROWS, len(self.branches))), dict(self.inertia.valves)
-        branches[rows.INERTANCE] = [inertances.get(name, 0.0) for name in self.branches]
+        branches = np.zeros((rows.BRANCH_ROWS, len(self.branches)))
+        branches[rows.INERTANCE : rows.CLOSES + 1] = self._leaflets.T
         return branches
 
     def _filling_stretch(self, sphere: Sphere, pressure: float) -> float:

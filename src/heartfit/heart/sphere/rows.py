@@ -4,6 +4,8 @@ The state is held in plain tables instead of objects: compiled code counts the r
 receives in an object, at a higher cost than the physics.
 """
 
+from heartfit.roles.laws import STATE_ROWS
+
 # table of the sides: constants of the sphere and of its artery
 RADIUS, RATIO, WALL, R_P, TAU, Z_C, L, P_VE, OWN_COMPLIANCE = range(9)
 
@@ -31,9 +33,12 @@ KEPT = 11
 
 FIBRE_ROWS = 12
 
-# table of the branches: inertance; flow now and one step before; inertance over step length, starting and trial flow
-INERTANCE, FLOW, FLOW_BEFORE, PER_STEP, START_FLOW, TRIAL_FLOW = range(6)
-BRANCH_ROWS = 6
+# table of the branches: inertance, rates of opening and closing; flow and opening now, and one step before
+INERTANCE, OPENS, CLOSES, FLOW, OPENING, FLOW_BEFORE, OPENING_BEFORE = range(7)
+STEP_STATES = 7
+"""First of the rows of :mod:`heartfit.roles.laws` for the step."""
+
+BRANCH_ROWS = STEP_STATES + STATE_ROWS
 
 SOLVED, UNBALANCED, OVERSTRETCHED, NO_STIFFNESS, NO_FIBRE_SOLUTION = range(5)
 """Outcomes of a step."""

@@ -9,10 +9,20 @@ from numba import njit
 
 from heartfit.heart.circulation.circuit import CONSTANT, ONE_KILOPASCAL, REFERENCE, STORAGE, WEIGHT
 from heartfit.heart.circulation.elements import advance_windkessel, affine_coefficients
-from heartfit.heart.muscle.bcs import LARGEST_INCREMENT, bridges, frozen_spring_slope, green_strain
+from heartfit.heart.muscle.bcs import LARGEST_INCREMENT, bridges
 from heartfit.heart.muscle.control import available_fraction
+from heartfit.heart.muscle.spring import frozen_spring_slope, green_strain
 from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.wall import CompiledStep, cavity
+from heartfit.roles.laws import (
+    CLOSING_RATE,
+    FLOW,
+    INERTIA,
+    OPENING,
+    OPENING_RATE,
+    START_FLOW,
+    START_OPENING,
+)
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -47,11 +57,16 @@ def begin_sides(step, sides):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, error_model="numpy", inline="always")
 def begin_branches(step, branches):  # type: ignore[no-untyped-def]
-    """Set the starting flows and the inertances over the effective length of the step."""
+    """Set the starting flows and openings, and the constants of the branches over the effective length of the step."""
     for k in range(branches.shape[1]):
         now, before = branches[rows.FLOW, k], branches[rows.FLOW_BEFORE, k]
-        branches[rows.START_FLOW, k] = now + step.gain * (now - before)
-        branches[rows.PER_STEP, k] = branches[rows.INERTANCE, k] / step.effective
+        branches[rows.STEP_STATES + START_FLOW, k] = now + step.gain * (now - before)
+        branches[rows.STEP_STATES + INERTIA, k] = branches[rows.INERTANCE, k] / step.effective
+        now, before = branches[rows.OPENING, k], branches[rows.OPENING_BEFORE, k]
+        extrapolated = now + step.gain * (now - before)
+        branches[rows.STEP_STATES + START_OPENING, k] = min(max(extrapolated, 0.0), 1.0)
+        branches[rows.STEP_STATES + OPENING_RATE, k] = branches[rows.OPENS, k] * step.effective
+        branches[rows.STEP_STATES + CLOSING_RATE, k] = branches[rows.CLOSES, k] * step.effective
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -159,12 +174,10 @@ def commit_sides(step, waves, n, sides, p):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, error_model="numpy", inline="always")
 def commit_branches(branches):  # type: ignore[no-untyped-def]
-    """Store the new flows of the branches."""
+    """Store the new flows and openings of the branches."""
     for k in range(branches.shape[1]):
-        branches[rows.FLOW_BEFORE, k], branches[rows.FLOW, k] = (
-            branches[rows.FLOW, k],
-            branches[rows.TRIAL_FLOW, k],
-        )
+        for row, trial in ((rows.FLOW, FLOW), (rows.OPENING, OPENING)):
+            branches[row + 2, k], branches[row, k] = branches[row, k], branches[rows.STEP_STATES + trial, k]
 
 
 @njit(cache=True, error_model="numpy", inline="always")
