@@ -9,9 +9,12 @@ from heartfit.geometry.cube import cube
 from heartfit.heart.beat import Beat
 from heartfit.heart.finite_elements.body import FiniteElementBody, Tissue
 from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics, simulate
+from heartfit.heart.sphere.body import SphericalBody
+from heartfit.mechanisms.mitral_dynamics import MitralDynamics
 from tests.shrinking import assert_derivative
 from verification.audit import audit, energies, isovolumic_drift, lost_blood
-from verification.audit_checks import LONG_STEP, SMALL, max_relative_difference, reference, watched
+from verification.audit_checks import LONG_STEP, SMALL, TIGHT, max_relative_difference, reference, watched
 
 
 @pytest.mark.parametrize("element", ["p1", "mixed"])
@@ -58,6 +61,16 @@ def test_lost_blood_is_located() -> None:
     states = list(watched(LONG_STEP).states)
     states[-1] = replace(states[-1], volumes=states[-1].volumes - np.array([0.0, 1e-9]))
     assert lost_blood(Heart(), states) == pytest.approx([0.0, -1e-9, 0.0, 0.0], abs=1e-13)
+
+
+def test_a_valve_with_states_conserves_blood(spherical_heart: Heart, spheres: SphericalBody) -> None:
+    """Blood that flows back while the leaflets close is counted; without the states of the valve it would be lost."""
+    heart, histories = spherical_heart + MitralDynamics(), []
+    simulate(heart, spheres, Numerics(max_beats=1, tolerances=TIGHT), watch=histories.append)
+    (states,) = histories
+    assert lost_blood(heart, states) == pytest.approx(np.zeros(4), abs=1e-14)
+    forgetful = [replace(state, branches=None) for state in states]
+    assert abs(lost_blood(heart, forgetful)).max() > 1e-6
 
 
 def test_isovolumic_drift_is_the_worst_phase() -> None:
