@@ -25,7 +25,9 @@ class AtrialKick(Pressure):
     rise: float = parameter(
         1700.0, unit="Pa", symbol="P", meaning="left atrial pressure rise", sd=0.3, off=0.0, scale=600.0
     )
-    right: float = parameter(0.27, unit="1", symbol=r"\rho", meaning="right atrial rise over the left one")
+    right: float = parameter(
+        0.27, unit="1", symbol=r"\rho", meaning="right atrial rise over the left one", sd=0.3
+    )
     peak: float = parameter(0.14, unit="s", symbol="t_m", meaning="time of the maximum")
     end: float = parameter(0.20, unit="s", symbol="t_c", meaning="end of atrial systole")
 

@@ -41,17 +41,22 @@ def ventricles(mesh: VentricularMesh, tissue: Tissue, loads: Floats, unloaded: b
 
 def _spheres(mesh: VentricularMesh, tissue: Tissue, loads: Floats) -> Body:
     """Return spheres with the same cavity volumes; the septum belongs to the left one."""
-    from heartfit.heart.sphere.body import Sphere, SphericalBody  # only spheres need the root finder
+    from heartfit.heart.sphere.body import (
+        Sphere,
+        SphericalBody,
+        wall_stiffenings,
+    )  # only spheres need the root finder
 
     cavities = [Cavity.from_endocardium(mesh, f"{chamber}_endo").volume(mesh.points) for chamber in CHAMBERS]
     volumes, right = mesh.element_volumes(), np.asarray(mesh.segments) == 0
     walls = volumes[~right].sum(), volumes[right].sum()
-    sides = zip(cavities, walls, loads, strict=True)
+    passive = require_isotropic(tissue.passive)
+    sides = zip(cavities, walls, loads, wall_stiffenings(tissue, 2), strict=True)
     left_sphere, right_sphere = (
-        Sphere.unloaded(cavity, wall, load, require_isotropic(tissue.passive))
+        Sphere.unloaded(cavity, wall, load, passive, scale)
         if load > 0.0
         else Sphere.from_volumes(cavity, wall)
-        for cavity, wall, load in sides
+        for cavity, wall, load, scale in sides
     )
     return SphericalBody(left_sphere, right_sphere, tissue)
 

@@ -17,7 +17,7 @@ STRETCHES = np.random.default_rng(4).uniform(0.5, 1.9, 200)
 
 def test_the_tabulated_passive_law_is_the_law() -> None:
     law = MooneyRivlin()
-    interpolated = np.array([passive_stress(tabulate(law), stretch) for stretch in STRETCHES])
+    interpolated = np.array([passive_stress(tabulate(law), 0, stretch) for stretch in STRETCHES])
     stress, stiffness = law.in_plane_stress(STRETCHES), law.in_plane_stiffness(STRETCHES)
     assert abs(interpolated[:, 0] - stress).max() < 1e-8 * law.c_1 * 100.0
     assert interpolated[:, 0] == pytest.approx(stress, rel=1e-7, abs=1e-3)
@@ -29,7 +29,7 @@ def test_a_stiffened_law_is_tabulated(added: Stress) -> None:
     """An interval of the table is a sixteenth of the strain over which fibres are straightened."""
     law = Stiffened(MooneyRivlin(), (added,))
     stretches = STRETCHES[(STRETCHES > 0.75) & (STRETCHES < 1.3)]
-    interpolated = [passive_stress(tabulate(law), stretch)[0] for stretch in stretches]
+    interpolated = [passive_stress(tabulate(law), 0, stretch)[0] for stretch in stretches]
     assert interpolated == pytest.approx(law.in_plane_stress(stretches), rel=2e-6, abs=0.1)
 
 

@@ -64,9 +64,10 @@ class FiniteElementBody:
         self.damping = tissue.support.damping(reference)
         self.passive_scale = tissue.support.passive_scale(reference)
         self.activation, self.kept = np.asarray(reference.activation), np.ones(len(self.tets))
-        if tissue.regional:
+        if not tissue.uniform:
             self.activation = self.activation + tissue.delays()[reference.segments]
             self.kept = 1.0 - tissue.losses()[reference.segments]
+            self.passive_scale = self.passive_scale * tissue.stiffenings()[reference.segments]
         self.cavities = [Cavity.from_endocardium(reference, f"{chamber}_endo") for chamber in CHAMBERS]
 
     @cached_property
@@ -125,7 +126,7 @@ def mean_dyads(mesh: VentricularMesh) -> Floats:
 
 
 def _require_fields(mesh: VentricularMesh, tissue: Tissue) -> None:
-    needed = ("fibres", "activation", "longitudinal", *(("segments",) if tissue.regional else ()))
+    needed = ("fibres", "activation", "longitudinal", *(() if tissue.uniform else ("segments",)))
     missing = [name for name in needed if getattr(mesh, name) is None]
     if missing:
         raise InputError(

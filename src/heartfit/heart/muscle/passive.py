@@ -49,15 +49,18 @@ class Passive(Protocol):
 
 @runtime_checkable
 class Isotropic(Protocol):
-    """Interface of a law for the wall of a sphere, equal in all directions of its surface."""
+    """Interface of a law for the wall of a sphere, equal in all directions of its surface.
+
+    ``scale`` multiplies the moduli, as in :class:`Passive`.
+    """
 
     @property
     def eta(self) -> float: ...
 
-    def in_plane_stress(self, stretch: Floats) -> Floats:
+    def in_plane_stress(self, stretch: Floats, scale: Floats | float = 1.0) -> Floats:
         r""":math:`dW/d\Lambda` of the incompressible stretch :math:`(\Lambda, \Lambda, \Lambda^{-2})` [Pa]."""
 
-    def in_plane_stiffness(self, stretch: Floats) -> Floats:
+    def in_plane_stiffness(self, stretch: Floats, scale: Floats | float = 1.0) -> Floats:
         """Derivative of :meth:`in_plane_stress` [Pa]."""
 
 
@@ -95,16 +98,16 @@ class MooneyRivlin:
         r"""Fill ``D`` (m, 6, 6) with :math:`2\,\partial S/\partial C` of the isochoric stress."""
         _tangent(C, J, scale, self.c_1, self.c_2, D)
 
-    def in_plane_stress(self, stretch: Floats) -> Floats:
+    def in_plane_stress(self, stretch: Floats, scale: Floats | float = 1.0) -> Floats:
         r""":math:`dW/d\Lambda` of the incompressible stretch :math:`(\Lambda, \Lambda, \Lambda^{-2})` [Pa]."""
         first = 4.0 * self.c_1 * (stretch - stretch**-5)
-        result: Floats = first + 4.0 * self.c_2 * (stretch**3 - stretch**-3)
+        result: Floats = scale * (first + 4.0 * self.c_2 * (stretch**3 - stretch**-3))
         return result
 
-    def in_plane_stiffness(self, stretch: Floats) -> Floats:
+    def in_plane_stiffness(self, stretch: Floats, scale: Floats | float = 1.0) -> Floats:
         """Derivative of :meth:`in_plane_stress` [Pa]."""
         first = 4.0 * self.c_1 * (1.0 + 5.0 * stretch**-6)
-        result: Floats = first + 4.0 * self.c_2 * (3.0 * stretch**2 + 3.0 * stretch**-4)
+        result: Floats = scale * (first + 4.0 * self.c_2 * (3.0 * stretch**2 + 3.0 * stretch**-4))
         return result
 
 

@@ -28,7 +28,7 @@ REST_INVARIANTS = {"wall": 3.0, "fibre": 1.0}
 
 @dataclass(frozen=True)
 class Stiffened:
-    """The ``base`` law plus the energies of mechanisms; the annuli, not being muscle, stiffen the base law only."""
+    """The ``base`` law plus the energies of mechanisms; annuli and right wall stiffen the base law only."""
 
     base: Passive
     added: tuple[Stress, ...]
@@ -62,17 +62,17 @@ class Stiffened:
             first, second = energy.slopes(_invariant(C, J, direction) - REST_INVARIANTS[energy.acts_on])
             _add_tangent(C, J, direction, first, second, D)
 
-    def in_plane_stress(self, stretch: Floats) -> Floats:
+    def in_plane_stress(self, stretch: Floats, scale: Floats | float = 1.0) -> Floats:
         r""":math:`dW/d\Lambda` of the incompressible stretch :math:`(\Lambda, \Lambda, \Lambda^{-2})` [Pa]."""
-        stress = require_isotropic(self.base).in_plane_stress(stretch)
+        stress = require_isotropic(self.base).in_plane_stress(stretch, scale)
         for energy in self.added:
             x, slope, _ = _in_plane(energy, stretch)
             stress = stress + energy.slopes(x)[0] * slope
         return stress
 
-    def in_plane_stiffness(self, stretch: Floats) -> Floats:
+    def in_plane_stiffness(self, stretch: Floats, scale: Floats | float = 1.0) -> Floats:
         """Derivative of :meth:`in_plane_stress` [Pa]."""
-        stiffness = require_isotropic(self.base).in_plane_stiffness(stretch)
+        stiffness = require_isotropic(self.base).in_plane_stiffness(stretch, scale)
         for energy in self.added:
             x, slope, curve = _in_plane(energy, stretch)
             first, second = energy.slopes(x)

@@ -1,4 +1,4 @@
-r"""The slots of the wall: active and passive law, control, and the support of the heart in the chest.
+r"""The slots of the wall: active and passive law, control, right ventricle, and the support of the heart in the chest.
 
 The support consists of springs and dampers at the valve rings, of the pericardium and of the stiff fibrous annuli. It
 acts by Robin conditions on the reference surfaces, lumped to the nodes:
@@ -18,10 +18,11 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.core.parameter import parameter, require_admissible
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.geometry.territory import REGIONS
+from heartfit.geometry.territory import REGIONS, RIGHT_VENTRICLE
 from heartfit.heart.muscle.bcs import BestelClementSorine
 from heartfit.heart.muscle.control import Control
 from heartfit.heart.muscle.passive import MooneyRivlin, Passive
+from heartfit.heart.muscle.right import SAME_MUSCLE, RightVentricle
 from heartfit.heart.muscle.stiffened import Stiffened
 from heartfit.roles import Amendment, Availability, Delay, Mechanism, Relaxation, Stress
 
@@ -107,7 +108,7 @@ def _nearest_distances(points: Floats, others: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class Tissue:
-    """Tissue of the ventricles: passive and active law, control, support and finite element.
+    """Tissue of the ventricles: passive and active law, control, right free wall, support and finite element.
 
     ``regional`` holds the mechanisms that differ between regions of the wall.
     """
@@ -115,20 +116,29 @@ class Tissue:
     passive: Passive = field(default_factory=MooneyRivlin)
     active: BestelClementSorine = field(default_factory=BestelClementSorine)
     control: Control = field(default_factory=Control)
+    right: RightVentricle = SAME_MUSCLE
     support: Support = field(default_factory=Support)
     element: str = "mixed"
     regional: tuple[Availability | Delay, ...] = ()
 
+    @property
+    def uniform(self) -> bool:
+        """True if all regions of the wall are of the same muscle."""
+        return not self.regional and self.right == SAME_MUSCLE
+
     def delays(self) -> Floats:
         """Delays (18,) of the activation of the regions [s]; see :class:`heartfit.roles.Delay`."""
-        return sum(
-            (effect.delay() for effect in self.regional if isinstance(effect, Delay)), np.zeros(REGIONS)
-        )
+        own = _in_right_wall(self.right.delay, np.zeros(REGIONS))
+        return sum((effect.delay() for effect in self.regional if isinstance(effect, Delay)), own)
 
     def losses(self) -> Floats:
-        """Shares (18,) of the bridges that are missing in the regions."""
+        """Shares (18,) of the bridges that are missing in the regions; negative where there are more of them."""
         kept = (1.0 - effect.lost_share() for effect in self.regional if isinstance(effect, Availability))
-        return 1.0 - np.prod([*kept, np.ones(REGIONS)], axis=0)
+        return 1.0 - np.prod([*kept, _in_right_wall(self.right.contractility, np.ones(REGIONS))], axis=0)
+
+    def stiffenings(self) -> Floats:
+        """Factors (18,) on the passive moduli of the regions."""
+        return _in_right_wall(self.right.stiffness, np.ones(REGIONS))
 
     def with_mechanisms(self, mechanisms: Sequence[Mechanism], period: float) -> "Tissue":
         """Tissue whose constants, stresses, tails and regions are amended by ``mechanisms``, at a ``period`` [s]."""
@@ -147,6 +157,12 @@ class Tissue:
             control=replace(self.control, tails=tails) if tails else self.control,
             regional=regional,
         )
+
+
+def _in_right_wall(value: float, others: Floats) -> Floats:
+    """Values (18,) of the regions: those of ``others``, and ``value`` in the right wall."""
+    others[RIGHT_VENTRICLE] = value
+    return others
 
 
 def _amend(part: Any, path: Sequence[str], amend: Callable[[float], float]) -> Any:

@@ -26,7 +26,10 @@ number of iterations: Newton's method converges quadratically, so that 1e-3 beco
 
 
 class SphereTissue(NamedTuple):
-    """Tissue of all sides: table of the passive law, constants of sarcomere and length dependence, eta, density."""
+    """Tissue of all sides: tables (2 v, k) of the passive laws, constants of sarcomere and length dependence.
+
+    ``eta`` is the viscosity [Pa.s], ``density`` that of the wall [kg/m^3].
+    """
 
     passive: Floats
     active: Floats

@@ -1,4 +1,4 @@
-r"""Two thick-walled spheres of the same tissue, with the interface of the finite-element ventricles.
+r"""Two thick-walled spheres of one tissue, with the interface of the finite-element ventricles.
 
 A sphere of mid-wall radius :math:`R_0` and thickness :math:`d_0` has the in-plane stretch
 :math:`\Lambda = 1 + y/R_0` and, being incompressible, the radial stretch :math:`\Lambda^{-2}`:
@@ -8,7 +8,8 @@ A sphere of mid-wall radius :math:`R_0` and thickness :math:`d_0` has the in-pla
     P \frac{dV}{dy} &= \frac{\Omega}{R_0} \Big[ \frac{dW}{d\Lambda} + \eta \dot E : \frac{\partial E}{\partial\Lambda}
         + \Lambda\, \overline{\sigma_{1D}} \Big]
 
-The bar is the mean over fibres that are activated at different times, as in a ventricle.
+The bar is the mean over fibres that are activated at different times, as in a ventricle. The muscle of the right sphere
+may differ by the factors of :mod:`heartfit.heart.muscle.right`.
 Source: Caruel et al., BMMB 13 (2014) 897, with version A of the fibre law.
 """
 
@@ -47,8 +48,13 @@ class Sphere:
         return cls(radius, wall / (4.0 * np.pi * radius**2))
 
     @classmethod
-    def unloaded(cls, cavity: float, wall: float, pressure: float, passive: Isotropic) -> "Sphere":
-        """Stress-free sphere whose cavity has the volume ``cavity`` [m^3] under ``pressure`` [Pa]."""
+    def unloaded(
+        cls, cavity: float, wall: float, pressure: float, passive: Isotropic, scale: float = 1.0
+    ) -> "Sphere":
+        """Stress-free sphere whose cavity has the volume ``cavity`` [m^3] under ``pressure`` [Pa].
+
+        ``scale`` multiplies the moduli of the ``passive`` law.
+        """
 
         def excess(smaller: float) -> float:
             sphere = cls.from_volumes(smaller, wall)
@@ -56,7 +62,7 @@ class Sphere:
             stretch = brentq(lambda s: _cavity_volume(sphere.radius, sphere.thickness, s) - cavity, 1.0, 3.0)
             slope = 4.0 * np.pi * sphere.radius**3 * (stretch - ratio * stretch**-2) ** 2
             slope *= 1.0 + 2.0 * ratio * stretch**-3
-            return float(sphere.wall * passive.in_plane_stress(np.array(stretch)) - pressure * slope)
+            return float(sphere.wall * passive.in_plane_stress(np.array(stretch), scale) - pressure * slope)
 
         return cls.from_volumes(brentq(excess, 0.2 * cavity, (1.0 - 1e-9) * cavity), wall)
 
@@ -93,12 +99,17 @@ def fibre_activation(tissue: Tissue, activation: Floats, sides: int) -> tuple[Fl
     ``activation`` (k,) are the times of the fibre classes of one sphere in health [s].
     """
     times = np.tile(activation, sides)
-    if not tissue.regional:
+    if tissue.uniform:
         return times, np.ones(len(times))
     delays, losses = (
         fibre_class_means(regional, len(activation), sides) for regional in (tissue.delays(), tissue.losses())
     )
     return times + delays, 1.0 - losses
+
+
+def wall_stiffenings(tissue: Tissue, sides: int) -> Floats:
+    """Factors (sides,) on the passive moduli of the spheres."""
+    return np.array([1.0, tissue.right.stiffness])[:sides]
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +133,7 @@ class SphericalBody:
     ) -> None:
         self.tissue = tissue
         self.activation, self.kept = fibre_activation(tissue, activation, 2)
-        self.passive = require_isotropic(tissue.passive)
+        self.passive, self.stiffening = require_isotropic(tissue.passive), wall_stiffenings(tissue, 2)
         self.radius = np.array([left.radius, right.radius])
         self.ratio = np.array([0.5 * s.thickness / s.radius for s in (left, right)])
         self.wall = np.array([left.wall, right.wall])
@@ -179,7 +190,9 @@ class SphereStep:
             )
         self._respond(stretch)
         passive, viscous = self.body.passive, self._viscous(stretch)[0]
-        stress = passive.in_plane_stress(stretch) + viscous + stretch * self._tension()[0]
+        stress = (
+            passive.in_plane_stress(stretch, self.body.stiffening) + viscous + stretch * self._tension()[0]
+        )
         return self.body.wall / self.body.radius * stress
 
     def _respond(self, stretch: Floats) -> None:
@@ -202,7 +215,9 @@ class SphereStep:
     def tangent(self, x: Floats) -> "Stiffness":
         """Derivative of the forces at ``x``, at which they were last evaluated."""
         stretch = self.body.stretch(x)
-        slope = self.body.passive.in_plane_stiffness(stretch) + self._viscous(stretch)[1]
+        slope = (
+            self.body.passive.in_plane_stiffness(stretch, self.body.stiffening) + self._viscous(stretch)[1]
+        )
         tension, stiffness = self._tension()
         slope = slope + stretch**2 * stiffness + tension
         return Stiffness(self.body.wall / self.body.radius**2 * slope)

@@ -13,7 +13,7 @@ from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.heart import Heart
 from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.beat import SphereTissue, State, StepInputs
-from heartfit.heart.sphere.body import LARGEST_STRETCH, Sphere, fibre_activation
+from heartfit.heart.sphere.body import LARGEST_STRETCH, Sphere, fibre_activation, wall_stiffenings
 from heartfit.heart.sphere.wall import cavity, passive_stress, tabulate
 from heartfit.roles.laws import FLOW, STATE_ROWS
 
@@ -50,8 +50,10 @@ class SphericalHeart:
         self.muscle = heart.muscle
         self._activation, self._bridges = fibre_activation(self.muscle, activation, len(spheres))
         passive, active = self.muscle.passive, self.muscle.active
+        shares = wall_stiffenings(self.muscle, len(spheres)).tolist()
+        tables = np.concatenate([tabulate(passive, share) for share in shares])
         self.tissue = SphereTissue(
-            tabulate(passive), active.constants(), active.starling.constants(), passive.eta, inertia.density
+            tables, active.constants(), active.starling.constants(), passive.eta, inertia.density
         )
         self._network = Network(heart.circulation, heart.mechanisms, len(spheres))
         self.branches = self._network.names
@@ -103,7 +105,7 @@ class SphericalHeart:
                 self.inertia.arteries,
             )
             memory = np.zeros(rows.REMEMBERED)
-            memory[rows.STRETCH] = self._filling_stretch(sphere, pressures[v])
+            memory[rows.STRETCH] = self._filling_stretch(v, pressures[v])
             memory[[rows.ARTERY, rows.P_C]] = windkessels[v].P_c
             for row in (rows.NOW, rows.BEFORE, rows.OLDER):
                 sides[row : row + rows.REMEMBERED, v] = memory
@@ -124,13 +126,14 @@ class SphericalHeart:
         branches[rows.INERTANCE : rows.CLOSES + 1] = self._leaflets.T
         return branches
 
-    def _filling_stretch(self, sphere: Sphere, pressure: float) -> float:
-        """Stretch at which the relaxed sphere holds the pressure [Pa]."""
-        table, ratio = self.tissue.passive, 0.5 * sphere.thickness / sphere.radius
+    def _filling_stretch(self, v: int, pressure: float) -> float:
+        """Stretch at which the relaxed sphere of side v holds the pressure [Pa]."""
+        tables, sphere = self.tissue.passive, self.spheres[v]
+        ratio = 0.5 * sphere.thickness / sphere.radius
 
         def excess(stretch: float) -> float:
             slope = cavity(sphere.radius, ratio, stretch)[1]
-            return float(sphere.wall * passive_stress(table, stretch)[0] - pressure * slope)
+            return float(sphere.wall * passive_stress(tables, v, stretch)[0] - pressure * slope)
 
         upper = next((s for s in np.arange(1.02, LARGEST_STRETCH, 0.02) if excess(s) > 0.0), None)
         if upper is None:

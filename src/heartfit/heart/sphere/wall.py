@@ -36,9 +36,10 @@ class CompiledStep(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def tabulate(law: Passive) -> Floats:
+def tabulate(law: Passive, scale: float = 1.0) -> Floats:
     """Table (2, k) of stress, and of stiffness times TABLE_SPACING, of an isotropic law for cubic interpolation.
 
+    ``scale`` multiplies the moduli of the law.
     The relative error of the interpolated stress of the standard tissue is 1e-8. A law may be infinite near the bounds;
     a step that reaches them fails. Tables are cached, since many hearts of a search share a law.
     """
@@ -46,17 +47,22 @@ def tabulate(law: Passive) -> Floats:
     stretch: Floats = np.linspace(SMALLEST_STRETCH, LARGEST_STRETCH, TABLE_INTERVALS + 1)
     with np.errstate(over="ignore", invalid="ignore"):
         return np.array(
-            [passive.in_plane_stress(stretch), TABLE_SPACING * passive.in_plane_stiffness(stretch)]
+            [
+                passive.in_plane_stress(stretch, scale),
+                TABLE_SPACING * passive.in_plane_stiffness(stretch, scale),
+            ]
         )
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def passive_stress(table, stretch):  # type: ignore[no-untyped-def]
-    """In-plane stress and stiffness [Pa], by cubic Hermite interpolation."""
+def passive_stress(tables, v, stretch):  # type: ignore[no-untyped-def]
+    """In-plane stress and stiffness [Pa] of side v, by cubic Hermite interpolation in the ``tables`` (2 v, k)."""
     place = (stretch - SMALLEST_STRETCH) / TABLE_SPACING
     i = min(int(place), TABLE_INTERVALS - 1)
     t = place - i
-    left, right, rise, fall = table[0, i], table[0, i + 1], table[1, i], table[1, i + 1]
+    stress, stiffness = 2 * v, 2 * v + 1
+    left, right = tables[stress, i], tables[stress, i + 1]
+    rise, fall = tables[stiffness, i], tables[stiffness, i + 1]
     a, b = rise + fall - 2.0 * (right - left), 3.0 * (right - left) - 2.0 * rise - fall
     return left + t * (rise + t * (b + t * a)), (rise + t * (2.0 * b + 3.0 * t * a)) / TABLE_SPACING
 
@@ -111,7 +117,7 @@ def fibre_tension(active, step, sides, fibres, v):  # type: ignore[no-untyped-de
 def cavity_pressure(passive, active, eta, density, step, sides, fibres, v):  # type: ignore[no-untyped-def]
     """Pressure [Pa] of cavity v at its trial stretch, its volume [m^3], both with their derivatives by the stretch."""
     stretch, rate = sides[rows.X, v], 1.0 / step.effective
-    stress, slope = passive_stress(passive, stretch)
+    stress, slope = passive_stress(passive, v, stretch)
     drag, bend = viscous_stress(stretch, sides[rows.START_PLANE, v], sides[rows.START_RADIAL, v])
     contraction, stiff = fibre_tension(active, step, sides, fibres, v)
     mass = density * sides[rows.RADIUS, v] ** 2
