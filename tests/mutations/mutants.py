@@ -251,7 +251,7 @@ MUTANTS = (
         f"{CIRCULATION}/test_leaflets.py",
         ("leaflets close at the rate of opening", "1.0 - closing * drop", "1.0 - opening * drop"),
         ("open leaflets stop backflow", "leak - zeta * flow", "leak"),
-        ("slope without the motion of the leaflets", "slope += rise * move", "slope += 0.0 * move"),
+        ("slope without the motion of the leaflets", "slope + rise * move", "slope + 0.0 * move"),
         (
             "backward slope of open leaflets dropped",
             "leak_slope + zeta * slope, -flow",

@@ -95,35 +95,6 @@ def branch_flow(laws, t, k, drop):  # type: ignore[no-untyped-def]
     return flow, slope
 
 
-FLOW_TOLERANCE, MAX_ITERATIONS = 1e-14, 60
-"""Relative change of an inertial flow at which its equation is solved, and largest number of iterations."""
-
-
-@njit(cache=True, error_model="numpy", inline="always")
-def inertial_flow(laws, t, k, drop, inertance, before):  # type: ignore[no-untyped-def]
-    r"""Flow and slope of a branch with inertance at the end of a step of length w: :math:`q = f(\Delta p - L \dot q)`.
-
-    ``inertance`` is L/w [Pa s/m^3], ``before`` the flow :math:`q^*` with :math:`\dot q = (q - q^*)/w`.
-    """
-    if inertance == 0.0:
-        return branch_flow(laws, t, k, drop)
-    driving, slope = drop + inertance * before, 0.0
-    q, low, high = 0.0, min(0.0, driving / inertance), max(0.0, driving / inertance)
-    for _ in range(MAX_ITERATIONS):
-        flow, slope = branch_flow(laws, t, k, driving - inertance * q)
-        if flow > q:
-            low = q
-        else:
-            high = q
-        following = q + (flow - q) / (1.0 + inertance * slope)
-        if not low <= following <= high:
-            following = 0.5 * (low + high)
-        change, q = following - q, following
-        if abs(change) <= FLOW_TOLERANCE * abs(q):
-            break
-    return q, slope / (1.0 + inertance * slope)
-
-
 class Leaflets(NamedTuple):
     """Inertance [Pa s^2/m^3] of the blood in a valve, and rates of opening and of closing [1/(Pa s)].
 
@@ -156,6 +127,10 @@ def opening_at(drop, start, opening, closing):  # type: ignore[no-untyped-def]
     return start * per, closing * start * per * per
 
 
+NO_LEAFLETS = -1.0
+"""Opening of a valve without leaflets: the sign of its pressure drop opens and closes it."""
+
+
 @njit(cache=True, error_model="numpy")
 def leaflet_flow(laws, t, k, drop, zeta):  # type: ignore[no-untyped-def]
     """Flow of branch k at the opening ``zeta``, and its derivatives by the drop and by the opening."""
@@ -167,18 +142,32 @@ def leaflet_flow(laws, t, k, drop, zeta):  # type: ignore[no-untyped-def]
     return leak - zeta * flow, leak_slope + zeta * slope, -flow
 
 
-@njit(cache=True, error_model="numpy")
-def flow_with_leaflets(laws, t, k, drop, zeta, inertance, before):  # type: ignore[no-untyped-def]
-    r"""Solve :math:`q = f_\zeta(\Delta p - L \dot q)`; return the flow, and its derivatives by drop and opening.
+@njit(cache=True, error_model="numpy", inline="always")
+def instant_flow(laws, t, k, drop, zeta):  # type: ignore[no-untyped-def]
+    """Flow of branch k without inertance, and its derivatives by drop and opening; ``zeta`` may be NO_LEAFLETS."""
+    if zeta == NO_LEAFLETS:
+        flow, slope = branch_flow(laws, t, k, drop)
+        return flow, slope, 0.0
+    return leaflet_flow(laws, t, k, drop, zeta)
 
-    ``inertance`` and ``before`` as in :func:`inertial_flow`.
+
+FLOW_TOLERANCE, MAX_ITERATIONS = 1e-14, 60
+"""Relative change of an inertial flow at which its equation is solved, and largest number of iterations."""
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def inertial_flow(laws, t, k, drop, zeta, inertance, before):  # type: ignore[no-untyped-def]
+    r"""Flow at the end of a step of length w, :math:`q = f_\zeta(\Delta p - L \dot q)`, and its derivatives.
+
+    These are by the drop and by the opening ``zeta``, which may be NO_LEAFLETS. ``inertance`` is L/w [Pa s/m^3],
+    ``before`` the flow :math:`q^*` with :math:`\dot q = (q - q^*)/w`. Solved by Newton's method between bounds.
     """
-    driving, slope, rise = drop + inertance * before, 0.0, 0.0
     if inertance == 0.0:
-        return leaflet_flow(laws, t, k, drop, zeta)
+        return instant_flow(laws, t, k, drop, zeta)
+    driving, slope, rise = drop + inertance * before, 0.0, 0.0
     q, low, high = 0.0, min(0.0, driving / inertance), max(0.0, driving / inertance)
     for _ in range(MAX_ITERATIONS):
-        flow, slope, rise = leaflet_flow(laws, t, k, driving - inertance * q, zeta)
+        flow, slope, rise = instant_flow(laws, t, k, driving - inertance * q, zeta)
         if flow > q:
             low = q
         else:
@@ -195,16 +184,14 @@ def flow_with_leaflets(laws, t, k, drop, zeta, inertance, before):  # type: igno
 @njit(cache=True, error_model="numpy", inline="always")
 def advance_branch(laws, t, k, drop, states):  # type: ignore[no-untyped-def]
     """Flow of branch k at the end of a step, and its derivative by the drop; fills its rows FLOW and OPENING."""
-    inertance, before, closing = states[INERTIA, k], states[START_FLOW, k], states[CLOSING_RATE, k]
-    if closing == 0.0:
-        flow, slope = inertial_flow(laws, t, k, drop, inertance, before)
-    else:
+    zeta, move, closing = NO_LEAFLETS, 0.0, states[CLOSING_RATE, k]
+    if closing != 0.0:
         zeta, move = opening_at(drop, states[START_OPENING, k], states[OPENING_RATE, k], closing)
-        flow, slope, rise = flow_with_leaflets(laws, t, k, drop, zeta, inertance, before)
-        slope += rise * move
         states[OPENING, k] = zeta
+    inertance, before = states[INERTIA, k], states[START_FLOW, k]
+    flow, slope, rise = inertial_flow(laws, t, k, drop, zeta, inertance, before)
     states[FLOW, k] = flow
-    return flow, slope
+    return flow, slope + rise * move
 
 
 class Load(NamedTuple):

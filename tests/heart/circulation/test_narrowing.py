@@ -9,7 +9,7 @@ from heartfit.heart.circulation.elements import LinearValve, OrificeValve
 from heartfit.heart.circulation.network import VALVES, Circulation, Network
 from heartfit.mechanisms.aortic_stenosis import AorticStenosis
 from heartfit.roles import Narrowing
-from heartfit.roles.laws import BLOOD_DENSITY, Branch, branch_flow, inertial_flow
+from heartfit.roles.laws import BLOOD_DENSITY, NO_LEAFLETS, Branch, branch_flow, inertial_flow
 from tests.shrinking import assert_derivative
 
 LINEAR, ORIFICE = LinearValve(open=4e-6).law(), OrificeValve(area=4e-4).law()
@@ -65,7 +65,7 @@ def test_a_narrowing_of_zero_resistance_changes_no_flow(law: Branch) -> None:
 @laws
 def test_a_narrowing_acts_on_blood_with_inertia(law: Branch) -> None:
     table = np.array([[law.with_narrowing(AREA**-2)]])
-    q, _ = inertial_flow(table, 0, 0, 5e3, 3e6, 2e-4)
+    q, _, _ = inertial_flow(table, 0, 0, 5e3, NO_LEAFLETS, 3e6, 2e-4)
     assert q == pytest.approx(branch_flow(table, 0, 0, 5e3 - 3e6 * (q - 2e-4))[0], rel=1e-9)
 
 
