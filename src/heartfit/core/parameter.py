@@ -71,6 +71,15 @@ def parameter(
     return field(default=value, metadata={"parameter": description | prior})
 
 
+def redeclared(part: type, name: str, value: float, **changes: Any) -> Any:
+    """Return a dataclass field that declares the parameter ``name`` of a base class anew for a subclass.
+
+    It has its own ``value`` and keeps all else but the ``changes``; see :class:`Parameter`.
+    """
+    (base,) = (entry for entry in fields(part) if entry.name == name)
+    return field(default=value, metadata={"parameter": base.metadata["parameter"] | changes})
+
+
 def parameters_of(part: Any) -> Iterator[Parameter]:
     """Yield the parameters that a part (class or instance) declares, with the values of the instance."""
     kind: Any = part if isinstance(part, type) else type(part)

@@ -21,6 +21,7 @@ from heartfit.roles.interfaces import (
     Stress,
 )
 from heartfit.roles.registry import ROLES, mechanism, registered
+from heartfit.roles.valve_dynamics import ValveDynamics
 
 __all__ = [
     "COMPARTMENTS",
@@ -37,6 +38,7 @@ __all__ = [
     "Relaxation",
     "Sensor",
     "Stress",
+    "ValveDynamics",
     "mechanism",
     "registered",
 ]

@@ -3,6 +3,12 @@
 import numpy as np
 import pytest
 
+from heartfit.core.parameter import parameters_of
+from heartfit.heart.circulation.network import VALVES, Network
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics, simulate
+from heartfit.heart.sphere.body import SphericalBody
+from heartfit.roles import Dynamics, ValveDynamics, registered
 from heartfit.roles.laws import (
     BLOOD_DENSITY,
     CLOSING_RATE,
@@ -18,6 +24,8 @@ from heartfit.roles.laws import (
     branch_flow,
 )
 from tests.shrinking import assert_derivative
+from verification.audit import lost_blood
+from verification.audit_checks import TIGHT
 
 LINEAR = Branch(conductance=4e-6, back_conductance=1e-11)
 ORIFICE = Branch(area=4e-4, back_conductance=1e-11)
@@ -25,6 +33,8 @@ NARROWED = LINEAR.with_narrowing(1.0 / 4.5e-4**2)
 AT_ONCE = 1e9
 """Rate of opening and closing [1/(Pa s)] that moves the leaflets within any step."""
 
+DYNAMICS = {name: kind for name, kind in registered().items() if issubclass(kind, Dynamics)}
+valves = pytest.mark.parametrize("kind", DYNAMICS.values(), ids=DYNAMICS.keys())
 laws = pytest.mark.parametrize("law", [LINEAR, ORIFICE, NARROWED], ids=["linear", "orifice", "narrowed"])
 
 
@@ -143,3 +153,91 @@ def test_a_valve_that_closes_late_loses_blood_until_its_leaflets_meet() -> None:
     for drop in (-500.0, -2e3):
         flows = advance(LINEAR, np.full(4000, drop), 1e-4, closing=0.05, start=(0.0, 1.0))[0]
         assert 1e-4 * flows.sum() == pytest.approx(-4e-6 / 0.05, rel=0.01)
+
+
+def valve_of(dynamics: Dynamics) -> Branch:
+    """Law of the valve with its dynamics, in the standard heart."""
+    network = Network(Heart().circulation, (dynamics,))
+    return Branch(*network.laws(0.0)[network.names.index(dynamics.valve)])
+
+
+def test_all_valves_have_dynamics_of_the_same_form() -> None:
+    """The parameters are those of the base class, with own symbols; each valve has its own values."""
+    assert {kind.valve for kind in DYNAMICS.values()} == VALVES.keys()
+    base = list(parameters_of(ValveDynamics))
+    for kind in DYNAMICS.values():
+        own = list(parameters_of(kind))
+        assert [(p.name, p.unit, p.meaning, p.sd) for p in own] == [
+            (p.name, p.unit, p.meaning, p.sd) for p in base
+        ]
+    symbols = [p.symbol for kind in DYNAMICS.values() for p in parameters_of(kind)]
+    assert len({*symbols}) == len(symbols)
+
+
+@valves
+@pytest.mark.parametrize("slowness", [0.5, 1.0])
+def test_steady_flow_takes_conductance_and_speed(kind: type[Dynamics], slowness: float) -> None:
+    r""":math:`\Delta p = q/K + s \rho q^2 / 2 A^2`, through leaflets that are open in the end."""
+    valve = kind(slowness=slowness)
+    flows, openings = advance(valve_of(valve), np.full(2000, 300.0), 1e-3, *valve.leaflets())
+    conductance = getattr(Heart().circulation, kind.valve).open
+    drop = flows[-1] / conductance + slowness * 0.5 * BLOOD_DENSITY * (flows[-1] / valve.area) ** 2
+    assert drop == pytest.approx(300.0, rel=1e-6)
+    assert openings[-1] == pytest.approx(1.0, abs=1e-6)
+
+
+@valves
+def test_a_pulse_of_pressure_gives_flow_and_opening_to_second_order(kind: type[Dynamics]) -> None:
+    def end(n: int) -> np.ndarray:
+        drops = 600.0 * np.sin(0.75 * np.pi * np.arange(1, n + 1) / n)
+        return advance(valve_of(kind()), drops, 0.06 / n, *kind().leaflets())[:, -1]
+
+    exact = end(12800)
+    errors = [abs(end(n) / exact - 1.0) for n in (200, 400, 800)]
+    assert orders(np.array(errors)) == pytest.approx(2.0, abs=0.1)
+
+
+@valves
+def test_a_quick_valve_is_the_diode(kind: type[Dynamics]) -> None:
+    """The difference is proportional to the slowness, except in the steps in which the leaflets move."""
+    drops, steady = np.repeat([250.0, -4e3, 80.0], 40), np.arange(120) % 40 > 5
+    law = valve_of(kind().turned_off())
+    diode = np.array([branch_flow(np.array([[law]]), 0, 0, drop)[0] for drop in drops])[steady]
+    differences = []
+    for slowness in (1e-3, 1e-4, 1e-5):
+        valve = kind(slowness=slowness)
+        flows = advance(valve_of(valve), drops, 1e-3, *valve.leaflets())[0][steady]
+        differences.append(abs(flows - diode).max() / diode.max())
+    assert np.divide(differences[1:], differences[:-1]) == pytest.approx(0.1, rel=0.1)
+    assert differences[-1] < 3e-4
+
+
+@valves
+def test_a_beat_conserves_blood_and_its_valve_opens_and_closes(
+    kind: type[Dynamics], spherical_heart: Heart, spheres: SphericalBody
+) -> None:
+    heart, histories = spherical_heart + kind(), []
+    simulate(heart, spheres, Numerics(max_beats=1, tolerances=TIGHT), watch=histories.append)
+    (states,) = histories
+    assert lost_blood(heart, states) == pytest.approx(np.zeros(4), abs=1e-13)
+    opening = np.array([state.branches[1] for state in states[1:]])
+    assert (opening >= 0.0).all()
+    assert (opening <= 1.0).all()
+    own = opening[:, [*VALVES].index(kind.valve)]
+    assert own.max() > 0.95
+    assert own.min() < 0.01
+
+
+def test_all_valves_together_only_delay_ejection(spherical_heart: Heart, spheres: SphericalBody) -> None:
+    """Ejected volumes and peak flows change by a few per cent; at most some millilitres flow back in each valve."""
+    without = simulate(spherical_heart, spheres, Numerics())
+    heart = spherical_heart
+    for kind in DYNAMICS.values():
+        heart += kind()
+    beat = simulate(heart, spheres, Numerics())
+    dt = beat.time[1] - beat.time[0]
+    for valve in VALVES:
+        flow, before = beat.flow[valve], without.flow[valve]
+        assert flow.max() == pytest.approx(before.max(), rel=0.05)
+        assert flow.sum() == pytest.approx(before.sum(), rel=0.06)
+        assert 0.3e-6 < -dt * np.minimum(flow, 0.0).sum() < 4e-6
