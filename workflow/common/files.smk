@@ -98,6 +98,11 @@ def noise_model(wildcards):
     return [NOISE_MODEL] if wildcards.case in VIRTUAL else []
 
 
+def second_reading(wildcards):
+    """Volume from the blood of a measured heart's images; empty without images beside a fitted surface."""
+    return [f"<results>/{wildcards.case}/curves/blood_volume.csv"] if wildcards.case in FITTED_WITH_IMAGES else []
+
+
 def registered_sequences(acquisition, numbers):
     """Comparisons of registered with true motion, of numbered sequences of an acquisition."""
     return expand(f"<results>/registration_error/{acquisition}/{{number}}.json", number=numbers)

@@ -31,3 +31,22 @@ rule extract_curves:
         stated=configuration_text(STUDY.observation),
     script:
         "../scripts/extract_curves.py"
+
+
+rule read_blood_volume:
+    input:
+        files=wall_files,
+        images="<results>/{case}/images/cine.nrrd",
+        measured="<results>/{case}/curves/measured.csv",
+    output:
+        "<results>/{case}/curves/blood_volume.csv",
+    wildcard_constraints:
+        case=match_any(FITTED_WITH_IMAGES),
+    resources:
+        mem_mb=1500,
+        runtime=2,
+    params:
+        source=source_without_pressure,
+        stated=configuration_text(source_without_pressure),
+    script:
+        "../scripts/read_blood_volume.py"

@@ -1,6 +1,7 @@
 MEASURED_CASE = {
     "measured": "<results>/{case}/curves/measured.csv",
     "noise": noise_model,
+    "second": second_reading,
 }
 IMAGED_CASE = MEASURED_CASE | {
     "mesh": "<results>/{case}/geometry/mesh.vtu",
@@ -22,6 +23,7 @@ REFIT_PARAMS = {
     "pressures": filling_pressures_of,
     "scheme": STUDY.numerics,
     "most_steps": DISCOVERY.most_steps,
+    "both": DISCOVERY.both_ventricles,
     "stated": configuration_text(case_of, setting_of, STUDY.numerics, filling_pressures_of, DISCOVERY),
 }
 

@@ -12,9 +12,9 @@ from heartfit.results.cause_figure import render_cause
 
 record(snakemake.log[0])
 files, params, names = snakemake.input, snakemake.params, snakemake.wildcards
-recording = read_measured_case(files.measured, files.get("noise", [])).recording()
-heart = params.setting.base_heart(params.case.period)
-beats = list(map(beat_curves, map(read_beat, map(Path, files.beats))))
-outcome = centred_search(recording, heart, beats)
+fitted, unseen = read_measured_case(dict(files.items())).halves()
+heart, sensors = params.setting.base_heart(params.case.period), params.setting.sensors({})
+beats = [beat_curves(read_beat(Path(file)), sensors) for file in files.beats]
+outcome = centred_search(fitted, heart, beats, unseen)
 title = f"{names.case}, {names.setting} setting: search on the sphere"
 write_cause_card(Path(snakemake.output[0]).parent, render_cause(outcome, title), params.code)

@@ -27,16 +27,20 @@ def read_attempt(path: Path) -> Attempt:
     return read_record(Path(path), Attempt)
 
 
-def read_measured_case(curves: Path, models: Sequence[Path]) -> MeasuredCase:
-    """Read measured curves and remove the bias of the noise models, of which there is one or none."""
-    return MeasuredCase.from_curves(
-        read_curves(Path(curves)), [read_noise_model(Path(model)) for model in models]
-    )
+def read_measured_case(files: Mapping[str, Any], both: bool = False) -> MeasuredCase:
+    """Read a case: measured curves, noise model of its images and second reading, as far as it has them.
+
+    both: a refit fits both ventricles.
+    """
+    models = [read_noise_model(Path(model)) for model in files.get("noise", [])]
+    seconds = [read_curves(Path(file))["lv_volume"] for file in files.get("second", [])]
+    second = seconds[0] if seconds else None
+    return MeasuredCase.from_curves(read_curves(Path(files["measured"])), models, second, both)
 
 
 def read_trial(files: Mapping[str, Any], parameters: Mapping[str, Any]) -> ExtensionTrial:
     """Trial of the refits of a case, by the inputs and parameters of a rule of the workflow."""
-    case, setting = read_measured_case(files["measured"], files.get("noise", [])), parameters["setting"]
+    case, setting = read_measured_case(files, parameters["both"]), parameters["setting"]
     mesh, motion = read_mesh(Path(files["mesh"])), read_motion(Path(files["registered"]))
     model = Model(mesh, parameters["case"].period, parameters["pressures"], parameters["scheme"])
     return ExtensionTrial(case, motion, model, setting, case.target, parameters["most_steps"])

@@ -46,6 +46,10 @@ class Discovery(Strict):
         description="mechanisms tried on these cases whatever the search names, 10 to 20 beats per trial",
     )
     most_steps: Count = Field(default=20, description="most steps of a refit, which may converge earlier")
+    both_ventricles: bool = Field(
+        default=False,
+        description="refits also fit every other frame of a right volume, with parameters of its own",
+    )
 
     element: ElementQuestion = ElementQuestion()
 

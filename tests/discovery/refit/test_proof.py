@@ -76,6 +76,48 @@ def test_the_right_ventricle_is_never_fitted(case: MeasuredCase) -> None:
     assert split.held["rv_volume"].times.size == 25
 
 
+def test_a_refit_of_both_ventricles_holds_half_of_the_right_volume_out(case: MeasuredCase) -> None:
+    split = Split.from_curves({**case.curves, "rv_volume": case.curves["lv_volume"]}, both=True)
+    fitted, held = split.fitted["rv_volume"], split.held["rv_volume"]
+    assert fitted.times == pytest.approx(split.fitted["lv_volume"].times)
+    assert not set(fitted.times) & set(held.times)
+    own = set(Extension(PLAIN).with_free_parameters(True).names) - set(
+        Extension(PLAIN).with_free_parameters().names
+    )
+    assert {"tissue.right.contractility", "tissue.right.delay", "AtrialKick.right"} < own
+
+
+def test_a_volume_that_was_read_twice_is_averaged_and_has_the_noise_of_its_readings(
+    case: MeasuredCase,
+) -> None:
+    first = case.raw["lv_volume"]
+    error = 2e-6 * np.cos(np.pi * np.arange(25) / 3.0)
+    twice = MeasuredCase.from_curves(case.raw, [], replace(first, values=first.values + error))
+    assert twice.curves["lv_volume"].values == pytest.approx(first.values + 0.5 * error)
+    known = twice.frames["lv_volume"]
+    rows = slice(0, 13)
+    lags = np.abs(np.subtract.outer(first.times[::2], first.times[::2]))
+    rough = 0.6e-6**2 * np.exp(-np.minimum(lags, PERIOD - lags) / 0.05)
+    assert twice.target.covariance[rows, rows] == pytest.approx(known.covariance(first.times[::2]) + rough)
+    assert twice.recording().noise == twice.frames
+
+
+def test_what_chooses_a_name_is_kept_from_what_judges_it(case: MeasuredCase) -> None:
+    chosen, unseen = replace(case, curves={**case.curves, "rv_volume": case.curves["lv_volume"]}).halves()
+    assert unseen is not None
+    assert set(unseen.curves) == {"lv_volume", "lv_pressure"}
+    assert "rv_volume" in chosen.curves, "reported as not searched"
+    for name, samples in unseen.curves.items():
+        assert not set(samples.times) & set(chosen.curves[name].times)
+
+
+def test_few_frames_are_not_halved(case: MeasuredCase) -> None:
+    volume = case.curves["lv_volume"].resampled(12)
+    chosen, unseen = MeasuredCase.from_curves({"lv_volume": volume}, []).halves()
+    assert unseen is None
+    assert chosen.curves["lv_volume"].times.size == 12
+
+
 def test_bins_are_means_and_few_samples_keep_their_number() -> None:
     times = np.arange(200) * 0.004
     means = average_bins(Curve(times, times, 0.8))

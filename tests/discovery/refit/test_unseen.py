@@ -97,8 +97,12 @@ def test_a_beat_without_a_matching_sphere_is_refused(
 @pytest.fixture
 def searched(monkeypatch: pytest.MonkeyPatch) -> None:
     def diagnosed(
-        recording: Recording, nominal: NominalHeart | None = None, rules: Rules = DEFAULT_RULES
+        recording: Recording,
+        nominal: NominalHeart | None = None,
+        rules: Rules = DEFAULT_RULES,
+        unseen: Recording | None = None,
     ) -> Diagnosis:
+        assert unseen is None
         about = "sphere" if nominal is ADULT else "adult"
         return Diagnosis("none", (), (), about, (), 0, recording.period, rules.detected)
 

@@ -1,7 +1,7 @@
 """Verdict of a refit: extensions that are tried, extensions that are kept, and names that are withdrawn."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import cast
 
@@ -71,6 +71,7 @@ class Judge:
 
     evidence: dict[int, float]
     nearer: tuple[int, ...]
+    case: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(both=False))
 
     def extended(self, extension: Extension, _: Refit) -> Refit:
         if len(extension.added) not in self.evidence:

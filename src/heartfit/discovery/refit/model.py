@@ -32,6 +32,16 @@ from heartfit.personalise.run import run_beat
 from heartfit.personalise.setting import Element, Setting
 from heartfit.roles import registered
 
+RIGHT_PARAMETERS = (
+    FreeParameter(("tissue.right.contractility",), 0.25),
+    FreeParameter(("tissue.right.delay",), 0.6),
+    FreeParameter(("circulation.pulmonary_tree.Z_c",), 0.25),
+    FreeParameter(("circulation.right_atrium",), 0.25),
+    FreeParameter(("AtrialKick.right",), 0.3),
+)
+"""Unknowns of the right ventricle, free where its volume is fitted. A heart without a delay keeps none: its prior is
+log-normal. The peripheral resistance and the stiffness are left out: a volume alone does not decide them."""
+
 
 @dataclass(frozen=True)
 class Extension:
@@ -51,11 +61,14 @@ class Extension:
         """Return the setting extended by mechanisms of the registry."""
         return cls(base, tuple(Candidate.from_mechanism(registered()[name]) for name in names))
 
-    def with_free_parameters(self) -> "Extension":
-        """Return the extension with all parameters of the search free; a wrong fixed value would resemble an effect."""
+    def with_free_parameters(self, right: bool = False) -> "Extension":
+        """Return the extension with all parameters of the search free; a wrong fixed value would resemble an effect.
+
+        right: those of the right ventricle are free, too.
+        """
         freed = tuple(
             parameter
-            for parameter in HEART_PARAMETERS
+            for parameter in (*HEART_PARAMETERS, *(RIGHT_PARAMETERS if right else ()))
             if parameter.name.rsplit(".", 1)[-1] not in self.base.estimate
         )
         return replace(self, freed=freed)

@@ -36,7 +36,7 @@ class ExtensionTrial:
     @property
     def baseline(self) -> Extension:
         """Return the baseline model, without an extension."""
-        return Extension(self.setting).with_free_parameters()
+        return Extension(self.setting).with_free_parameters(self.case.both)
 
     def refitted(self) -> Refit:
         """Return the refit of the baseline model; raises CalibrationError if too many beats fail."""
@@ -76,7 +76,7 @@ class ExtensionTrial:
         If no extension is accepted, the last refit is that of the last trial; if all trials fail, it is the baseline.
         """
         base = self.at(self.baseline, baseline)
-        steps = list(self.climb(base, propose_extensions(diagnosis, self.setting)))
+        steps = list(self.climb(base, propose_extensions(diagnosis, self.setting, self.case.both)))
         kept = [fit for fit, helps in steps if helps]
         shown = (kept or [fit for fit, _ in steps] or [base])[-1]
         tried = TriedExtension(
@@ -90,7 +90,7 @@ class ExtensionTrial:
 
     def attempt(self, mechanism: str, baseline: Refit) -> Attempt:
         """Return the gain of one mechanism, whatever the diagnosis; raises CalibrationError if its beat fails."""
-        extension = Extension.from_names(self.setting, mechanism).with_free_parameters()
+        extension = Extension.from_names(self.setting, mechanism).with_free_parameters(self.case.both)
         base = self.at(self.baseline, baseline)
         extended = self.at(extension, self.continue_refit(extension, baseline))
         beats = baseline.simulations + extended.refit.simulations + 2

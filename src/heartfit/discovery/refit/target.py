@@ -2,27 +2,28 @@ r"""The data of a refit: fitted samples, their covariance, and held-out samples.
 
 Every other frame of the left ventricle's volume is fitted, and every other block of 40 ms of its pressure where that
 was recorded. The neighbours of fitted samples are the mildest test; the right ventricle's volume, which is not fitted
-at all, is a harder one.
+at all, is a harder one. A refit of both ventricles fits every other frame of the right volume, too.
 
 The covariance of the fitted samples about a correct model is
 
 .. math:: R = R_{measurement} + \rho^2 e^{-|t_i - t_j| / \tau} ,
 
-the first term from the noise model of the images or, without one, from the upper half of each curve's own spectrum; the
-second the roughness of any model.
+the first term from a second reading of the curve, else from the noise model of the images, else from the upper half of
+the curve's own spectrum; the second the roughness of any model.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from heartfit.core.arrays import Floats
-from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.discovery.sphere_model.recording import FEWEST_SAMPLES, Recording, Samples
 from heartfit.observation.curve import Curve
 from heartfit.observation.measurement import frame_noise
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.residual import SIMULATION_ROUGHNESS, unbiased_with_noise
+from heartfit.observation.second_reading import FrameNoise, TwoReadings
 
 BIN, BLOCK = 0.010, 4
 """Length of the bins over which pressure is averaged [s], and number of bins in a block."""
@@ -39,15 +40,21 @@ class Split:
     held: Sampled
 
     @classmethod
-    def from_curves(cls, curves: Mapping[str, Curve]) -> "Split":
-        """Split measured curves without bias: "lv_volume", and optionally "lv_pressure" and "rv_volume"."""
+    def from_curves(cls, curves: Mapping[str, Curve], both: bool = False) -> "Split":
+        """Split measured curves without bias: "lv_volume", and optionally "lv_pressure" and "rv_volume".
+
+        both: half of the right volume is fitted, too.
+        """
         fitted, held = {}, {}
         frames = Samples(curves["lv_volume"].times, curves["lv_volume"].values)
         fitted["lv_volume"], held["lv_volume"] = _halves(frames, 1)
         if "lv_pressure" in curves:
             fitted["lv_pressure"], held["lv_pressure"] = _halves(average_bins(curves["lv_pressure"]), BLOCK)
         if "rv_volume" in curves:
-            held["rv_volume"] = Samples(curves["rv_volume"].times, curves["rv_volume"].values)
+            right = Samples(curves["rv_volume"].times, curves["rv_volume"].values)
+            if both:
+                fitted["rv_volume"], right = _halves(right, 1)
+            held["rv_volume"] = right
         return cls(fitted, held)
 
 
@@ -108,9 +115,18 @@ ROUGHNESS_MEMORY = 0.05
 """tau of the roughness [s]."""
 
 
-def covariance(fitted: Sampled, measured: Mapping[str, Curve], models: Sequence[NoiseModel]) -> Floats:
-    """R (n, n), in the order of the samples; measured: the curves that the samples belong to."""
-    blocks = [_block(name, samples.times, measured[name], models) for name, samples in fitted.items()]
+def covariance(
+    fitted: Sampled,
+    measured: Mapping[str, Curve],
+    models: Sequence[NoiseModel],
+    frames: Mapping[str, FrameNoise] | None = None,
+) -> Floats:
+    """R (n, n), in the order of the samples; measured: their curves; frames: noise of curves that were read twice."""
+    known = frames or {}
+    blocks = [
+        _block(name, samples.times, measured[name], models, known.get(name))
+        for name, samples in fitted.items()
+    ]
     ends = np.cumsum([0, *(len(block) for block in blocks)])
     total = np.zeros((ends[-1], ends[-1]))
     for start, end, block in zip(ends[:-1], ends[1:], blocks, strict=True):
@@ -118,12 +134,16 @@ def covariance(fitted: Sampled, measured: Mapping[str, Curve], models: Sequence[
     return total
 
 
-def _block(name: str, times: Floats, curve: Curve, models: Sequence[NoiseModel]) -> Floats:
+def _block(
+    name: str, times: Floats, curve: Curve, models: Sequence[NoiseModel], read_twice: FrameNoise | None
+) -> Floats:
     kind = name.rsplit("_", 1)[1]
     lags = np.abs(times[:, None] - times)
     rough: Floats = SIMULATION_ROUGHNESS[kind] ** 2 * np.exp(
         -np.minimum(lags, curve.period - lags) / ROUGHNESS_MEMORY
     )
+    if read_twice is not None:
+        return rough + read_twice.covariance(times)
     for model in models if kind == "volume" else ():
         phases = np.rint(times / curve.period * len(model.curve.names)).astype(int)
         return rough + model.curve_covariance(curve)[np.ix_(phases, phases)]
@@ -132,35 +152,71 @@ def _block(name: str, times: Floats, curve: Curve, models: Sequence[NoiseModel])
 
 @dataclass(frozen=True, eq=False)
 class MeasuredCase:
-    """Measured curves as they are (``raw``) and without bias, noise (k,) of their samples, and noise models, if any."""
+    """Measured curves as they are (``raw``) and without bias, noise (k,) of their samples, and noise models, if any.
+
+    frames: noise of curves that were read twice; both: a refit fits both ventricles.
+    """
 
     raw: Mapping[str, Curve]
     curves: Mapping[str, Curve]
     noise: Mapping[str, Floats]
     models: Sequence[NoiseModel]
+    frames: Mapping[str, FrameNoise] = field(default_factory=dict)
+    both: bool = False
 
     @classmethod
-    def from_curves(cls, measured: Mapping[str, Curve], models: Sequence[NoiseModel]) -> "MeasuredCase":
-        """Remove the bias of measured curves."""
+    def from_curves(
+        cls,
+        measured: Mapping[str, Curve],
+        models: Sequence[NoiseModel],
+        second: Curve | None = None,
+        both: bool = False,
+    ) -> "MeasuredCase":
+        """Remove the bias of measured curves; second: another reading of the left volume, which is averaged with it."""
         corrected = {name: unbiased_with_noise(name, curve, models) for name, curve in measured.items()}
         curves = {name: curve for name, (curve, _) in corrected.items()}
-        return cls(measured, curves, {name: noise for name, (_, noise) in corrected.items()}, models)
+        noise, frames = {name: sd for name, (_, sd) in corrected.items()}, {}
+        if second is not None:
+            readings = TwoReadings(curves["lv_volume"], second)
+            curves["lv_volume"], frames = readings.mean, {"lv_volume": readings.noise()}
+            scatter = np.hypot(frames["lv_volume"].deviation, SIMULATION_ROUGHNESS["volume"])
+            noise["lv_volume"] = np.full(second.times.size, scatter)
+        return cls(measured, curves, noise, models, frames, both and "rv_volume" in measured)
 
     @property
     def split(self) -> Split:
         """Fitted and held-out samples."""
-        return Split.from_curves(self.curves)
+        return Split.from_curves(self.curves, self.both)
 
     @property
     def target(self) -> Target:
         """The target of a refit."""
         fitted = self.split.fitted
-        return Target(fitted, covariance(fitted, self.raw, self.models))
+        return Target(fitted, covariance(fitted, self.raw, self.models, self.frames))
 
     def recording(self) -> Recording:
         """All curves as the recording for the search on the sphere."""
-        samples = {name: Samples(curve.times, curve.values) for name, curve in self.curves.items()}
-        return Recording(self.curves["lv_volume"].period, samples)
+        return self._recording(
+            {name: Samples(curve.times, curve.values) for name, curve in self.curves.items()}
+        )
+
+    def halves(self) -> tuple[Recording, Recording | None]:
+        """The fitted half, which chooses a name, and the other one, which judges it.
+
+        Both hold the curves of the left ventricle; the first also has the right volume, which is not searched. Too few
+        frames for two halves are kept together, without a second one.
+        """
+        split = self.split
+        if min(samples.times.size for samples in split.held.values()) < FEWEST_SAMPLES:
+            return self.recording(), None
+        whole = self.recording().curves
+        kept = [name for name in split.fitted if name != "rv_volume"]
+        fitted, held = ({name: half[name] for name in kept} for half in (split.fitted, split.held))
+        right = {name: samples for name, samples in whole.items() if name not in kept}
+        return self._recording(fitted | right), self._recording(held)
+
+    def _recording(self, samples: Sampled) -> Recording:
+        return Recording(self.curves["lv_volume"].period, samples, self.frames)
 
     def deviation(self, name: str) -> float:
         """Root mean square noise of a curve's samples [SI]."""

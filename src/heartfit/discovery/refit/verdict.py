@@ -20,7 +20,7 @@ from heartfit.personalise.setting import Setting
 HELD_OUT_NOTES = {
     "lv_volume": "frames that were not fitted",
     "lv_pressure": "every other 40 ms, which were not fitted",
-    "rv_volume": "never fitted",
+    "rv_volume": "frames that were not fitted",
 }
 STRAINS = ("circumferential", "longitudinal")
 
@@ -80,7 +80,10 @@ def curve_gains(
     period = case.curves["lv_volume"].period
     for name, held in case.split.held.items():
         before, after = (held.values - curves[name](held.times) for curves in (baseline, extended))
-        yield _gain(name, HELD_OUT_NOTES[name], held.times / period, before, after)
+        fitted_too = name in case.split.fitted
+        yield _gain(
+            name, HELD_OUT_NOTES[name] if fitted_too else "never fitted", held.times / period, before, after
+        )
 
 
 def _gain(name: str, on: str, phase: Floats, before: Floats, after: Floats) -> Gain:
@@ -114,8 +117,8 @@ class TriedExtension:
         )
 
 
-def propose_extensions(diagnosis: Diagnosis, base: Setting) -> list[Extension]:
-    """Return the extensions to refit in three dimensions, each of which contains the previous one.
+def propose_extensions(diagnosis: Diagnosis, base: Setting, both: bool = False) -> list[Extension]:
+    """Return the extensions to refit in three dimensions, each of which contains the previous one; both: ventricles.
 
     They consist of the named mechanisms; of two, the stronger one is tried alone first, because the second may be
     false. Of a group the best is tried, and without a named mechanism the best of the ranking.
@@ -124,11 +127,11 @@ def propose_extensions(diagnosis: Diagnosis, base: Setting) -> list[Extension]:
         (cause.name for cause in diagnosis.mechanisms), key=lambda name: -diagnosis.ranking.get(name, np.inf)
     )
     if diagnosis.verdict == "two":
-        return [Extension.from_names(base, *named[:count]).with_free_parameters() for count in (1, 2)]
+        return [Extension.from_names(base, *named[:count]).with_free_parameters(both) for count in (1, 2)]
     best = [cause.name for cause in diagnosis.mechanisms] or [
         name for name in diagnosis.ranking if name != "unknown"
     ]
-    return [Extension.from_names(base, best[0]).with_free_parameters()]
+    return [Extension.from_names(base, best[0]).with_free_parameters(both)]
 
 
 def apply_proof(diagnosis: Diagnosis, tried: TriedExtension, proof: Proof) -> Diagnosis:

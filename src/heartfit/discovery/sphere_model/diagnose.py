@@ -17,7 +17,12 @@ from heartfit.discovery.sphere_model.forward_model import (
     candidates,
     hypothesis,
 )
-from heartfit.discovery.sphere_model.held_out import HeldOutPrediction, predict_condition, predict_half
+from heartfit.discovery.sphere_model.held_out import (
+    HeldOutPrediction,
+    predict_condition,
+    predict_half,
+    predict_unseen,
+)
 from heartfit.discovery.sphere_model.limits import RECORD_PRESSURE, next_measurement
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, NominalHeart
 from heartfit.discovery.sphere_model.recording import UNSEARCHED, Recording, search_data
@@ -52,7 +57,7 @@ NAMING_VERDICTS = ("named", "two", "group")
 
 @dataclass(frozen=True, eq=False)
 class SearchedRecording:
-    """A recording with the findings of its search."""
+    """A recording with the findings of its search; ``unseen``: samples of the same beat that were kept from it."""
 
     recording: Recording
     model: SphereForwardModel
@@ -60,10 +65,15 @@ class SearchedRecording:
     data: Data
     findings: Findings
     rules: Rules
+    unseen: Recording | None = None
 
     @classmethod
     def search(
-        cls, recording: Recording, nominal: NominalHeart | None = None, rules: Rules = DEFAULT_RULES
+        cls,
+        recording: Recording,
+        nominal: NominalHeart | None = None,
+        rules: Rules = DEFAULT_RULES,
+        unseen: Recording | None = None,
     ) -> "SearchedRecording":
         """Fit every mechanism, pairs and the GP discrepancy to the recording; nominal: see :func:`diagnose`."""
         data = search_data(recording)
@@ -80,7 +90,7 @@ class SearchedRecording:
             lambda names: hypothesis(model, tuple(library[name] for name in names)),
             rules,
         )
-        return cls(recording, model, library, data, findings, rules)
+        return cls(recording, model, library, data, findings, rules, unseen)
 
     @cached_property
     def verdict(self) -> Verdict:
@@ -140,14 +150,16 @@ def diagnose(
     conditions: Mapping[str, Recording] | None = None,
     nominal: NominalHeart | None = None,
     rules: Rules = DEFAULT_RULES,
+    unseen: Recording | None = None,
 ) -> Diagnosis:
     """Diagnose the effects that the model of the heart lacks to explain the recording.
 
     conditions: recordings of the same heart under other loading, by name; only the loading is fitted to them. nominal:
-    a sphere that was fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None. Raises
-    InputError where the nominal heart does not beat.
+    a sphere that was fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None. unseen:
+    samples of the same beat, which judge a name and do not choose it; without them and without conditions half of the
+    recording judges. Raises InputError where the nominal heart does not beat.
     """
-    return conclude(SearchedRecording.search(recording, nominal, rules), conditions or {})
+    return conclude(SearchedRecording.search(recording, nominal, rules, unseen), conditions or {})
 
 
 def conclude(case: SearchedRecording, conditions: Mapping[str, Recording]) -> Diagnosis:
@@ -198,14 +210,17 @@ def predict_held_out(
 def predict_explanation(
     case: SearchedRecording, effects: Effects, conditions: Mapping[str, Recording]
 ) -> list[HeldOutPrediction]:
-    """Predictions without and with the effects, of every condition or, without any, of half of the recording."""
+    """Predictions without and with the effects: of conditions and unseen samples, else of half of the recording."""
     added = tuple(case.library[name] for name in effects)
     fits = case.findings.survey.baseline.fit.x, case.findings.explanation(effects).fit.x
     nominal = case.model.nominal
     tests = [
         predict_condition(name, nominal, search_data(condition), added, *fits)
         for name, condition in conditions.items()
-    ] or [predict_half(nominal, case.data, added, *fits)]
+    ]
+    if case.unseen is not None:
+        tests.append(predict_unseen(nominal, search_data(case.unseen), added, *fits))
+    tests = tests or [predict_half(nominal, case.data, added, *fits)]
     return [test for test in tests if test is not None]
 
 

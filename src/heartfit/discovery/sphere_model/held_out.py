@@ -1,9 +1,9 @@
-"""Gains of a cause on held-out data: half of the recording, or the same heart under another condition.
+"""Gains of a cause on held-out data: samples apart, half of the recording, or the same heart under another condition.
 
-Half of the recording: every other beat or, of a single beat, every other frame and every other 50 ms of pressure.
-Without and with the cause the model is fitted to one half and predicts the other. Another condition: the fitted model
-beats at the rate of that condition, and only its loading, the atrial pressure and the peripheral resistance, is
-refitted.
+Samples apart were kept from the search, and the models that it fitted predict them. Half of the recording: every other
+beat or, of a single beat, every other frame and every other 50 ms of pressure. Without and with the cause the model is
+fitted to one half and predicts the other. Another condition: the fitted model beats at the rate of that condition, and
+only its loading, the atrial pressure and the peripheral resistance, is refitted.
 
 The interval of the error ratio comes from a bootstrap over eighths of the beat: errors of neighbouring samples are not
 independent.
@@ -88,6 +88,17 @@ def predict_half(
     if predictions[0] is None or predictions[1] is None:
         return None
     return HeldOutPrediction("half of the recording", held, predictions[0], predictions[1])
+
+
+def predict_unseen(
+    nominal: NominalHeart, unseen: Data, effects: tuple[Candidate, ...], baseline: Floats, extended: Floats
+) -> HeldOutPrediction | None:
+    """Prediction of data that the search has not seen, by both models as they were fitted; None where a beat fails."""
+    model = _forward_model(nominal, unseen)
+    predictions = [hypothesis(model, added).forward(x) for added, x in (((), baseline), (effects, extended))]
+    if predictions[0] is None or predictions[1] is None:
+        return None
+    return HeldOutPrediction("samples that the search has not seen", unseen, predictions[0], predictions[1])
 
 
 def _fitted_mask(times: Floats, period: float, curve: str) -> np.ndarray:

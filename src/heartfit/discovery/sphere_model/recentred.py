@@ -165,13 +165,19 @@ def largest_log_bayes_factor(data: Data, nominal: NominalHeart) -> float:
     return max(single.log_evidence for single in fits if single is not None) - baseline.log_evidence
 
 
-def centred_search(recording: Recording, heart: Heart, beats: Sequence[Mapping[str, Curve]]) -> Diagnosis:
+def centred_search(
+    recording: Recording,
+    heart: Heart,
+    beats: Sequence[Mapping[str, Curve]],
+    unseen: Recording | None = None,
+) -> Diagnosis:
     """The diagnosis of a recording, the sphere centred on the first of the ``beats``, which is the ``heart``'s.
 
     The others are of the same model at other parameters: a sphere that finds effects in them fails its self-test, and
     the threshold of a detection is raised. The same holds where the sphere does not follow the first beat well: a heart
     without an effect gave an ln Bayes factor of 6 about a sphere that followed only to 0.13 kPa, and of 15 about the
-    adult's sphere. Beats without curves failed; where no sphere beats like the first one, the adult's is used.
+    adult's sphere. Beats without curves failed; where no sphere beats like the first one, the adult's is used. unseen:
+    see :func:`heartfit.discovery.sphere_model.diagnose.diagnose`.
     """
     first, *others = beats
     for followed, rules in ((recording.searched, CENTRED_RULES), ((), STRICT_RULES)):
@@ -179,13 +185,17 @@ def centred_search(recording: Recording, heart: Heart, beats: Sequence[Mapping[s
             nominal = fit_nominal_heart(heart, first, followed)
         except InputError:
             continue
-        return _diagnose_after_self_test(recording, nominal, [beat for beat in others if beat], rules)
-    return diagnose(recording, rules=STRICT_RULES)
+        return _diagnose_after_self_test(recording, nominal, [beat for beat in others if beat], rules, unseen)
+    return diagnose(recording, rules=STRICT_RULES, unseen=unseen)
 
 
 def _diagnose_after_self_test(
-    recording: Recording, nominal: NominalHeart, sound: Sequence[Mapping[str, Curve]], rules: Rules
+    recording: Recording,
+    nominal: NominalHeart,
+    sound: Sequence[Mapping[str, Curve]],
+    rules: Rules,
+    unseen: Recording | None,
 ) -> Diagnosis:
     result = self_test(recording, nominal, sound) if sound else None
     applied = rules if result is None or result <= SELF_TEST_LIMIT else STRICT_RULES
-    return replace(diagnose(recording, nominal=nominal, rules=applied), self_test=result)
+    return replace(diagnose(recording, nominal=nominal, rules=applied, unseen=unseen), self_test=result)

@@ -7,7 +7,7 @@ catheter's samples by 0.3 kPa each. Roughness is the residual of any model, disc
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.data import Block, Data, Noise
 from heartfit.observation.curve import require_pressures, require_volumes
+from heartfit.observation.second_reading import FrameNoise
 
 KNOWN_CURVES = ("lv_volume", "lv_pressure", "aorta_pressure", "rv_volume")
 """Curves that a recording may contain."""
@@ -64,11 +65,13 @@ class Samples:
 class Recording:
     """Curves by name, as in ``KNOWN_CURVES``, of a heart that beats with the ``period`` [s].
 
-    Raises InputError for a missing LV volume, an unknown or too short curve, and values outside the human range.
+    noise: of curves whose noise was measured, by name; the levels of the others are unknown. Raises InputError for a
+    missing LV volume, an unknown or too short curve, and values outside the human range.
     """
 
     period: float
     curves: Mapping[str, Samples]
+    noise: Mapping[str, FrameNoise] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not HUMAN_PERIODS[0] < self.period < HUMAN_PERIODS[1]:
@@ -160,8 +163,10 @@ def _needs_averaging(samples: Samples, period: float) -> bool:
 def _block(recording: Recording, name: str, times: Floats) -> Block:
     if name == "lv_volume":
         size = recording.end_diastolic_volume()
-        levels = tuple(size * level for level in VOLUME_LEVELS)
-        noise = Noise(levels, VOLUME_MEMORY, size * VOLUME_ROUGHNESS, size * VOLUME_DISCREPANCY)
+        levels, memory = tuple(size * level for level in VOLUME_LEVELS), VOLUME_MEMORY
+        if name in recording.noise:
+            levels, memory = (recording.noise[name].deviation,), recording.noise[name].memory
+        noise = Noise(levels, memory, size * VOLUME_ROUGHNESS, size * VOLUME_DISCREPANCY)
         return Block(name, "m^3", times, recording.period, noise)
     beats = max(1.0, np.ptp(recording.curves[name].times) / recording.period)
     levels = tuple(level / np.sqrt(beats) for level in PRESSURE_LEVELS)

@@ -1,0 +1,37 @@
+"""Two readings of a curve: the noise of their mean, against samples of known covariance."""
+
+import numpy as np
+import pytest
+
+from heartfit.core.errors import InputError
+from heartfit.observation.curve import Curve
+from heartfit.observation.second_reading import FrameNoise, TwoReadings
+
+FRAMES, PERIOD = 400, 13.3
+TIMES = np.arange(FRAMES) * PERIOD / FRAMES
+STEP = PERIOD / FRAMES
+TRUE = 100e-6 + 40e-6 * np.cos(2.0 * np.pi * TIMES / PERIOD)
+
+
+@pytest.mark.parametrize("memory", [0.0, 0.04])
+def test_the_noise_of_the_mean_is_recovered(memory: float) -> None:
+    rng, noise = np.random.default_rng(3), FrameNoise(2e-6, memory)
+    root = np.linalg.cholesky(noise.covariance(TIMES))
+    first, second = (Curve(TIMES, TRUE + root @ rng.standard_normal(FRAMES), PERIOD) for _ in range(2))
+    readings = TwoReadings(first, second)
+    found = readings.noise()
+    assert found.deviation == pytest.approx(2e-6 / np.sqrt(2.0), rel=0.12)
+    neighbours = [np.exp(-STEP / tau) if tau else 0.0 for tau in (found.memory, memory)]
+    assert neighbours[0] == pytest.approx(neighbours[1], abs=0.12)
+    assert np.std(readings.mean.values - TRUE) == pytest.approx(found.deviation, rel=0.15)
+
+
+def test_equal_readings_have_no_noise() -> None:
+    curve = Curve(TIMES, TRUE, PERIOD)
+    assert TwoReadings(curve, curve).noise() == FrameNoise(0.0, 0.0)
+
+
+def test_readings_of_other_frames_are_refused() -> None:
+    curve = Curve(TIMES, TRUE, PERIOD)
+    with pytest.raises(InputError, match="its times differ"):
+        TwoReadings(curve, curve.resampled(25))
