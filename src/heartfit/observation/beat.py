@@ -131,7 +131,8 @@ class BeatPhases:
     @classmethod
     def from_curves(cls, curves: Mapping[str, Curve]) -> "BeatPhases":
         """Find the phases from "aortic_flow" and "mitral_flow"; ValueError for a valve that never opens or closes."""
-        ejection, filling = (_open_samples(curves[f"{valve}_flow"]) for valve in ("aortic", "mitral"))
+        aortic, mitral_flow = curves["aortic_flow"], curves["mitral_flow"]
+        ejection, filling = _open_samples(aortic, mitral_flow), _open_samples(mitral_flow, aortic)
         mitral = filling.values
         early = int(mitral[: max(1, int(EARLY_PEAK_LIMIT * len(mitral)))].argmax())
         kick = int(ATRIAL_PEAK_LIMIT * len(mitral)) + int(
@@ -165,14 +166,20 @@ class BeatPhases:
         return sorted(parts, key=lambda part: part[1])
 
 
-def _open_samples(flow: Curve) -> Curve:
-    """Return the samples while the valve is open, in time from its opening; times may exceed the period."""
+def _open_samples(flow: Curve, other: Curve) -> Curve:
+    """Return the samples from the first opening of a valve to its last closing between two peaks of the ``other`` flow.
+
+    Blood that flows back in diastasis closes the mitral valve within its filling. The times increase from the opening
+    on and may exceed the period.
+    """
     is_open = flow.values > OPEN_FLOW_FRACTION * flow.values.max()
     if is_open.all() or not is_open.any():
         raise ValueError("phases of the beat: a valve never opens or never closes")
-    opening = int(np.flatnonzero(is_open & ~np.roll(is_open, 1))[0])
+    peak = int(other.values.argmax())
+    opening = int(np.flatnonzero(np.roll(is_open & ~np.roll(is_open, 1), -peak))[0] + peak) % is_open.size
     unrolled = Curve(_unrolled_times(flow, opening), np.roll(flow.values, -opening), flow.period)
-    last = int(np.roll(is_open, -opening).argmin()) + 1
+    until = (peak - opening) % is_open.size or is_open.size
+    last = int(np.flatnonzero(np.roll(is_open, -opening)[:until])[-1]) + 2
     return Curve(unrolled.times[:last], unrolled.values[:last], flow.period)
 
 
