@@ -51,12 +51,10 @@ def test_the_page_marks_what_is_not_normal_and_counts_hearts() -> None:
 
 def test_kept_draws_are_those_within_the_limits() -> None:
     values = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0])
-    entry = Kept.from_draws(
-        "slowness", (1.0, 0.5), values, np.array([False, False, True, True, False, False])
-    )
-    assert entry.kept == (2.5, 0.5)
-    assert entry.shift == pytest.approx(3.0)
-    assert entry.shares == (0.0, 1.0, 0.0)
+    entry = Kept.from_draws("slowness", (1.0, 0.5), values, np.array([False, True, True, True, False, False]))
+    assert entry.kept == pytest.approx((2.0, np.sqrt(2.0 / 3.0)))
+    assert entry.shift == pytest.approx(2.0)
+    assert entry.shares == (0.5, 1.0, 0.0)
     assert holds(INDICES, [Limit("E/A", 1.0, 2.0)])
     assert not holds(INDICES, [Limit("E/A", 1.0, 2.0), Limit("dip", 0.0, 0.5e-6)])
     assert not holds(None, [])
