@@ -19,11 +19,11 @@ def test_the_noise_of_the_mean_is_recovered(memory: float) -> None:
     root = np.linalg.cholesky(noise.covariance(TIMES))
     first, second = (Curve(TIMES, TRUE + root @ rng.standard_normal(FRAMES), PERIOD) for _ in range(2))
     readings = TwoReadings(first, second)
-    found = readings.noise()
-    assert found.deviation == pytest.approx(2e-6 / np.sqrt(2.0), rel=0.12)
-    neighbours = [np.exp(-STEP / tau) if tau else 0.0 for tau in (found.memory, memory)]
+    estimated = readings.noise()
+    assert estimated.deviation == pytest.approx(2e-6 / np.sqrt(2.0), rel=0.12)
+    neighbours = [np.exp(-STEP / tau) if tau else 0.0 for tau in (estimated.memory, memory)]
     assert neighbours[0] == pytest.approx(neighbours[1], abs=0.12)
-    assert np.std(readings.mean.values - TRUE) == pytest.approx(found.deviation, rel=0.15)
+    assert np.std(readings.mean.values - TRUE) == pytest.approx(estimated.deviation, rel=0.15)
 
 
 def test_equal_readings_have_no_noise() -> None:
