@@ -17,8 +17,10 @@ from heartfit.heart.finite_elements.body import FiniteElementBody
 from heartfit.heart.finite_elements.unloading import unload
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
+from heartfit.roles import Dynamics, registered
 from verification.audit import Audit, audit, isovolumic_drift, lost_blood
 from verification.block_checks import order
+from verification.blood_audit import BloodAudit, audit_blood
 from verification.check import Check
 from verification.specimen import COARSE, END_DIASTOLIC_PRESSURE, specimen
 
@@ -31,16 +33,22 @@ SMALL = 1e-10
 
 @dataclass(frozen=True)
 class AuditedBeat:
-    """A first beat with its states and their audit."""
+    """A first beat with its states and their audits, of the wall and of the blood."""
 
     beat: Beat
     states: Sequence[HeartState]
     audit: Audit
+    blood: BloodAudit
 
     @property
     def remainder(self) -> float:
         """Energy lost by the time scheme over the work of ejection [1]."""
         return self.audit.remainder / self.audit.ejecting
+
+    @property
+    def blood_remainder(self) -> float:
+        """Energy of the blood that the time scheme loses, over the work of ejection [1]."""
+        return self.blood.remainder / self.audit.ejecting
 
 
 def audit_checks() -> list[Check]:
@@ -80,6 +88,29 @@ def audit_checks() -> list[Check]:
     ]
 
 
+def blood_checks() -> list[Check]:
+    """Check the energy of the blood, with valves as they are and with inertance and leaflets in all four."""
+    fine, coarse = watched(USUAL_STEP), watched(LONG_STEP)
+    heart = heart_with_valve_dynamics()
+    moving = watched(USUAL_STEP, heart=heart)
+    blood = np.abs(lost_blood(heart, moving.states)).max() / np.ptp(moving.beat.volume["lv"])
+    observed = order(abs(coarse.blood_remainder), abs(fine.blood_remainder))
+    closed, four = "closes but for the error in time", "inertance and leaflets in four valves"
+    return [
+        Check("blood: energy lost over work, 5 ms", 100 * fine.blood_remainder, 0.0, 0.2, "%", closed),
+        Check("blood: order of it, 10 to 5 ms", observed, 2.0, 0.35, "1", "second-order steps"),
+        Check("blood: energy lost, moving valves", 100 * moving.blood_remainder, 0.0, 0.2, "%", four),
+        Check("audit: energy lost, moving valves", 100 * moving.remainder, 0.0, 0.2, "%", four),
+        Check("audit: blood lost, moving valves", blood / SMALL, 0.0, 1.0, "1e-10", "conserved"),
+    ]
+
+
+def heart_with_valve_dynamics() -> Heart:
+    """Standard heart with inertance and leaflets in its four valves."""
+    valves = (kind() for kind in registered().values() if issubclass(kind, Dynamics))
+    return Heart(mechanisms=(*Heart().mechanisms, *valves))
+
+
 @cache
 def reference() -> VentricularMesh:
     """Stress-free reference of the coarse specimen."""
@@ -87,12 +118,13 @@ def reference() -> VentricularMesh:
 
 
 @cache
-def watched(time_step: float, second_order: bool = True) -> AuditedBeat:
-    """Simulate and audit the first beat at a time step [s]."""
-    heart, states = Heart(), list[HeartState]()
+def watched(time_step: float, second_order: bool = True, heart: Heart | None = None) -> AuditedBeat:
+    """Simulate and audit the first beat of ``heart``, the standard one by default, at a time step [s]."""
+    heart, states = heart or Heart(), list[HeartState]()
     body = FiniteElementBody(reference(), heart.muscle)
     beat = simulate(heart, body, _numerics(time_step, second_order), watch=states.extend)
-    return AuditedBeat(beat, states, audit(body, states, heart.period, second_order))
+    blood = audit_blood(heart, states, heart.period / (len(states) - 1))
+    return AuditedBeat(beat, states, audit(body, states, heart.period, second_order), blood)
 
 
 @cache
@@ -145,6 +177,28 @@ def audit_table() -> str:
     head = table_row("J", *columns) + f"|---|{'---|' * len(columns)}\n"
     energies = [_lines(beat) for beat in columns.values()]
     return head + "".join(_row(name, [lines[name] for lines in energies]) for name in energies[0])
+
+
+def blood_table() -> str:
+    """Energies of the blood in the first beat [J] in Markdown, one column for each kind of valves."""
+    columns = {
+        "valves without states": watched(USUAL_STEP),
+        "with inertance and leaflets": watched(USUAL_STEP, heart=heart_with_valve_dynamics()),
+    }
+    head = table_row("J, 5 ms", *columns) + f"|---|{'---|' * len(columns)}\n"
+    energies = [_blood_lines(beat.blood) for beat in columns.values()]
+    return head + "".join(_row(name, [lines[name] for lines in energies]) for name in energies[0])
+
+
+def _blood_lines(blood: BloodAudit) -> dict[str, float]:
+    return {
+        "work of the atria": blood.atria,
+        "work of the walls": blood.walls,
+        "work that the arteries take": blood.arteries,
+        **{f"lost in the {name} valve": energy for name, energy in blood.lost.items()},
+        "stored: kinetic": blood.kinetic,
+        "remainder": blood.remainder,
+    }
 
 
 def _lines(audited: AuditedBeat) -> dict[str, float]:

@@ -4,7 +4,7 @@ import numpy as np
 
 from heartfit.core.pages import render_page, table_row
 from verification.arostica import arostica_checks
-from verification.audit_checks import audit_checks, audit_table, limit_cycle
+from verification.audit_checks import audit_checks, audit_table, blood_checks, blood_table, limit_cycle
 from verification.block_checks import HARD, SIZES, SOFT, USUAL, block_checks, block_error
 from verification.check import Check
 from verification.land import coarse_land_checks, fine_land_checks, land_table
@@ -27,6 +27,7 @@ def all_checks() -> list[Check]:
         + coarse_land_checks()
         + reference_checks()
         + audit_checks()
+        + blood_checks()
     )
 
 
@@ -47,6 +48,7 @@ def verification_page() -> str:
         reference=reference_table(first_beats()),
         beats=limit_cycle().diagnostics["beats"],
         audit=audit_table(),
+        blood=blood_table(),
     )
 
 
