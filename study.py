@@ -232,7 +232,7 @@ def slurm(arguments: list[str]) -> int:
     The arguments are those of `python -m tests.slurm`. An executor that is left installed asks the controller at every
     start of Snakemake, in each job too, and waits nine seconds where none answers.
     """
-    pip = [*create_environment()]
+    pip = create_environment()
     hashed = ("--no-deps", "--require-hashes", "-r", str(SLURM_LOCK))
     subprocess.run([*pip, "install", "--quiet", "--disable-pip-version-check", *hashed], check=True)
     try:

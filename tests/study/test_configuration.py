@@ -192,6 +192,7 @@ def test_cases_are_read_in_si_units(tmp_path):
     ("text", "expected"),
     [
         ("case\tkind\tperiod_s\na\tmeasured\t900\n", "line 2: period = 900"),
+        ("case\tkind\tperiod_s\na\tphantom\t0.9\n", "line 2: kind = 'phantom'.*'measured' or 'virtual'"),
         (
             "case\tkind\tperiod_s\na\tmeasured\tfast\n",
             "line 2: period = 'fast'",

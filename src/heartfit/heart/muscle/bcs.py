@@ -188,7 +188,11 @@ def _bridge_root(d, rate, attach, n_0, dt, second_order, constants, k):  # type:
 
 @njit(cache=True, error_model="numpy")
 def bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam):  # type: ignore[no-untyped-def]
-    """Stiffness at the end of the step, mean of lambda_c, bridge stress tau# and its derivative by ``d``."""
+    """Response of the bridges to the increment ``d`` of e_c.
+
+    Returned are their stiffness at the end of the step, the mean of lambda_c, the stress tau# and its derivative by
+    ``d``, and the mean of sqrt(k_c) and its derivative, on which the friction depends.
+    """
     sigma_0, k_0, alpha = constants[0], constants[1], constants[2]
     new, root, droot = _bridge_root(d, rate, attach, n_0, dt, second_order, constants, k)
     slope = alpha if d >= 0.0 else -alpha
@@ -198,16 +202,15 @@ def bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam):  # type:
     mean = (lam + 0.5 * (root * d + gain)) * shrink
     dnum = 0.5 * (droot * d + root - gain * inverse * droot)
     dmean = (dnum - mean * (0.25 * slope - 2.0 * loss * inverse * droot)) * shrink
-    return new, mean, root * mean, droot * mean + root * dmean
+    return new, mean, root * mean, droot * mean + root * dmean, root, droot
 
 
 @njit(cache=True, error_model="numpy")
-def friction(d, rate, attach, n_0, dt, second_order, constants, k):  # type: ignore[no-untyped-def]
-    """Friction mu(k_c) [Pa s] at the mean stiffness of the bridges over the step, and its derivative by ``d``."""
+def friction(constants, root, droot):  # type: ignore[no-untyped-def]
+    """Friction mu(k_c) [Pa s] at the mean ``root`` of sqrt(k_c), and its derivative by d, from that of the mean."""
     k_0, mu, rest = constants[1], constants[3], constants[6]
     if rest == 1.0:
         return mu, 0.0
-    _, root, droot = _bridge_root(d, rate, attach, n_0, dt, second_order, constants, k)
     bound = 2.0 * root * root / k_0
     if bound >= 1.0:
         return mu, 0.0
@@ -221,9 +224,9 @@ def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new,
     low, high = -LARGEST_INCREMENT, LARGEST_INCREMENT
     d = min(max(d, low), high)
     for _ in range(60):
-        _, _, tau, tau_d = bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
+        _, _, tau, tau_d, root, droot = bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
         s, s_e, s_d, c, c_e, c_d = spring_response(d, e_old, e_new, e_c, E_s, additive)
-        mu, mu_d = friction(d, rate, attach, n_0, dt, second_order, constants, k)
+        mu, mu_d = friction(constants, root, droot)
         value, slope = tau + mu * d / dt - c, tau_d + (mu + mu_d * d) / dt - c_d
         if value > 0.0:
             high = d
@@ -257,7 +260,8 @@ def _advance(rate, attach, n_0, dt, second_order, constants, state, increment): 
     new = np.empty_like(state)
     for i in range(increment.size):
         d, k, lam = increment[i], state[1, i], state[2, i]
-        stiffness, mean, _, _ = bridges(d, rate[i], attach[i], n_0[i], dt, second_order, constants, k, lam)
+        drive = rate[i], attach[i], n_0[i], dt, second_order
+        stiffness, mean = bridges(d, *drive, constants, k, lam)[:2]
         new[0, i] = state[0, i] + d
         new[1, i] = stiffness
         new[2, i] = 2.0 * mean - lam

@@ -57,8 +57,8 @@ class SphericalHeart:
         )
         self._network = Network(heart.circulation, heart.mechanisms, len(spheres))
         self.branches = self._network.names
-        self._leaflets = self._network.leaflets.copy()
-        self._leaflets[:, 0] += [dict(inertia.valves).get(name, 0.0) for name in self.branches]
+        self._leaflets, inertances = self._network.leaflets.copy(), dict(inertia.valves)
+        self._leaflets[:, 0] += [inertances.get(name, 0.0) for name in self.branches]
 
     def inputs(self, start: Floats, length: float) -> StepInputs:
         """Inputs of steps of ``length`` [s] that begin at ``start`` (n,) [s]."""

@@ -195,7 +195,7 @@ def commit_fibres(active, step, sides, fibres):  # type: ignore[no-untyped-def]
                 step.length,
                 step.second_order,
             )
-            stiffness, mean, _, _ = bridges(d, *drive, active, fibres[rows.K_C, i], lam)
+            stiffness, mean = bridges(d, *drive, active, fibres[rows.K_C, i], lam)[:2]
             fibres[rows.E_C, i] += d
             fibres[rows.K_C, i], fibres[rows.LAMBDA, i] = stiffness, 2.0 * mean - lam
             fibres[rows.RATE, i] = d / step.length

@@ -24,6 +24,7 @@ from heartfit.observation.noise_model import NoiseModel
 from heartfit.results.card import Card, comparable_truth
 from heartfit.results.case import CaseResult
 from heartfit.results.text import NOTES
+from heartfit.study.case import Kind
 
 Curves = Mapping[str, Curve]
 
@@ -132,7 +133,7 @@ class CaseRecord:
     """
 
     name: str
-    kind: str
+    kind: Kind
     conduction: str
     mesh: VentricularMesh
     registered: Motion
