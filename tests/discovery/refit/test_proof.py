@@ -8,7 +8,7 @@ import pytest
 
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.discovery.refit.model import Extension
-from heartfit.discovery.refit.refit import Refit, continue_refit, refit
+from heartfit.discovery.refit.refit import Refit, continue_refit, refit, restart_refit
 from heartfit.discovery.refit.target import BIN, BLOCK, MeasuredCase, Split, Target, average_bins, covariance
 from heartfit.discovery.refit.verdict import causes_of
 from heartfit.heart.beat import Beat, failed_beat
@@ -210,6 +210,20 @@ def test_a_refit_from_the_end_of_the_baseline_finds_the_extension(
     assert continued.objective == pytest.approx(extended.objective, abs=1.0)
     assert continued.log_evidence == pytest.approx(extended.log_evidence, abs=1.5)
     assert continued.simulations < extended.simulations + 5
+
+
+def test_a_refit_from_the_prior_means_takes_the_first_slopes_of_the_baseline(
+    case: MeasuredCase, refits: tuple[Refit, Refit]
+) -> None:
+    none, extended = refits
+    extension = Extension.from_names(PLAIN, "MitralRegurgitation")
+    assert none.first_slopes.shape == none.slopes.shape
+    assert not np.allclose(none.first_slopes, none.slopes)
+    restarted = restart_refit(extension, run, target(case), 20, none)
+    assert restarted.objective == pytest.approx(extended.objective, abs=1.0)
+    assert restarted.first_slopes[:, :2] == pytest.approx(none.first_slopes)
+    shifted = replace(none, first_slopes=np.zeros_like(none.first_slopes))
+    assert restart_refit(extension, run, target(case), 0, shifted).slopes[:, :2] == pytest.approx(0.0)
 
 
 def test_an_absent_effect_ends_at_zero_at_the_optimum_of_the_baseline() -> None:

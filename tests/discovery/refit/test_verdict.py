@@ -62,6 +62,7 @@ def fitted(extension: Extension, evidence: float) -> Refit:
         True,
         x,
         covariance,
+        covariance,
     )
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.discovery.refit.model import Extension, Model, ObservedBeat
-from heartfit.discovery.refit.refit import Refit, continue_refit, refit
+from heartfit.discovery.refit.refit import Refit, continue_refit, refit, restart_refit
 from heartfit.discovery.refit.target import MeasuredCase, Target
 from heartfit.discovery.refit.verdict import Proof, TriedExtension, apply_proof, propose_extensions
 from heartfit.discovery.sphere_model.cause import Attempt, Diagnosis
@@ -50,7 +50,7 @@ class ExtensionTrial:
         """
         both = (
             self.continue_refit(extension, base),
-            refit(extension, self.model, self.target, self.most_steps),
+            restart_refit(extension, self.model, self.target, self.most_steps, base),
         )
         best = min(both, key=lambda fit: fit.objective)
         return replace(best, simulations=sum(fit.simulations for fit in both))

@@ -8,8 +8,8 @@ switched on. Its slopes :math:`A = \mathrm{Cov}(Z, X) P^{-1}` start the descent 
 see :mod:`heartfit.discovery.inference.descent`: a step costs one beat, and Broyden's update corrects the slopes after
 each. Slopes are never recomputed: a 3-D beat is too expensive, and its limit cycle too rough for short differences.
 The end of the descent is the estimate, with the covariance :math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. An
-extension may also start at the estimate of the model without it, with the slopes there. This takes a fifth of the
-beats, and does not miss weak effects. Laplace's approximation
+extension starts where the model without it started and where it ended, with the slopes there and one more beat for each
+further unknown. Laplace's approximation
 
 .. math:: \ln Z = -\tfrac12 r^T R^{-1} r - \tfrac12 |x|^2 + \tfrac12 \ln |C|
           + \sum_{a \ge 0} \ln 2 \Phi(x_a / \sigma_a) + \mathrm{const}
@@ -52,7 +52,7 @@ class Refit:
 
     misfit: r^T R^-1 r of n samples at the estimate; objective: the minimised function; log_evidence: up to a
     constant of the samples; simulations: number of beats; converged: no step was predicted to lower the objective;
-    predicted (n,), slopes (n, d): of the samples at the estimate.
+    predicted (n,), slopes (n, d): of the samples at the estimate; first_slopes (n, d): those of the unscented step.
     """
 
     names: tuple[str, ...]
@@ -67,6 +67,7 @@ class Refit:
     converged: bool
     predicted: Floats
     slopes: Floats
+    first_slopes: Floats
 
     @property
     def sd(self) -> Floats:
@@ -82,7 +83,8 @@ def refit(extension: Extension, run: Run, target: Target, most: int, amplitude: 
     """
     forward = _Forward(extension, run, target)
     start = extension.start(amplitude)
-    return _descend(forward, start, *_unscented(extension.names, forward, start), most)
+    predicted, slopes = _unscented(extension.names, forward, start)
+    return _descend(forward, start, predicted, slopes, slopes, most)
 
 
 def continue_refit(extension: Extension, run: Run, target: Target, most: int, base: Refit) -> Refit:
@@ -90,14 +92,39 @@ def continue_refit(extension: Extension, run: Run, target: Target, most: int, ba
 
     Raises CalibrationError if the beat there fails.
     """
+    return _extend(extension, run, target, most, base, base.estimate, base.slopes, 0.5)
+
+
+def restart_refit(extension: Extension, run: Run, target: Target, most: int, base: Refit) -> Refit:
+    """Refit from the prior means with the last mechanisms at one scale, and the first slopes of the model without them.
+
+    Raises CalibrationError if the beat there fails.
+    """
+    start = extension.start()[: base.estimate.size]
+    return _extend(extension, run, target, most, base, start, base.first_slopes, 1.0)
+
+
+def _extend(
+    extension: Extension,
+    run: Run,
+    target: Target,
+    most: int,
+    base: Refit,
+    kept: Floats,
+    slopes: Floats,
+    amplitude: float,
+) -> Refit:
+    """Refit from the coordinates ``kept`` (k,) of the base, with their slopes (n, k)."""
     forward = _Forward(extension, run, target)
-    kept = base.estimate.size
-    start = np.concatenate([base.estimate, extension.start(0.5)[kept:]])
+    start = np.concatenate([kept, extension.start(amplitude)[kept.size :]])
     predicted = forward(start)
     if predicted is None:
-        raise CalibrationError(f"refit: {', '.join(extension.effects)} half a scale on does not beat")
-    added = [_column(forward, start, predicted, index) for index in range(kept, start.size)]
-    return _descend(forward, start, predicted, np.column_stack([base.slopes, *added]), most)
+        raise CalibrationError(
+            f"refit: {', '.join(extension.effects)} at {amplitude:g} of the scale does not beat"
+        )
+    added = [_column(forward, start, predicted, index) for index in range(kept.size, start.size)]
+    with_added, first = (np.column_stack([known, *added]) for known in (slopes, base.first_slopes))
+    return _descend(forward, start, predicted, with_added, first, most)
 
 
 def _column(forward: "_Forward", start: Floats, predicted: Floats, index: int) -> Floats:
@@ -110,7 +137,9 @@ def _column(forward: "_Forward", start: Floats, predicted: Floats, index: int) -
     return (predicted - prediction) / (start[index] - shifted[index])
 
 
-def _descend(forward: "_Forward", start: Floats, predicted: Floats, slopes: Floats, most: int) -> Refit:
+def _descend(
+    forward: "_Forward", start: Floats, predicted: Floats, slopes: Floats, first_slopes: Floats, most: int
+) -> Refit:
     extension, target = forward.extension, forward.target
     lower = np.where(extension.one_sided, 0.0, -np.inf)
     problem = InverseProblem(forward, target.values(), target, lower)
@@ -134,6 +163,7 @@ def _descend(forward: "_Forward", start: Floats, predicted: Floats, slopes: Floa
         descent.converged,
         descent.predicted,
         descent.jacobian,
+        first_slopes,
     )
 
 
