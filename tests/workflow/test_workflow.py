@@ -7,6 +7,8 @@ import pytest
 
 VOLUNTEERS, PATIENTS, SETTINGS = 7, 2, 2
 POINTS_OF_COHORT = SETTINGS * (VOLUNTEERS * 9 + PATIENTS * 15)
+POINTS_OF_BOTH_VENTRICLES = 15
+"""Sigma points of the third setting, which is for the measured heart."""
 
 
 LIST_RULES = """
@@ -101,7 +103,9 @@ def test_the_measured_heart_is_one_more_case(workflow, measured_heart_folder):
     imaged = len(list((measured_heart_folder / "cine").glob("sax*")))
     assert counts.get("register_cine", 0) == counts.get("compare_cine", 0) == min(imaged, 1)
     assert ("registration of images left out" in run.stdout) == (imaged == 0)
-    assert counts["simulate_point"] == POINTS_OF_COHORT + SETTINGS * 9
+    assert counts["simulate_point"] == POINTS_OF_COHORT + SETTINGS * 9 + POINTS_OF_BOTH_VENTRICLES
+    assert counts["simulate_calibrated"] == SETTINGS * (VOLUNTEERS + PATIENTS + 1) + 1
+    assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
 
 
 def test_a_spoilt_measured_heart_is_refused_in_one_line_before_anything_runs(workflow):

@@ -5,14 +5,18 @@ from heartfit.io.sources import source_files
 
 TABLE_SUFFIXES = ("csv", "md", "tex")
 NOISE_MODEL = "<results>/registration_error/noise_model.json"
-POSTERIORS = {
-    "noise_free": [
-        f"<results>/{case}/{setting}/calibration/posterior.json" for case, setting in CALIBRATIONS
-    ],
-    "noise_aware": [
-        f"<results>/{case}/{setting}/calibration/posterior_noise.json" for case, setting in CALIBRATIONS
-    ],
-}
+
+
+def posteriors(calibrations):
+    """Files of both posteriors of pairs of case and setting."""
+    folders = [f"<results>/{case}/{setting}/calibration" for case, setting in calibrations]
+    return {
+        "noise_free": [f"{folder}/posterior.json" for folder in folders],
+        "noise_aware": [f"{folder}/posterior_noise.json" for folder in folders],
+    }
+
+
+POSTERIORS, COMMON_POSTERIORS = posteriors(CALIBRATIONS), posteriors(COMMON_CALIBRATIONS)
 TRUTHS = expand("<results>/{case}/cohort/truth.json", case=GROUPS.virtual)
 POSTERIORS_AND_TRUTHS = POSTERIORS | {"truths": TRUTHS}
 
@@ -67,9 +71,15 @@ def list_perturbation_beats(setting):
     return expand("<results>/sensitivity/{setting}/beats/{point}.json", setting=setting, point=points)
 
 
+def sensitivities(wildcards):
+    """Sensitivities of the left and of the right observations to the parameters of the setting's model."""
+    folder = f"<results>/sensitivity/{PERTURBED_AS[wildcards.setting]}"
+    return [f"{folder}/sensitivity.json", f"{folder}/right.json"]
+
+
 def calibrated_shapes(cases):
     """Shapes of the calibrated motions of some cases in all settings."""
-    return expand("<results>/{case}/{setting}/verification/shape.csv", case=cases, setting=SETTINGS)
+    return expand("<results>/{case}/{setting}/verification/shape.csv", case=cases, setting=COMMON_SETTINGS)
 
 
 def wall_files(wildcards):
@@ -155,9 +165,9 @@ STUDY_FIGURES = [
     *METHOD_FIGURES,
     *(["septal_flash"] if GROUPS.patients else []),
     *(f"{case}_activation" for case in CASES),
-    *(f"sensitivity{topic}_{setting}" for topic in ("", "_curves") for setting in SETTINGS),
+    *(f"sensitivity{topic}_{setting}" for topic in ("", "_curves") for setting in PERTURBED_SETTINGS),
     *(f"{case}_contours" for case in VIRTUAL + IMAGED),
-    *(f"{case}_{SETTINGS[-1]}_overlay" for case in SEPTAL_FLASH_CASES),
+    *(f"{case}_{COMMON_SETTINGS[-1]}_overlay" for case in SEPTAL_FLASH_CASES),
     *(f"{case}_cine_{topic}" for case in FITTED_WITH_IMAGES for topic in ("outlines", "volume")),
     *(f"residual_{case}_{setting}" for case, setting in CALIBRATIONS),
 ]
@@ -165,7 +175,7 @@ STUDY_TABLES = [
     "table1",
     "cards",
     *(["specificity", "selection"] if VIRTUAL else []),
-    *(f"sensitivity_{setting}" for setting in SETTINGS),
+    *(f"sensitivity_{setting}" for setting in PERTURBED_SETTINGS),
 ]
 
 
@@ -177,7 +187,7 @@ def study_tables():
 
 
 def inference_data():
-    return expand("<results>/{case}/{setting}/inference.nc", case=CASES, setting=SETTINGS)
+    return [f"<results>/{case}/{setting}/inference.nc" for case, setting in CALIBRATIONS]
 
 
 def study_figures():
@@ -190,7 +200,7 @@ def study_figures():
 def study_beats():
     """Beats of all sigma points and perturbations: Snakemake misses a deleted beat only if it is a target."""
     calibrations = [beat for pair in CALIBRATIONS for beat in list_sigma_point_beats(*pair)]
-    return [*calibrations, *list_perturbation_beats(SETTINGS)]
+    return [*calibrations, *list_perturbation_beats(PERTURBED_SETTINGS)]
 
 
 def study_causes():

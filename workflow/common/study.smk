@@ -34,7 +34,12 @@ onstart:
 
 STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources
 SETTINGS = list(STUDY.settings)
-CALIBRATIONS = [(case, setting) for case in CASES for setting in SETTINGS]
+COMMON_SETTINGS = list(STUDY.common_settings())
+CALIBRATIONS = [(case, setting) for case in CASES for setting in STUDY.settings_of(case)]
+COMMON_CALIBRATIONS = [(case, setting) for case, setting in CALIBRATIONS if setting in COMMON_SETTINGS]
+# settings whose perturbed beats are simulated; others of the same model and prior use them too
+PERTURBED_AS = {setting: STUDY.perturbed_as(setting) for setting in SETTINGS}
+PERTURBED_SETTINGS = list(dict.fromkeys(PERTURBED_AS.values()))
 
 
 def cases_of_kind(kind):
@@ -96,6 +101,11 @@ def match_any(names):
 
 def case_of(wildcards):
     return CASES[wildcards.case]
+
+
+def curves_besides(wildcards):
+    """Curves of a case that are observed besides those of the left ventricle."""
+    return STUDY.curves_besides(wildcards.case)
 
 
 def filling_pressures_of(wildcards):

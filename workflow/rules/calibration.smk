@@ -42,7 +42,7 @@ rule update_parameters:
         measured="<results>/{case}/curves/measured.csv",
         observations="<results>/{case}/curves/observations.json",
         beats=sigma_point_beats,
-        sensitivity="<results>/sensitivity/{setting}/sensitivity.json",
+        sensitivities=sensitivities,
     output:
         multiext(
             "<results>/{case}/{setting}/calibration/posterior", noise_free=".json", noise_aware="_noise.json"

@@ -28,7 +28,8 @@ rule extract_curves:
     params:
         operator=STUDY.observation,
         protocol=STUDY.protocol(),
-        stated=configuration_text(STUDY.observation),
+        also=curves_besides,
+        stated=configuration_text(STUDY.observation, curves_besides),
     script:
         "../scripts/extract_curves.py"
 

@@ -88,6 +88,6 @@ rule plot_septal_flash:
         figure=figure_files("septal_flash", "septal_flash", "Cohort"),
     params:
         cases=SEPTAL_FLASH_CASES,
-        settings=SETTINGS,
+        settings=COMMON_SETTINGS,
     script:
         "../scripts/plot_septal_flash.py"

@@ -37,6 +37,7 @@ rule analyse_sensitivity:
         limits="resources/plausible_beat.csv",
     output:
         sensitivity="<results>/sensitivity/{setting}/sensitivity.json",
+        right="<results>/sensitivity/{setting}/right.json",
         ranges="<results>/sensitivity/{setting}/ranges.json",
     params:
         setting=perturbed_setting_of,
@@ -83,8 +84,8 @@ rule plot_surroundings:
 
 rule tabulate_selection:
     input:
-        sensitivities=expand("<results>/sensitivity/{setting}/sensitivity.json", setting=SETTINGS),
-        ranges=expand("<results>/sensitivity/{setting}/ranges.json", setting=SETTINGS),
+        sensitivities=expand("<results>/sensitivity/{setting}/sensitivity.json", setting=PERTURBED_SETTINGS),
+        ranges=expand("<results>/sensitivity/{setting}/ranges.json", setting=PERTURBED_SETTINGS),
         sobol="<results>/sensitivity/sobol.json",
     output:
         selection=table_files("selection"),
@@ -93,7 +94,7 @@ rule tabulate_selection:
         bulk_modulus=table_files("bulk_modulus"),
         figure=figure_files("sobol", "sobol", "Parameters"),
     params:
-        settings=SETTINGS,
+        settings=PERTURBED_SETTINGS,
         estimated=STUDY.estimated(),
         units=SPHERE.units(),
     script:

@@ -8,7 +8,7 @@ ORIGIN = Origin(
 
 rule make_tables:
     input:
-        cases=expand("<results>/{case}/{setting}/verification/errors.json", case=CASES, setting=SETTINGS),
+        cases=[f"<results>/{case}/{setting}/verification/errors.json" for case, setting in CALIBRATIONS],
         truths=TRUTHS,
         paper=expand("resources/marchesseau2012/{name}.csv", name=("table1", "table2", "patients")),
     output:
@@ -38,13 +38,14 @@ rule make_cards:
 
 rule compare_groups:
     input:
-        **POSTERIORS_AND_TRUTHS,
+        **COMMON_POSTERIORS,
+        truths=TRUTHS,
     output:
         reported_tables("specificity", "claims"),
         figure_files("specificity", "specificity", "Cohort"),
     params:
         results=results_folder,
-        calibrated=CALIBRATIONS,
+        calibrated=COMMON_CALIBRATIONS,
         groups=GROUPS,
         stated=configuration_text(GROUPS),
     script:

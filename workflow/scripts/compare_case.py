@@ -21,7 +21,7 @@ curves = {
     "calibrated": beat_curves(calibrated, sensors[1]),
 }
 measurement = read_observations(Path(files.observations))
-features = snakemake.params.operator.features(curves["measured"])
+features = snakemake.params.operator.features(curves["measured"], setting.observe)
 result = summarise(
     identity, posterior, measurement, curves, features, setting.units(), calibrated.diagnostics
 )

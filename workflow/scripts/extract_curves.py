@@ -18,6 +18,6 @@ volumes = cavity_volumes(read_mesh(Path(files.mesh)), read_motion(Path(files.mot
 pressures = map(read_curves, map(Path, files.get("pressure", [])))
 curves = reduce(or_, pressures, volumes)
 models = list(map(read_noise_model, map(Path, files.get("noise", []))))
-measurement = observe_case(curves, params.operator, models, params.protocol)
+measurement = observe_case(curves, params.operator, models, params.protocol, params.also)
 write_curves(Path(snakemake.output.curves), curves)
 write_observations(Path(snakemake.output.observations), measurement, params.code)

@@ -16,8 +16,7 @@ measurement = read_observations(Path(files.observations))
 beats = list(map(read_beat, map(Path, files.beats)))
 measured = read_curves(Path(files.measured))
 arguments = (params.setting, prior, points, beats, measured, measurement, params.operator)
-observed = read_sensitivity(Path(files.sensitivity))
-slopes = Slopes(observed.parameters, observed.observations, observed.slopes)
+slopes = Slopes.from_parts(list(map(read_sensitivity, map(Path, files.sensitivities))))
 noise_free, noise_aware = (
     estimate(*arguments, params.transform),
     estimate(*arguments, params.transform.with_noise(), slopes),

@@ -51,6 +51,12 @@ class Slopes:
     observations: tuple[str, ...]
     relative: np.ndarray
 
+    @classmethod
+    def from_parts(cls, parts: "Sequence[Sensitivity]") -> Self:
+        """Return the slopes of different observations with respect to the same parameters."""
+        observations = tuple(name for part in parts for name in part.observations)
+        return cls(parts[0].parameters, observations, np.hstack([part.slopes for part in parts]))
+
     def covariance(self, estimated: Collection[str], observed: Mapping[str, float], sd: float) -> np.ndarray:
         """R_fixed (m, m), in the units and order of `observed`, of all parameters that are not estimated.
 

@@ -38,7 +38,7 @@ def plan_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--kind", choices=("measured", "virtual"), default="measured", help="kind of the subjects"
     )
-    command.add_argument("--setting", nargs="+", default=[], help="settings; all if not given")
+    command.add_argument("--setting", nargs="+", default=[], help="settings; those of all cases if not given")
     command.add_argument("--pressure", action="store_true", help="with a recorded left ventricular pressure")
     command.add_argument(
         "--cpus", type=_positive, default=200, help="number of CPUs that run jobs in parallel"
@@ -54,7 +54,7 @@ def plan(arguments: argparse.Namespace) -> int:
         read_table(Need, arguments.costs / NEEDS),
         read_table(Footprint, arguments.costs / FOOTPRINTS),
     )
-    settings = arguments.setting or [*study.settings]
+    settings = arguments.setting or [*study.common_settings()]
     subjects = Subjects(
         arguments.cases, arguments.kind, len(settings), _points(study, settings, arguments.pressure)
     )

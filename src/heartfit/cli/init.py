@@ -23,7 +23,8 @@ HEAD = """\
 results: results/{case}
 cases: config/{case}.tsv # one row: period of the beat; conduction: healthy, or lbbb with the QRS duration
 settings:
-  paper: null # removes the other setting of the study
+  paper: null # removes a setting of the study
+  biventricular: null # or `cases: [{case}]`, which fits the volume of the right ventricle, too
 sensitivity:
   case: {case}
 """

@@ -20,11 +20,12 @@ from heartfit.results.model_space import ModelSpace
 def read_calibrated(results: Path, case: str, setting: str) -> Calibrated:
     """Read the results of a case under a setting; raises InputError for a missing or broken file."""
     whole, below = Path(results, case), Path(results, case, setting)
+    noise_free = read_posterior(below / "calibration" / "posterior.json")
     return Calibrated(
         read_case(below / "verification" / "errors.json"),
-        read_posterior(below / "calibration" / "posterior.json"),
+        noise_free,
         read_posterior(below / "calibration" / "posterior_noise.json"),
-        read_observations(whole / "curves" / "observations.json"),
+        read_observations(whole / "curves" / "observations.json").of(noise_free.observations),
         read_curves(whole / "curves" / "measured.csv"),
         beat_curves(read_beat(below / "verification" / "beat.json")),
     )

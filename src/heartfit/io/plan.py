@@ -89,7 +89,14 @@ def _contradictions(study: Study, cases: Mapping[str, Case]) -> list[str]:
         for name in study.discovery.cases
         if name not in cases
     ]
-    return unlisted + unrecorded + unknown
+    blind = [
+        f"settings.{name} observes {', '.join(setting.observe)}, whose errors in virtual images are unknown; "
+        f"expected `cases` without {', '.join(case for case in imaged)}"
+        for name, setting in study.settings.items()
+        if setting.observe
+        and (imaged := [case for case in cases if case not in measured and setting.serves(case)])
+    ]
+    return unlisted + unrecorded + unknown + blind
 
 
 def _require_reference(study: Study, cases: Mapping[str, Case]) -> None:

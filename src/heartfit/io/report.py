@@ -66,7 +66,7 @@ def _case(results: Path, study: Study, case: Case) -> CaseRecord:
     folder = results / case.case
     model = results / "registration_error" / "noise_model.json"
     truth = read_truth(folder / "cohort" / "truth.json") if case.kind == "virtual" else {}
-    settings = {name: study.setting(name, case) for name in study.settings}
+    settings = {name: study.setting(name, case) for name in study.settings_of(case.case)}
     return CaseRecord(
         name=case.case,
         kind=case.kind,
@@ -131,7 +131,7 @@ def _provenance(results: Path, study: Study, cases: Mapping[str, Case]) -> Prove
     verified = {
         f"{case}, {setting}": read_fingerprint(results / case / setting / "verification" / "errors.json")
         for case in cases
-        for setting in study.settings
+        for setting in study.settings_of(case)
     }
     numbers = hashlib.sha256((results / "tables" / "numbers.csv").read_bytes()).hexdigest()[:16]
     return Provenance(

@@ -1,6 +1,6 @@
 """Measured observations and their noise, by Monte Carlo through the operator or from a noise model of the protocol."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -75,6 +75,11 @@ class Measurement:
     def independent(cls, observations: Sequence[Observation]) -> "Measurement":
         """Combine observations with independent noise: R = diag(noise^2)."""
         return cls(observations, np.diag([observation.noise**2 for observation in observations]))
+
+    def of(self, names: Collection[str]) -> "Measurement":
+        """Return the measurement of some observations, in their order here."""
+        kept = [place for place, entry in enumerate(self.observations) if entry.name in names]
+        return Measurement([self.observations[place] for place in kept], self.covariance[np.ix_(kept, kept)])
 
     @property
     def values(self) -> dict[str, float]:

@@ -12,7 +12,7 @@ Reference: Savitzky and Golay 1964, doi:10.1021/ac60214a047; Marchesseau et al. 
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -97,6 +97,13 @@ class VolumeFeatures(CurveFeatures):
 
 
 @dataclass(frozen=True)
+class RightVolumeFeatures(VolumeFeatures):
+    """Operator of the volume of the right ventricle: its V_min, q_max and q_min."""
+
+    names: ClassVar = ("V_min_rv", "q_max_rv", "q_min_rv")
+
+
+@dataclass(frozen=True)
 class PressureFeatures(CurveFeatures):
     """Operator of a pressure: P_max, dP/dt_max and dP/dt_min; its frames are finer, as catheters sample faster."""
 
@@ -111,15 +118,22 @@ class PressureFeatures(CurveFeatures):
 
 
 def operators(
-    measured: Mapping[str, Curve], frames: int | None = None, window: int = 3, order: int = 2
+    measured: Mapping[str, Curve],
+    frames: int | None = None,
+    window: int = 3,
+    order: int = 2,
+    also: Collection[str] = (),
 ) -> dict[str, CurveFeatures]:
-    """Operators by curve: of the LV volume, with its measured number of frames if None, and of an LV pressure."""
-    require_curves(measured, ["lv_volume"])
+    """Operators by curve: of the LV volume, with its measured number of frames if None, and of an LV pressure.
+
+    ``also`` are the curves that are observed in addition: "rv_volume", like the LV volume, or none.
+    """
+    require_curves(measured, ["lv_volume", *also])
     count = measured["lv_volume"].times.size if frames is None else frames
     features: dict[str, CurveFeatures] = {"lv_volume": VolumeFeatures(count, window, order)}
     if "lv_pressure" in measured:
         features["lv_pressure"] = PressureFeatures()
-    return features
+    return features | {name: RightVolumeFeatures(count, window, order) for name in also}
 
 
 def observe(curves: Mapping[str, Curve], features: Mapping[str, CurveFeatures]) -> dict[str, float]:

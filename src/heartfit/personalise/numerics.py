@@ -1,6 +1,6 @@
 """Numerical settings: meshes, time steps, filling pressures, observation and transform."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Self
 
@@ -10,7 +10,13 @@ from heartfit.calibration.unscented import Scaling
 from heartfit.core.validation import Strict
 from heartfit.heart.simulation import Numerics
 from heartfit.observation.curve import Curve
-from heartfit.observation.operator import CurveFeatures, PressureFeatures, VolumeFeatures, operators
+from heartfit.observation.operator import (
+    CurveFeatures,
+    PressureFeatures,
+    RightVolumeFeatures,
+    VolumeFeatures,
+    operators,
+)
 
 
 @dataclass(frozen=True)
@@ -72,9 +78,9 @@ class Operator(Strict):
         self.trial_features(self.frames)
         return self
 
-    def features(self, measured: Mapping[str, Curve]) -> dict[str, CurveFeatures]:
-        """Return the operator of each observed curve: the LV volume, and its pressure if measured."""
-        return operators(measured, self.frames, self.window, self.order)
+    def features(self, measured: Mapping[str, Curve], also: Collection[str] = ()) -> dict[str, CurveFeatures]:
+        """Return the operator of each observed curve: LV volume, its pressure if measured, and those of ``also``."""
+        return operators(measured, self.frames, self.window, self.order, also)
 
     def trial_features(self, frames: int) -> dict[str, CurveFeatures]:
         """Return the operators of a synthetic measurement with this number of image frames."""
@@ -82,6 +88,10 @@ class Operator(Strict):
             "lv_volume": VolumeFeatures(frames, self.window, self.order),
             "lv_pressure": PressureFeatures(),
         }
+
+    def right_features(self, frames: int) -> dict[str, CurveFeatures]:
+        """Return the operator of a synthetic right ventricular volume with this number of image frames."""
+        return {"rv_volume": RightVolumeFeatures(frames, self.window, self.order)}
 
 
 class Transform(Strict):

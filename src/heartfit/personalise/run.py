@@ -1,6 +1,6 @@
 """Steps of a calibration as functions of values: body, beat, estimate, observations."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -22,7 +22,13 @@ from heartfit.observation.beat import beat_curves, observe_beats
 from heartfit.observation.curve import Curve
 from heartfit.observation.measurement import Measurement, observe_measured
 from heartfit.observation.noise_model import NoiseModel
-from heartfit.observation.operator import PressureFeatures, VolumeFeatures, cavity_indices, observe
+from heartfit.observation.operator import (
+    PressureFeatures,
+    RightVolumeFeatures,
+    VolumeFeatures,
+    cavity_indices,
+    observe,
+)
 from heartfit.personalise.numerics import Operator, Pressures, TimeScheme, Transform
 from heartfit.personalise.setting import Setting
 
@@ -63,6 +69,8 @@ def _spheres(mesh: VentricularMesh, tissue: Tissue, loads: Floats) -> Body:
 
 OBSERVED = (*VolumeFeatures.names, *PressureFeatures.names)
 """All six observations of the paper."""
+OBSERVED_RIGHT = RightVolumeFeatures.names
+"""Observations of the right ventricle."""
 
 
 def run_beat(
@@ -102,26 +110,31 @@ def estimate(
 ) -> Posterior:
     """Return the posterior from the beats of all sigma points, in their order, each observed by its sensors.
 
-    Without the transform's noise the measured values are fitted exactly, as in the paper; with it, the bias-corrected
-    values with their covariance. ``slopes`` add the uncertainty due to parameters that are not estimated.
+    Only the observations of the setting's curves are used. Without the transform's noise the measured values are fitted
+    exactly, as in the paper; with it, the bias-corrected values with their covariance. ``slopes`` add the uncertainty
+    due to parameters that are not estimated.
     """
     sensors = [setting.sensors(point.parameters) for point in points]
+    features = operator.features(measured, setting.observe)
+    measurement = measurement.of([name for observer in features.values() for name in observer.names])
     noise = measurement.covariance if transform.noise else None
     if noise is not None and slopes is not None:
         noise = noise + slopes.covariance(setting.estimate, measurement.corrected, transform.fixed_sd)
     observed = measurement.corrected if transform.noise else measurement.values
-    outcomes = observe_beats(beats, operator.features(measured), sensors)
+    outcomes = observe_beats(beats, features, sensors)
     return calibrate(prior, outcomes, observed, noise, transform.scaling())
 
 
 def observe_plausibility(
     setting: Setting, points: Sequence[SigmaPoint], beats: Iterable[Beat], operator: Operator
 ) -> list[Outcome]:
-    """Return the six observations and the cavity indices of each beat, which limit its plausibility, or its failure.
+    """Return the observations and the cavity indices of each beat, which limit its plausibility, or its failure.
+
+    The observations are the six of the paper and those of the right ventricle.
 
     EDV, ESV and SV [m^3] and EF [1] are not smoothed by the operator, as published values are not.
     """
-    features = operator.trial_features(operator.frames)
+    features = operator.trial_features(operator.frames) | operator.right_features(operator.frames)
     outcomes: list[Outcome] = []
     for point, beat in zip(points, beats, strict=True):
         curves = beat_curves(beat, setting.sensors(point.parameters))
@@ -144,13 +157,14 @@ def observe_case(
     operator: Operator,
     models: Sequence[NoiseModel],
     protocol: Mapping[str, float | int | str | bool],
+    also: Collection[str] = (),
 ) -> Measurement:
-    """Observe a case, with the noise model of its images if given.
+    """Observe a case, with the noise model of its images if given; ``also`` as in :func:`operators`.
 
     The period of synthetic images is known; that of a measured heart varies between breath-holds. Raises InputError for
     a model of another protocol.
     """
-    features = operator.features(measured)
+    features = operator.features(measured, also)
     for model in models:
         model.require_protocol(protocol)
         return observe_measured(measured, features, 0.0, model)

@@ -85,7 +85,7 @@ class Prior(Strict):
 
     def over(self, other: "Prior | Parameter") -> "Prior":
         """Return this prior, completed by the fields of `other`."""
-        base = Prior(mean=other.value, sd=other.sd) if isinstance(other, Parameter) else other
+        base = Prior(mean=other.value or None, sd=other.sd) if isinstance(other, Parameter) else other
         return Prior(mean=self.mean or base.mean, sd=self.sd or base.sd)
 
 
@@ -97,6 +97,12 @@ class Setting(Strict):
     mechanisms: tuple[str, ...] = Field((), description="added to the heart, by name")
     estimate: tuple[str, ...] = Field(min_length=1)
     with_pressure: tuple[str, ...] = Field((), description="estimated, too, if the LV pressure is measured")
+    observe: tuple[Literal["rv_volume"], ...] = Field(
+        (), max_length=1, description="curves observed besides the LV volume and, if measured, its pressure"
+    )
+    cases: tuple[str, ...] | None = Field(
+        None, min_length=1, description="cases that it is for; all by default"
+    )
     heart: dict[str, float] = Field({}, description="parameters that differ from their declared value")
     prior: dict[str, Prior] = Field({}, description="differences from the study's prior")
 
@@ -119,6 +125,10 @@ class Setting(Strict):
             raise ValueError(f"{', '.join(estimated)}: a parameter is estimated twice; name each once")
         return self
 
+    def serves(self, case: str) -> bool:
+        """True if the case, by name, is calibrated under this setting."""
+        return self.cases is None or case in self.cases
+
     def with_lv_pressure(self) -> "Setting":
         """Return the setting of a case with a measured LV pressure."""
         return self.model_copy(
@@ -126,11 +136,15 @@ class Setting(Strict):
         )
 
     def with_estimated(self, names: Sequence[str]) -> "Setting":
-        """Return the setting with these parameters estimated instead; a fixed value becomes the mean of the prior."""
+        """Return the setting with these parameters estimated instead; a fixed value becomes the mean of the prior.
+
+        It observes the left ventricle and serves all cases: settings of the same model become equal.
+        """
         freed = {name: Prior(mean=value) for name, value in self.heart.items() if name in names}
         prior = self.prior | {name: mean.over(self.prior.get(name, Prior())) for name, mean in freed.items()}
         fixed = {name: value for name, value in self.heart.items() if name not in names}
-        changes = {"estimate": tuple(names), "with_pressure": (), "heart": fixed, "prior": prior}
+        model = {"estimate": tuple(names), "heart": fixed, "prior": prior}
+        changes = model | {"with_pressure": (), "observe": (), "cases": None}
         return self.model_copy(update=changes)
 
     def with_prior(self, table: Mapping[str, Prior]) -> "Setting":
@@ -140,6 +154,11 @@ class Setting(Strict):
             raise ValueError(
                 f"{signed[0]} is estimated and may be negative, but priors are log-normal; fix it under heart"
             )
+        zero = [name for name in self.estimate if self._median(name, table) == 0.0]
+        if zero:
+            raise ValueError(
+                f"{zero[0]} is estimated and zero by default, but priors are log-normal; give its mean under prior"
+            )
         merged = {
             name: self.prior.get(name, Prior()).over(table.get(name, Prior())).over(declaration(name))
             for name in self.estimate
@@ -148,6 +167,11 @@ class Setting(Strict):
         if vague:
             raise ValueError(f"{vague[0]} is estimated and has no prior; give its sd under prior")
         return self.model_copy(update={"prior": merged})
+
+    def _median(self, name: str, table: Mapping[str, Prior]) -> float:
+        """Stated median of a parameter: the setting's, then the study's, then the declared value."""
+        stated = (prior.mean for prior in (self.prior.get(name), table.get(name)) if prior is not None)
+        return next((mean for mean in stated if mean is not None), declaration(name).value)
 
     def gaussian(self) -> Gaussian:
         """Return the complete prior."""

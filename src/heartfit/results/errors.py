@@ -18,8 +18,10 @@ def error_table(cases: Sequence[CaseResult], paper: pd.DataFrame, groups: Groups
 
     Errors are unsigned percentages as in the paper; "floor" is the noise of the measurement, "z" the error over
     the floor, and "below noise" names the observations with z < 1, which are fitted better than they were measured.
-    The mean is that of the virtual volunteers, then with the measured hearts. paper: its Table 1 as published
-    (observation, 1..7, mean). Raises FingerprintMismatchError for rows of different code.
+    The mean is that of the virtual volunteers, then with the measured hearts; a setting without
+    volunteers has none.
+    paper: its Table 1 as published (observation, 1..7, mean). Raises FingerprintMismatchError for rows of different
+    code.
     """
     require_one_fingerprint(cases)
     table: list[dict[str, Any]] = []
@@ -33,6 +35,7 @@ def error_table(cases: Sequence[CaseResult], paper: pd.DataFrame, groups: Groups
         table += [
             _mean_row(setting, [row for name, row in rows.items() if name in names], suffix)
             for suffix, names in groups.means.items()
+            if not groups.volunteers or rows.keys() & {*groups.volunteers}
         ]
     return pd.DataFrame([*table, *_paper_rows(paper)])
 

@@ -75,7 +75,7 @@ def plot_sensitivity(posterior: Posterior, title: str) -> Figure:
     axes.set_ylabel("normalised covariance")
     values = ", ".join(f"{value:.2f}" for value in posterior.singular_values)
     axes.set_title(f"{title}; singular values {values}", fontsize=10)
-    axes.legend(frameon=False, ncols=count, fontsize=9)
+    axes.legend(frameon=False, ncols=min(count, 4), fontsize=9)
     clean(axes)
     return figure
 

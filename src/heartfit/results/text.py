@@ -10,6 +10,9 @@ from heartfit.core.parameter import DISPLAY
 
 GREEK = ("alpha", "sigma", "mu", "tau", "eta")
 RATES = {"dPdt_max": r"$dP/dt_{\max}$", "dPdt_min": r"$dP/dt_{\min}$"}
+RIGHT = "_rv"
+"""End of the names of right ventricular observations."""
+
 CURVE_UNITS = {"volume": "m^3", "pressure": "Pa", "flow": "m^3/s"}
 """SI unit of a curve by the last word of its name."""
 
@@ -73,6 +76,11 @@ def symbol(name: str) -> str:
     r"""Return the name of a quantity as mathematics: "$q_{\\max}$" for "q_max"."""
     if name in RATES:
         return RATES[name]
+    if name.endswith(RIGHT):
+        return f"{symbol(name.removesuffix(RIGHT))} RV"
+    if "." in name:
+        owner, last = name.split(".")[-2:]
+        return f"{symbol(last)} ({owner.replace('_', ' ')})"
     base, _, index = name.partition("_")
     if not index and base not in GREEK and len(base) > 1:
         return _escape(name)

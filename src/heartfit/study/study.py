@@ -76,11 +76,15 @@ class Study(Strict):
             setting.with_lv_pressure().with_prior(self.prior)
         for name in self.settings:
             self.perturbation_setting(name)
+        if all(setting.cases is not None for setting in self.settings.values()):
+            raise ValueError("settings: each names its cases; expected one for all cases: omit its `cases`")
         for name in self.discovery.settings:
             if name not in self.settings:
                 raise ValueError(
                     f"discovery.settings: no setting {name!r}; known settings are {', '.join(self.settings)}"
                 )
+            if self.settings[name].cases is not None:
+                raise ValueError(f"discovery.settings: {name!r} is not for all cases; name one that is")
         stated = "element" in self.discovery.model_fields_set
         if stated and self.discovery.element.setting not in self.settings:
             known = ", ".join(self.settings)
@@ -116,6 +120,24 @@ class Study(Strict):
         setting = self.settings[ventricles.setting].model_dump()
         merged = setting | {"heart": {**setting["heart"], **ventricles.heart}}
         return Setting.model_validate(merged).with_prior(self.prior)
+
+    def common_settings(self) -> tuple[str, ...]:
+        """Return the names of the settings that are for all cases."""
+        return tuple(name for name, setting in self.settings.items() if setting.cases is None)
+
+    def settings_of(self, case: str) -> tuple[str, ...]:
+        """Return the names of the settings under which a case is calibrated."""
+        return tuple(name for name, setting in self.settings.items() if setting.serves(case))
+
+    def curves_besides(self, case: str) -> tuple[str, ...]:
+        """Return the curves that a setting of the case observes besides those of the left ventricle."""
+        observed = (curve for name in self.settings_of(case) for curve in self.settings[name].observe)
+        return tuple(dict.fromkeys(observed))
+
+    def perturbed_as(self, name: str) -> str:
+        """Return the first setting of the same model and prior, whose perturbed beats serve this one too."""
+        own = self.perturbation_setting(name)
+        return next(other for other in self.settings if self.perturbation_setting(other) == own)
 
     def estimated(self) -> dict[str, tuple[tuple[str, ...], tuple[str, ...]]]:
         """Return by setting the parameters estimated from volume alone, and from volume and pressure."""

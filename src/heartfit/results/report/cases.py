@@ -22,6 +22,9 @@ UNITS = {
     "P_max": "Pa",
     "dPdt_max": "Pa/s",
     "dPdt_min": "Pa/s",
+    "V_min_rv": "m^3",
+    "q_max_rv": "m^3/s",
+    "q_min_rv": "m^3/s",
 }
 
 

@@ -116,7 +116,7 @@ class Section:
 def render(study: StudyRecord, assets: Assets) -> str:
     """Return the whole page; equal studies give equal text."""
     cases = list(study.cases.values())
-    settings = list(cases[0].fits)
+    settings = list(dict.fromkeys(setting for case in cases for setting in case.fits))
     page = _environment().get_template("page.html")
     return page.render(
         assets=assets,

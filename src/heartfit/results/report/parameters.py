@@ -43,7 +43,11 @@ def plot_estimates(case: CaseRecord, cases: Sequence[CaseRecord]) -> Picture:
             figure.subplots(1, len(case.fits), squeeze=False)[0], case.fits.items(), strict=True
         ):
             draw_parameters(axes, fit.card)
-            _others(axes, fit, [other.fits[setting] for other in cases if other is not case])
+            _others(
+                axes,
+                fit,
+                [other.fits[setting] for other in cases if other is not case and setting in other.fits],
+            )
             axes.set_title(setting, pad=LEGEND)
         return as_picture(figure, f"Parameters of {case.name} beside the prior and the cohort")
 
