@@ -212,3 +212,21 @@ def test_plausibility_prints_what_the_record_holds():
 def test_plausibility_refuses_rows_of_different_code():
     with pytest.raises(FingerprintMismatchError):
         plausibility_table([case(), replace(case("other"), fingerprint="other")])
+
+
+def test_a_setting_of_the_measured_heart_has_its_own_columns_and_no_mean() -> None:
+    groups = Groups(("virtual",), ("real",))
+    right = {f"{name}_rv": 0.9 * value for name, value in OBSERVED.items()}
+    both = replace(
+        case(setting="both"),
+        observed=OBSERVED | right,
+        noise=dict.fromkeys([*OBSERVED, *right], 1e-6),
+        reference=OBSERVED | right,
+        calibrated=OBSERVED | {name: 1.2 * value for name, value in right.items()},
+    )
+    table = error_table([case(), case("virtual"), both], PAPER_ERRORS, groups)
+    assert table[table["setting"] == "both"]["case"].tolist() == ["real"]
+    row = table[table["setting"] == "both"].iloc[0]
+    assert [row[f"{name}_rv (%)"] for name in OBSERVED] == pytest.approx([20.0] * 3)
+    assert row["mean (%)"] == pytest.approx(10.0)
+    assert table[table["setting"] == "physical"]["V_min_rv (%)"].isna().all()

@@ -105,3 +105,12 @@ def test_a_case_shows_its_kind_its_conduction_and_its_curves(page: str, ventricl
     captions = [re.search(r"<figcaption>(.*?)</figcaption>", part(page, name))[1] for name in cases]
     assert captions[1].startswith(captions[0])
     assert len(captions[1]) > len(captions[0]), "pressures of the second are predictions"
+
+
+def test_a_setting_of_one_case_leaves_the_others_unfitted(ventricle: VentricularMesh) -> None:
+    whole = study(ventricle)
+    first = next(iter(whole.cases.values()))
+    own = replace(first, fits={**first.fits, "own": first.fits[SETTING]})
+    page = render(replace(whole, cases={**whole.cases, first.name: own}), ASSETS)
+    assert page.count("not fitted") == len(whole.cases) - 1
+    assert page.count("Setting own.") == 1

@@ -23,8 +23,8 @@ PRIOR = "#dddddd"
 
 
 def plot_parameters(cases: Sequence[CaseRecord], setting: str) -> Picture:
-    """Plot one panel per parameter with one row per case."""
-    fits = {case.name: case.fits[setting] for case in cases}
+    """Plot one panel per parameter with one row per case of the setting."""
+    fits = {case.name: case.fits[setting] for case in cases if setting in case.fits}
     names = list(dict.fromkeys(name for fit in fits.values() for name in fit.result.estimate))
     with rc_context(TEXT):
         figure, panels = grid(len(names), COLUMNS, PANEL_HEIGHT + ROW_HEIGHT * len(fits))
