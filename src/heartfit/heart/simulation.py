@@ -14,14 +14,16 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.heart.beat import COST, Beat, failed_beat
+from heartfit.heart.circulation.atria import chamber_table, fill_atria, has_volume
 from heartfit.heart.circulation.coupling import Body, Coupling, HeartState, Tolerances
 from heartfit.heart.circulation.elements import Windkessel, WindkesselState
-from heartfit.heart.circulation.network import NetworkStep
+from heartfit.heart.circulation.network import ATRIA, NetworkStep
 from heartfit.heart.finite_elements.body import StepFailed
 from heartfit.heart.finite_elements.unloading import inflate
 from heartfit.heart.heart import Heart
 from heartfit.heart.time_step import TimeStep
 from heartfit.roles import COMPARTMENTS
+from heartfit.roles.chamber import VEIN_END, VEINS, VOLUME
 
 INITIAL_RESPONSES = 1.1, 1.0
 """Fall of the pressure deficit of the aorta and of the pulmonary artery per rise of the pressure at the start of a beat
@@ -36,23 +38,32 @@ SURPLUS_FRACTION = 0.3
 
 @dataclass(frozen=True, eq=False)
 class Recurrence:
-    """Cavity volumes (t, v) of a beat, and the states of the v Windkessels at its start and its end."""
+    """Cavity volumes (t, v) of a beat, and the states of the v Windkessels at its start and its end.
+
+    ``atria`` (t, c) are the volumes of c atria that have one. In a ``closed`` circuit arteries fill veins.
+    """
 
     volumes: Floats
     first: Sequence[WindkesselState]
     last: Sequence[WindkesselState]
+    atria: Floats = field(default_factory=lambda: np.empty((1, 0)))
+    closed: bool = False
 
     def drift(self) -> float:
         """Largest change over the beat: of volumes over stroke volume, and of Windkessel pressures over themselves."""
-        stroke = self.volumes.max(axis=0) - self.volumes.min(axis=0)
-        in_volume = np.abs(self.volumes[-1] - self.volumes[0]) / stroke
+        in_volume = [*_relative_change(self.volumes), *_relative_change(self.atria)]
         in_pressure = [abs(b.P_c / a.P_c - 1.0) for a, b in zip(self.first, self.last, strict=True)]
         return float(max(*in_volume, *in_pressure))
 
     def shifts(
         self, trees: Sequence[Windkessel], period: float, before: "Recurrence | None" = None
     ) -> list[float]:
-        """Rises [Pa] of the Windkessel pressures for the next beat; ``before`` is the beat that preceded this one."""
+        """Rises [Pa] of the Windkessel pressures for the next beat; ``before`` is the beat that preceded this one.
+
+        They are zero in a closed circuit, in which a rise would create blood.
+        """
+        if self.closed:
+            return [0.0] * len(trees)
         deficits = self._deficits(trees, period)
         responses: Sequence[float] = INITIAL_RESPONSES
         if before is not None:
@@ -70,6 +81,12 @@ class Recurrence:
         surplus = SURPLUS_FRACTION * (self.volumes[0] - self.volumes[-1])
         sides = zip(trees, self.first, self.last, surplus.tolist(), strict=True)
         return [tree.pressure_deficit(first, last, period, volume) for tree, first, last, volume in sides]
+
+
+def _relative_change(volumes: Floats) -> Floats:
+    """Changes (v,) of volumes (t, v) over the beat, over their ranges."""
+    result: Floats = np.abs(volumes[-1] - volumes[0]) / (volumes.max(axis=0) - volumes.min(axis=0))
+    return result
 
 
 def _measured_response(earlier: float, deficit: float, rise: float, guess: float) -> float:
@@ -142,6 +159,7 @@ class _Run:
         self.heart, self.body, self.numerics = heart, body, numerics
         self.coupling = Coupling(body, heart.circulation, heart.mechanisms, numerics.tolerances)
         self.steps = round(heart.period / numerics.time_step)
+        self.atria = chamber_table(heart.mechanisms)
         self.progress, self.watch = progress or _ignore, watch or _ignore
         self.beats, self.cuts, self.drift = 0, 0, np.inf
         self._started = clock.process_time()
@@ -156,9 +174,7 @@ class _Run:
                 history.append(state)
                 self.progress((self.beats + (n + 1) / self.steps) / self.numerics.max_beats)
             self.beats += 1
-            cycle = Recurrence(
-                np.array([state.volumes for state in history]), history[0].trees, history[-1].trees
-            )
+            cycle = self._recurrence(history)
             self.drift = cycle.drift()
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
                 self.watch(history)
@@ -167,6 +183,17 @@ class _Run:
                 cycle.shifts(self.heart.circulation.trees(), self.heart.period, before)
             )
             before = cycle
+
+    def _recurrence(self, history: list[HeartState]) -> Recurrence:
+        volumes = np.array([state.volumes for state in history])
+        trees = history[0].trees, history[-1].trees
+        return Recurrence(volumes, *trees, self._atrial_volumes(history), bool(self.atria[VEINS].any()))
+
+    def _atrial_volumes(self, history: list[HeartState]) -> Floats:
+        """Volumes (t, c) of the atria that have one [m^3]."""
+        sides = has_volume(self.atria)
+        volumes: Floats = np.array([[state.atria[0, s] for s in sides] for state in history])  # type: ignore[index]
+        return volumes
 
     @property
     def dt(self) -> float:
@@ -178,7 +205,12 @@ class _Run:
         atria = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
         pressures = np.array([*atria, *(tree.P_c for tree in trees)])
         filled = inflate(self.body, atria)
-        return HeartState(filled, pressures, self.body.volumes(filled.x), trees)
+        volumes, table = self.body.volumes(filled.x), self.atria.copy()
+        if not table.shape[1]:
+            return HeartState(filled, pressures, volumes, trees)
+        fill_atria(table, atria, volumes)
+        start = table[[VOLUME, VEIN_END]]
+        return HeartState(filled, np.append(pressures, atria), volumes, trees, atria=start)
 
     def _step(self, n: int, state: HeartState) -> TimeStep:
         return TimeStep(n * self.dt, self.dt, self.heart.period, self.numerics.second_order, state.last)
@@ -199,7 +231,7 @@ class _Run:
         pressure, flow = self._signals(time, history)
         return Beat(
             time=time,
-            volume={"lv": volumes[:, 0], "rv": volumes[:, 1]},
+            volume={"lv": volumes[:, 0], "rv": volumes[:, 1]} | self._chambers(history),
             pressure=pressure,
             flow=flow,
             period=self.heart.period,
@@ -207,6 +239,10 @@ class _Run:
             diagnostics=self.diagnostics() | self._wall(history),
             positions=self._positions(history),
         )
+
+    def _chambers(self, history: list[HeartState]) -> dict[str, Floats]:
+        names = [ATRIA[s] for s in has_volume(self.atria)]
+        return dict(zip(names, self._atrial_volumes(history).T, strict=True))
 
     def _signals(
         self, time: Floats, history: list[HeartState]
@@ -216,7 +252,7 @@ class _Run:
             network = NetworkStep(
                 self.heart.circulation, self.heart.mechanisms, t, self.dt, self.heart.period
             )
-            pressures.append([*state.pressures, *network.atrial])
+            pressures.append([*state.pressures, *network.atrial][: len(COMPARTMENTS)])
             flows.append(network.flows(state.pressures, state.branches))
         pressure = dict(zip(COMPARTMENTS, np.array(pressures).T, strict=True))
         return pressure, {name: np.array([row[name] for row in flows]) for name in flows[0]}

@@ -6,24 +6,28 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.core.parameter import parameter, require_admissible
-from heartfit.roles import Pressure, mechanism
+from heartfit.roles import Contraction, mechanism
+
+NORMAL_RISE = 1700.0
+"""Rise [Pa] of a contraction of one."""
 
 
 @mechanism
 @dataclass(frozen=True)
-class AtrialKick(Pressure):
+class AtrialKick(Contraction):
     r"""Bump of the atrial pressures at the beginning of the cycle.
 
     .. math:: p(t) = P \begin{cases} \sin^2 \frac{\pi t}{2 t_m} & 0 \le t < t_m \\
               \cos^2 \frac{\pi (t - t_m)}{2 (t_c - t_m)} & t_m \le t < t_c \end{cases}
 
-    in the left atrium, and the fraction :math:`\rho` of it in the right one.
+    in the left atrium, and the fraction :math:`\rho` of it in the right one. An atrium with a volume contracts by its
+    active elastance instead, as :math:`e(t) = p(t) / 1700` Pa.
     Source: the atrial parameters (base, maximum, times) of the paper's group; the shape is ours.
     """
 
     compartments = ("left_atrium", "right_atrium")
     rise: float = parameter(
-        1700.0, unit="Pa", symbol="P", meaning="left atrial pressure rise", sd=0.3, off=0.0, scale=600.0
+        NORMAL_RISE, unit="Pa", symbol="P", meaning="left atrial pressure rise", sd=0.3, off=0.0, scale=600.0
     )
     right: float = parameter(
         0.27, unit="1", symbol=r"\rho", meaning="right atrial rise over the left one", sd=0.3
@@ -41,6 +45,9 @@ class AtrialKick(Pressure):
     def pressure(self, compartment: str, time: Floats, period: float) -> Floats:
         share = {"left_atrium": 1.0, "right_atrium": self.right}[compartment]
         return share * self.rise * self._shape(np.mod(time, period))
+
+    def contraction(self, time: Floats, period: float) -> Floats:
+        return self.rise / NORMAL_RISE * self._shape(np.mod(time, period))
 
     def _shape(self, time: Floats) -> Floats:
         """Bump of height one at ``time`` [s] within the period."""

@@ -2,7 +2,8 @@
 
 Amendment, Availability, Delay, Relaxation and Stress act on the muscle: on its constants, fibres, control and
 elasticity. The ventricles are made of :attr:`heartfit.heart.heart.Heart.muscle`, the tissue as these mechanisms change
-it. Flow, Dynamics, Narrowing, Pressure and External act on the blood, and a Sensor on the measurement alone.
+it. Flow, Dynamics, Narrowing, Pressure, Contraction, Chamber and External act on the blood, and a Sensor on the
+measurement alone.
 """
 
 from abc import ABC, abstractmethod
@@ -13,6 +14,7 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.core.parameter import Parameter, parameters_of
+from heartfit.roles.chamber import Atrium
 from heartfit.roles.laws import Branch, Leaflets, Load
 
 
@@ -131,6 +133,27 @@ class Pressure(Mechanism):
     @abstractmethod
     def pressure(self, compartment: str, time: Floats, period: float) -> Floats:
         """Pressure [Pa] added to a compartment at ``time`` (any shape) [s]; periodic in ``period`` [s]."""
+
+
+class Contraction(Pressure):
+    """Systole of the atria: the pressure that it adds to atria of prescribed pressure.
+
+    An atrium with a volume contracts by its active elastance instead, in proportion to :meth:`contraction`.
+    """
+
+    @abstractmethod
+    def contraction(self, time: Floats, period: float) -> Floats:
+        """Contraction e at ``time`` (any shape) [s], periodic in ``period`` [s]: 1 at the peak of a normal systole."""
+
+
+class Chamber(Mechanism):
+    """A volume of an atrium, filled by veins: its pressure follows from its volume."""
+
+    compartment: ClassVar[Literal["left_atrium", "right_atrium"]]
+
+    @abstractmethod
+    def atrium(self) -> Atrium:
+        """Coefficients of the law; a resistance of 0 leaves the pressure of the atrium prescribed."""
 
 
 class External(Mechanism):

@@ -9,6 +9,8 @@ from typing import TypeVar
 from heartfit.roles.interfaces import (
     Amendment,
     Availability,
+    Chamber,
+    Contraction,
     Delay,
     Dynamics,
     External,
@@ -23,7 +25,7 @@ from heartfit.roles.interfaces import (
 
 ROLES: tuple[type[Mechanism], ...] = (
     *(Amendment, Availability, Delay, Relaxation, Stress),
-    *(Flow, Dynamics, Narrowing, Pressure, External),
+    *(Flow, Dynamics, Narrowing, Contraction, Pressure, Chamber, External),
     Sensor,
 )
 

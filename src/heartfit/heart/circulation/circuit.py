@@ -5,8 +5,9 @@ The unknowns are the pressures p of v ventricles and of their arteries:
 .. math:: v + G (p_v - p_v^0) + \Delta t\, q_v(p) = 0, \qquad p_a - a + b\, q_a(p) = 0,
 
 with v the change of the ventricular volumes since the start of the step at :math:`p^0`, G their compliance, q the net
-outflow of the compartments and (a, b) the coefficients of the Windkessels. The equations are monotone, with kinks at
-the valves; Newton's method with a line search solves them. One compiled function serves meshes and spheres.
+outflow of the compartments and (a, b) the coefficients of the Windkessels. Atria with a volume add their pressures and
+the equations of :mod:`heartfit.heart.circulation.atria`. The equations are monotone, with kinks at the valves; Newton's
+method with a line search solves them. One compiled function serves meshes and spheres.
 """
 
 from dataclasses import dataclass
@@ -15,16 +16,21 @@ import numpy as np
 from numba import njit
 
 from heartfit.core.arrays import Floats, Integers
+from heartfit.heart.circulation.atria import begin_atria, descend_planes, store_blood
 from heartfit.heart.circulation.network import NetworkStep, net_outflow
-
-ONE_MILLILITRE, ONE_KILOPASCAL = 1e-6, 1e3
-"""Units of the residual: volume [m^3] of a ventricle, pressure [Pa] of an artery."""
+from heartfit.heart.circulation.system import (
+    CONSTANT,
+    ONE_KILOPASCAL,
+    ONE_MILLILITRE,
+    REFERENCE,
+    STORAGE,
+    WEIGHT,
+)
 
 NEWTON_ITERATIONS, LINE_SEARCH_HALVINGS, RESIDUAL_TOLERANCE = 40, 10, 1e-9
 
-CONSTANT, WEIGHT, REFERENCE, STORAGE = range(4)
-"""Columns of a system, whose rows are the compartments:
-residual = constant + weight * net outflow + storage (p - reference); the storage fills the last columns."""
+ATRIAL_TOLERANCE = 1e-12
+"""Norm of the residual of a circuit whose atria have a volume: a closed one must not create blood over many beats."""
 
 RESIDUAL, DIRECTION, PREVIOUS = range(3)
 """Rows of the workspace of the solution: residual, then Newton direction, and the previous pressures."""
@@ -34,8 +40,9 @@ RESIDUAL, DIRECTION, PREVIOUS = range(3)
 class Circuit:
     """Condensed circuit of both ventricles, see the equations of the module.
 
-    ``windkessels`` (2, 2) are the rows (a, b) of the arteries, ``volume_change`` (2,) [m^3] and ``compliance`` (2, 2)
-    [m^3/Pa] those of the ventricles at the pressures ``start`` (4,) [Pa].
+    ``windkessels`` (2, 3) are the rows (a, b, c) of the arteries, ``volume_change`` (2,) [m^3] and ``compliance``
+    (2, 2) [m^3/Pa] those of the ventricles at the pressures ``start`` (n,) [Pa]; n is 4, or 6 with the atria. The
+    descent of the valve planes needs the ``volumes`` (2,) [m^3] of the ventricles at ``start``.
     """
 
     network: NetworkStep
@@ -43,39 +50,51 @@ class Circuit:
     volume_change: Floats
     compliance: Floats
     start: Floats
+    volumes: Floats | None = None
 
     def solve(self) -> Floats:
-        """Pressures (4,) [Pa] that balance the circuit; the last ones where the line search fails first."""
-        p = self.start.copy()
-        solve_circuit(*self._branches(), self._system(), p, np.empty((3, 4)), np.empty((4, 4)))
+        """Pressures (n,) [Pa] that balance the circuit; the last ones where the line search fails first."""
+        p, n = self.start.copy(), len(self.start)
+        solve_circuit(*self._branches(), self._system(), p, np.empty((3, n)), np.empty((n, n)))
         return p
 
     def residuals(self, p: Floats) -> Floats:
-        """Residual (4,) at the pressures p, [m^3] for the ventricles and [Pa] for the arteries."""
-        work = np.empty((3, 4))
-        circuit_residual(*self._branches(), self._system(), p, work, np.empty((4, 4)))
-        return work[RESIDUAL] * np.repeat([ONE_MILLILITRE, ONE_KILOPASCAL], 2)
+        """Residual (n,) at the pressures p, [m^3] where blood is stored and [Pa] for the arteries."""
+        n = len(p)
+        work = np.empty((3, n))
+        circuit_residual(*self._branches(), self._system(), p, work, np.empty((n, n)))
+        return work[RESIDUAL] * np.where(self.network.stores_blood, ONE_MILLILITRE, ONE_KILOPASCAL)
 
-    def _branches(self) -> tuple[Integers, Floats, Floats, Floats, int]:
+    def _branches(self) -> tuple[Integers, Floats, Floats, Floats, Floats, int]:
         network = self.network
-        return network.ends, network.laws, network.branch_states, network.atrial[None], 0
+        return network.ends, network.laws, network.branch_states, network.atria, network.atrial[None], 0
 
     def _system(self) -> Floats:
-        system = np.zeros((4, 7))
-        a, b = self.windkessels.T
+        n = len(self.start)
+        system = np.zeros((n, STORAGE + n))
+        self._fill_ventricles_and_arteries(system[:4])
+        atria = self.network.atria
+        if atria.shape[1]:
+            system[2, STORAGE + 5], system[3, STORAGE + 4] = -self.windkessels[:, 2] / ONE_KILOPASCAL
+            begin_atria(atria, self.network.dt, self.network.atrial[None], 0, system)
+            for side, volume in enumerate(self.volumes if self.volumes is not None else ()):
+                descend_planes(atria, side, volume, system)
+        return system
+
+    def _fill_ventricles_and_arteries(self, system: Floats) -> None:
+        a, b = self.windkessels.T[:2]
         system[:2, CONSTANT], system[:2, WEIGHT] = self.volume_change, self.network.dt
         system[:2, REFERENCE], system[:2, STORAGE : STORAGE + 2] = self.start[:2], self.compliance
-        system[2:, WEIGHT], system[2:, REFERENCE], system[2:, STORAGE + 2 :] = b, a, np.eye(2)
+        system[2:, WEIGHT], system[2:, REFERENCE], system[2:, STORAGE + 2 : STORAGE + 4] = b, a, np.eye(2)
         system[:, [CONSTANT, WEIGHT, *range(STORAGE, 7)]] /= np.repeat([ONE_MILLILITRE, ONE_KILOPASCAL], 2)[
             :, None
         ]
-        return system
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def circuit_residual(ends, laws, branch_states, atria, t, system, p, work, jacobian):  # type: ignore[no-untyped-def]
-    """Fill residual and Jacobian at the pressures p (2 v,); return the norm of the residual."""
-    net_outflow(ends, laws, branch_states, atria, t, p, work, jacobian)
+def circuit_residual(ends, laws, branch_states, atria, prescribed, t, system, p, work, jacobian):  # type: ignore[no-untyped-def]
+    """Fill residual and Jacobian at the pressures p; return the norm of the residual."""
+    net_outflow(ends, laws, branch_states, prescribed, t, p, work, jacobian)
     size = 0.0
     for i in range(p.size):
         residual = system[i, CONSTANT] + system[i, WEIGHT] * work[RESIDUAL, i]
@@ -83,21 +102,30 @@ def circuit_residual(ends, laws, branch_states, atria, t, system, p, work, jacob
             storage = system[i, STORAGE + j]
             residual += storage * (p[j] - system[j, REFERENCE])
             jacobian[i, j] = storage + system[i, WEIGHT] * jacobian[i, j]
+        if i >= 2 * prescribed.shape[1]:
+            stored, slope = store_blood(atria, i, p[i])
+            residual += stored
+            jacobian[i, i] += slope
         work[RESIDUAL, i] = residual
         size += residual * residual
     return np.sqrt(size)
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def solve_circuit(ends, laws, branch_states, atria, t, system, p, work, jacobian):  # type: ignore[no-untyped-def]
-    """Move the pressures p (2 v,) to the balance of the circuit; return the norm of the residual at the start.
+def solve_circuit(ends, laws, branch_states, atria, prescribed, t, system, p, work, jacobian):  # type: ignore[no-untyped-def]
+    """Move the pressures p (n,) to the balance of the circuit; return the norm of the residual at the start.
 
-    Branches as in :func:`~heartfit.heart.circulation.network.net_outflow`, ``system`` (2 v, 3 + 2 v) as the module's
-    columns say; ``work`` (3, 2 v), whose rows the module names, and ``jacobian`` (2 v, 2 v) are overwritten.
+    Branches and ``prescribed`` as in :func:`~heartfit.heart.circulation.network.net_outflow`, the table ``atria`` of
+    :mod:`heartfit.roles.chamber`, ``system`` (n, 3 + n) with the columns of
+    :mod:`heartfit.heart.circulation.system`; ``work`` (3, n), whose rows the module names, and ``jacobian`` (n, n) are
+    overwritten.
     """
-    size = first = circuit_residual(ends, laws, branch_states, atria, t, system, p, work, jacobian)
+    size = first = circuit_residual(
+        ends, laws, branch_states, atria, prescribed, t, system, p, work, jacobian
+    )
+    tolerance = ATRIAL_TOLERANCE if p.size > 2 * prescribed.shape[1] else RESIDUAL_TOLERANCE
     for _ in range(NEWTON_ITERATIONS):
-        if size < RESIDUAL_TOLERANCE:
+        if size < tolerance:
             break
         solve_linear(jacobian, work)
         for i in range(p.size):
@@ -106,7 +134,9 @@ def solve_circuit(ends, laws, branch_states, atria, t, system, p, work, jacobian
         for _ in range(LINE_SEARCH_HALVINGS):
             for i in range(p.size):
                 p[i] = work[PREVIOUS, i] - share * work[DIRECTION, i]
-            following = circuit_residual(ends, laws, branch_states, atria, t, system, p, work, jacobian)
+            following = circuit_residual(
+                ends, laws, branch_states, atria, prescribed, t, system, p, work, jacobian
+            )
             if following < size:
                 break
             share *= 0.5

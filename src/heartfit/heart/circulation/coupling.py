@@ -68,8 +68,9 @@ class Tolerances:
 class HeartState:
     """State of wall and circuit at one time; ``before`` is the state one step of length ``last`` [s] earlier.
 
-    ``pressures`` (4,) [Pa] and ``volumes`` (2,) [m^3]; ``branches`` (2, k) are the flows [m^3/s] and openings of the
-    branches, None at rest; ``trend`` holds up to two velocities of x, the last one first.
+    ``pressures`` (n,) [Pa], 4 or 6 with atria, and ``volumes`` (2,) [m^3]; ``branches`` (2, k) are the flows [m^3/s]
+    and openings of the branches, None at rest; ``atria`` (2, 2) are volumes [m^3] of the atria and pressures [Pa] of
+    their veins, None without volumes; ``trend`` holds up to two velocities of x, the last one first.
     """
 
     body: Any
@@ -80,6 +81,7 @@ class HeartState:
     last: float | None = None
     before: "HeartState | None" = None
     branches: Floats | None = None
+    atria: Floats | None = None
 
     def starting_values(self, step: TimeStep) -> tuple[Floats, tuple[WindkesselState, WindkesselState]]:
         """Volumes and Windkessels at which the effective step starts."""
@@ -99,19 +101,26 @@ class HeartState:
         start[1] = np.clip(start[1], 0.0, 1.0)
         return start
 
+    def starting_atria(self, step: TimeStep) -> Floats | None:
+        """Volumes of the atria and pressures of their veins at which the effective step starts, if any."""
+        if self.atria is None:
+            return None
+        before = self.atria if self.before is None or self.before.atria is None else self.before.atria
+        return step.starting_value(self.atria, before)
+
     def shift_pressures(self, shifts: Sequence[float]) -> "HeartState":
         """State with the pressures of both Windkessels raised by ``shifts`` (2,) [Pa], now and one step before."""
         systemic, pulmonary = (
             replace(tree, P_c=tree.P_c + shift) for tree, shift in zip(self.trees, shifts, strict=True)
         )
-        pressures = self.pressures + np.array([0.0, 0.0, *shifts])
+        pressures = self.pressures + np.array([0.0, 0.0, *shifts, 0.0, 0.0])[: len(self.pressures)]
         before = self.before and self.before.shift_pressures(shifts)
         return replace(self, trees=(systemic, pulmonary), pressures=pressures, before=before)
 
 
 @dataclass(frozen=True, eq=False)
 class Iterate:
-    """Trial state: unknowns, forces (N,), pressures (4,), volumes (2,) and their gradients (N, 2)."""
+    """Trial state: unknowns, forces (N,), pressures (n,), volumes (2,) and their gradients (N, 2)."""
 
     x: Floats
     forces: Floats
@@ -154,19 +163,25 @@ class CoupledStep:
         return Iterate(x, forces, pressures, self._body.volumes(x), self._body.volume_gradients(x))
 
     def residuals(self, now: Iterate) -> Floats:
-        """Residuals (4,) of the circuit: volumes of the ventricles [m^3], pressures of the arteries [Pa]."""
+        """Residuals (n,) of the circuit: volumes of ventricles and atria [m^3], pressures of the arteries [Pa]."""
         return self._circuit(now, np.zeros_like(now.residual), np.zeros_like(now.gradients)).residuals(
             now.pressures
         )
 
+    def balanced(self, now: Iterate, tolerances: Tolerances) -> bool:
+        """True if all residuals of the circuit are within the ``tolerances``."""
+        limits = np.where(self._network.stores_blood, tolerances.volume, tolerances.pressure)
+        return bool((np.abs(self.residuals(now)) < limits).all())
+
     def pressures(self, now: Iterate, change: Floats, response: Floats) -> Floats:
-        """Pressures (4,) [Pa] that balance the circuit, with the body linearised about ``now`` plus ``change``."""
+        """Pressures (n,) [Pa] that balance the circuit, with the body linearised about ``now`` plus ``change``."""
         return self._circuit(now, change, response).solve()
 
     def _circuit(self, now: Iterate, change: Floats, response: Floats) -> Circuit:
-        volumes = now.volumes + now.gradients.T @ change - self._volumes
+        linearised = now.volumes + now.gradients.T @ change
         compliance = now.gradients.T @ response
-        return Circuit(self._network, self._windkessels, volumes, compliance, now.pressures)
+        changes = linearised - self._volumes
+        return Circuit(self._network, self._windkessels, changes, compliance, now.pressures, linearised)
 
     def move(self, now: Iterate, change: Floats, pressures: Floats) -> Iterate:
         """Iterate after ``change``, which is halved until no element collapses."""
@@ -184,7 +199,8 @@ class CoupledStep:
         trend = ((now.x - state.body.x) / length, *state.trend[:1])
         before = replace(state, before=None)
         body, branches = self.step.commit(now.x), self._network.branches()
-        return HeartState(body, now.pressures, now.volumes, trees, trend, length, before, branches)
+        atria = self._network.atrial_state()
+        return HeartState(body, now.pressures, now.volumes, trees, trend, length, before, branches, atria)
 
 
 class Coupling:
@@ -206,7 +222,15 @@ class Coupling:
         """State after ``step``; raises StepFailed if Newton's method does not converge."""
         equations = self.body.step(state.body, step)
         start = state.starting_branches(step)
-        network = NetworkStep(self.circulation, self.mechanisms, step.end, step.effective, step.period, start)
+        network = NetworkStep(
+            self.circulation,
+            self.mechanisms,
+            step.end,
+            step.effective,
+            step.period,
+            start,
+            state.starting_atria(step),
+        )
         if step.effective != self._length:
             self._factor, self._length = None, step.effective
         coupled = CoupledStep(self.body, equations, network, step, state)
@@ -214,10 +238,12 @@ class Coupling:
 
     def _newton(self, coupled: CoupledStep) -> Iterate:
         now, previous, renew = coupled.predict(), np.inf, False
-        anderson = Anderson(np.append(coupled.step.weights(now.x), np.full(4, PRESSURE_WEIGHT)))
+        anderson = Anderson(
+            np.append(coupled.step.weights(now.x), np.full(len(now.pressures), PRESSURE_WEIGHT))
+        )
         for _ in range(self.tolerances.iterations):
             size = coupled.step.size(now.residual)
-            if size < self.tolerances.force and self._balanced(coupled.residuals(now)):
+            if size < self.tolerances.force and coupled.balanced(now, self.tolerances):
                 return now
             stale = not renew and size > self.tolerances.contraction * previous
             renew, previous = self._factor is None or stale, size
@@ -227,10 +253,6 @@ class Coupling:
             now = self._iterate(coupled, now, anderson)
             self.iterations += 1
         raise StepFailed(f"no equilibrium in {self.tolerances.iterations} iterations, residual {size:.3g} N")
-
-    def _balanced(self, residuals: Floats) -> bool:
-        volume, pressure = np.abs(residuals[:2]).max(), np.abs(residuals[2:]).max()
-        return bool(volume < self.tolerances.volume and pressure < self.tolerances.pressure)
 
     def _renew(self, step: Any, now: Iterate) -> None:
         self._factor = step.tangent(now.x)
@@ -242,4 +264,5 @@ class Coupling:
         pressures = coupled.pressures(now, change, self._response)
         change += self._response @ (pressures - now.pressures)[:2]
         mixed = anderson.mix(np.append(now.x, now.pressures), np.append(change, pressures - now.pressures))
-        return coupled.move(now, mixed[:-4], now.pressures + mixed[-4:])
+        n = len(pressures)
+        return coupled.move(now, mixed[:-n], now.pressures + mixed[-n:])

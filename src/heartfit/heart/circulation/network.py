@@ -1,20 +1,33 @@
 r"""Network of the circulation: compartments connected by branches.
 
 Ventricles store blood, :math:`\dot V = \sum q_{in} - \sum q_{out}`; arteries respond to their inflow as a Windkessel;
-atria have a prescribed pressure. Every flow leaves one compartment and enters another, so blood is conserved by
-construction.
+atria have a prescribed pressure, or a volume (:mod:`heartfit.heart.circulation.atria`). Every flow leaves one
+compartment and enters another, so blood is conserved by construction.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from heartfit.core.arrays import Floats
 from heartfit.core.parameter import parameter
+from heartfit.heart.circulation.atria import chamber_table, drain_arteries, end_atrium
 from heartfit.heart.circulation.elements import PULMONARY, LinearValve, Valve, Windkessel, WindkesselState
-from heartfit.roles import COMPARTMENTS, Dynamics, Flow, Mechanism, Narrowing, Pressure
+from heartfit.roles import COMPARTMENTS, Contraction, Dynamics, Flow, Mechanism, Narrowing, Pressure
+from heartfit.roles.chamber import (
+    ACTIVE,
+    OUTSIDE,
+    RESISTANCE,
+    START_VEIN,
+    START_VOLUME,
+    STIFFENING,
+    VEIN_END,
+    VEINS,
+    VOLUME,
+)
 from heartfit.roles.laws import (
     CLOSING_RATE,
     FLOW,
@@ -87,6 +100,20 @@ def mechanism_pressures(
     return added
 
 
+def atrial_walls(
+    time: Floats | float, period: float, mechanisms: Sequence[Mechanism], sides: int = 2
+) -> tuple[Floats, Floats]:
+    """Contraction e (...) of the atria and pressures (sides, ...) [Pa] beside it at ``time`` (...) [s].
+
+    They act on atria with a volume, of which the first replaces the pressure of the contraction.
+    """
+    contraction = np.zeros(np.shape(time))
+    for kick in (m for m in mechanisms if isinstance(m, Contraction)):
+        contraction += kick.contraction(time, period)  # type: ignore[arg-type]
+    others = [m for m in mechanisms if not isinstance(m, Contraction)]
+    return contraction, mechanism_pressures(ATRIA[:sides], time, period, others)
+
+
 class Network:
     """Branches of a circulation with its mechanisms: the valves, narrowed where they are stenosed, then the leaks.
 
@@ -108,6 +135,7 @@ class Network:
         self.ends = np.array([[COMPARTMENTS.index(end) for end in pair] for pair in ends])
         moving = {m.valve: m.leaflets() for m in mechanisms if isinstance(m, Dynamics)}
         self.leaflets = np.array([moving.get(name, Leaflets()) for name in self.names])
+        self.atria = chamber_table(mechanisms, sides)
 
     def laws(self, time: Floats | float) -> Floats:
         """Coefficients (..., branches, 5) of the branches at ``time`` (...) [s]; see ``Branch``."""
@@ -121,10 +149,11 @@ class Network:
 
 
 class NetworkStep:
-    """Flows at the end of one step as functions of the unknown pressures (4,).
+    """Flows at the end of one step as functions of the n unknown pressures: 4, or 6 where an atrium has a volume.
 
     ``dt`` [s] is the effective length of the step, ``start`` (2, k) are the starting values of flow and opening of the
-    branches, zero without any.
+    branches, zero without any; ``atrial_start`` (2, 2) those of the volumes [m^3] of the atria and of the pressures
+    [Pa] of the veins.
     """
 
     def __init__(
@@ -135,6 +164,7 @@ class NetworkStep:
         dt: float,
         period: float,
         start: Floats | None = None,
+        atrial_start: Floats | None = None,
     ) -> None:
         self._circulation, network = circulation, Network(circulation, mechanisms)
         self.dt, self._names = dt, network.names
@@ -147,6 +177,12 @@ class NetworkStep:
         if start is not None:
             self.branch_states[START_FLOW : START_FLOW + 2] = start
         self._stateful = network.leaflets.any(axis=1)
+        self.atria = network.atria
+        if self.atria.shape[1]:
+            contraction, self.atria[OUTSIDE] = atrial_walls(time, period, mechanisms)
+            self.atria[STIFFENING] = contraction * self.atria[ACTIVE]
+        if atrial_start is not None:
+            self.atria[[START_VOLUME, START_VEIN]] = atrial_start
 
     def flows(self, pressures: Floats, states: Floats | None = None) -> dict[str, float]:
         """Flow of every branch by name [m^3/s]; those with a state have the flow of ``states`` (2, k)."""
@@ -158,18 +194,37 @@ class NetworkStep:
         )
         return dict(zip(self._names, flows.tolist(), strict=True))
 
+    @property
+    def stores_blood(self) -> NDArray[np.bool_]:
+        """True (n,) for ventricles and atria with a volume, whose equation is the balance of their blood."""
+        return np.array([True, True, False, False, *(self.atria[RESISTANCE] > 0.0)])
+
     def outflow(self, pressures: Floats) -> tuple[Floats, Floats]:
-        """Net outflow (4,) of the unknown compartments [m^3/s] and its Jacobian (4, 4)."""
-        out, slope = np.empty((1, 4)), np.empty((4, 4))
+        """Net outflow (n,) of the unknown compartments [m^3/s] and its Jacobian (n, n)."""
+        n = len(pressures)
+        out, slope = np.empty((1, n)), np.empty((n, n))
         net_outflow(self.ends, self.laws, self.branch_states, self.atrial[None], 0, pressures, out, slope)
         return out[0], slope
 
     def windkessels(self, trees: Sequence[WindkesselState]) -> Floats:
-        """Rows (a, b) of the arterial pressures a + b q at the end of the step, aorta first."""
-        sides = zip(self._circulation.trees(), trees, strict=True)
-        rows = np.array([tree.affine_pressure(state, self.dt) for tree, state in sides])
+        """Rows (a, b, c) of the arterial pressures a + b q + c P at the end of the step, aorta first.
+
+        P is the pressure of the atrium whose veins they fill.
+        """
+        sides = zip(self.trees(), trees, strict=True)
+        rows = np.zeros((2, 3))
+        for u, (tree, state) in enumerate(sides):
+            held = tree.affine_pressure(state, self.dt)
+            constants = self.dt, tree.R_p, tree.tau, state.P_c
+            rows[u] = drain_arteries(self.atria, u, *constants, *held, self._arterial[u])
         rows[:, 0] += self._arterial
         return rows
+
+    def trees(self) -> list[Windkessel]:
+        """Windkessels, with a venous pressure of zero where they fill veins: that of the veins is added to it."""
+        filling = self.atria[VEINS, ::-1] > 0.0 if self.atria.shape[1] else (False, False)
+        pairs = zip(self._circulation.trees(), filling, strict=True)
+        return [replace(tree, P_ve=0.0) if fills else tree for tree, fills in pairs]
 
     def branches(self) -> Floats:
         """Flows and openings (2, k) at the pressures of the last evaluation."""
@@ -178,28 +233,44 @@ class NetworkStep:
     def advance(
         self, trees: Sequence[WindkesselState], pressures: Floats
     ) -> tuple[WindkesselState, WindkesselState]:
-        """States of the Windkessels at the end of the step, at which the pressures are ``pressures`` (4,)."""
+        """States of the Windkessels at the end of the step, at which the pressures are ``pressures`` (n,)."""
         out, _ = self.outflow(pressures)
-        systemic, pulmonary = self._circulation.trees()
+        systemic, pulmonary = self._drained(out, pressures)
         return systemic.advance(trees[0], -out[2], self.dt), pulmonary.advance(trees[1], -out[3], self.dt)
+
+    def _drained(self, out: Floats, pressures: Floats) -> Sequence[Windkessel]:
+        """Windkessels with the venous pressures at the end of the step, and the volumes of the atria there."""
+        if not self.atria.shape[1]:
+            return self._circulation.trees()
+        for s in range(2):
+            end_atrium(self.atria, s, self.dt, -out[3 - s], out[4 + s], pressures[4 + s])
+        pairs = zip(
+            self._circulation.trees(), self.atria[VEINS, ::-1], self.atria[VEIN_END, ::-1], strict=True
+        )
+        return [replace(tree, P_ve=float(vein)) if veins else tree for tree, veins, vein in pairs]
+
+    def atrial_state(self) -> Floats | None:
+        """Volumes [m^3] of the atria and pressures [Pa] of their veins (2, 2) at the end; None without volumes."""
+        return self.atria[[VOLUME, VEIN_END]] if self.atria.shape[1] else None
 
 
 @njit(cache=True, error_model="numpy", inline="always")
 def net_outflow(ends, laws, branch_states, atria, t, p, out, slope):  # type: ignore[no-untyped-def]
-    """Fill row 0 of ``out`` with the net outflow (2 v,) of v ventricles and their arteries, and its Jacobian ``slope``.
+    """Fill row 0 of ``out`` with the net outflow (n,) of v ventricles and their arteries, and its Jacobian ``slope``.
 
-    p (2 v,) are their pressures; ``atria`` (t, v) and ``laws`` (t, k, 5) are the atrial pressures and the coefficients
-    of the branches with the ``ends`` (k, 2) at many times, of which row t applies. ``branch_states`` (7, k) has the
-    rows of :mod:`heartfit.roles.laws`; those at the end of the step are filled.
+    p (n,) are their pressures, n = 2 v, followed by those of the atria, n = 3 v, if one of them has a volume;
+    ``atria`` (t, v) and ``laws`` (t, k, 5) are the prescribed atrial pressures and the coefficients of the branches
+    with the ``ends`` (k, 2) at many times, of which row t applies. ``branch_states`` (7, k) has the rows of
+    :mod:`heartfit.roles.laws`; those at the end of the step are filled.
     """
-    n = p.size
+    n, v = p.size, atria.shape[1]
     for i in range(n):
         out[0, i] = 0.0
         for j in range(n):
             slope[i, j] = 0.0
     for k in range(ends.shape[0]):
         upstream, downstream = ends[k, 0], ends[k, 1]
-        i, j = _unknown(upstream, n // 2), _unknown(downstream, n // 2)
+        i, j = _unknown(upstream, v, n), _unknown(downstream, v, n)
         up = p[i] if i >= 0 else atria[t, upstream - 4]
         down = p[j] if j >= 0 else atria[t, downstream - 4]
         q, dq = advance_branch(laws, t, k, up - down, branch_states)
@@ -215,8 +286,10 @@ def net_outflow(ends, laws, branch_states, atria, t, p, out, slope):  # type: ig
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def _unknown(compartment, v):  # type: ignore[no-untyped-def]
-    """Index of a compartment among the unknown pressures; -1 for an atrium."""
+def _unknown(compartment, v, n):  # type: ignore[no-untyped-def]
+    """Index of a compartment among the n unknown pressures; -1 for an atrium of prescribed pressure."""
     if compartment < 2:
         return compartment
-    return v + compartment - 2 if compartment < 4 else -1
+    if compartment < 4:
+        return v + compartment - 2
+    return 2 * v + compartment - 4 if n > 2 * v else -1

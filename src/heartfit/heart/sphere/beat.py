@@ -6,18 +6,14 @@ import numpy as np
 from numba import njit
 
 from heartfit.core.arrays import Floats, Integers
-from heartfit.heart.circulation.circuit import (
-    CONSTANT,
-    ONE_MILLILITRE,
-    REFERENCE,
-    STORAGE,
-    WEIGHT,
-    solve_circuit,
-)
+from heartfit.heart.circulation.atria import begin_atria, descend_planes
+from heartfit.heart.circulation.circuit import solve_circuit
+from heartfit.heart.circulation.system import CONSTANT, ONE_MILLILITRE, REFERENCE, STORAGE, WEIGHT
 from heartfit.heart.sphere import rows
 from heartfit.heart.sphere import step as steps
 from heartfit.heart.sphere.body import LARGEST_STRETCH, SMALLEST_STRETCH
 from heartfit.heart.sphere.wall import cavity, cavity_pressure
+from heartfit.roles.chamber import PRESSURE, VOLUME
 from heartfit.roles.laws import outside_pressure
 
 IMBALANCE_TOLERANCE, NEWTON_ITERATIONS = 1e-3, 25
@@ -43,7 +39,8 @@ class StepInputs(NamedTuple):
 
     Means over the steps: ``rate`` |u| and ``attach`` |u|_+ (n, m) [1/s]. Values at their ends: pressures ``atria`` (n,
     v) and ``waves`` (n, v) in the arteries [Pa], coefficients ``loads`` (n, l, v, 4) and ``laws`` (n, k, 5) of the
-    branches, which connect the compartments ``ends`` (k, 2).
+    branches, which connect the compartments ``ends`` (k, 2). Atria with a volume take the active elastances and
+    pressures ``walls`` (n, 2, v) [Pa/m^3], [Pa] instead.
     """
 
     length: float
@@ -51,6 +48,7 @@ class StepInputs(NamedTuple):
     rate: Floats
     attach: Floats
     atria: Floats
+    walls: Floats
     waves: Floats
     loads: Floats
     laws: Floats
@@ -58,12 +56,18 @@ class StepInputs(NamedTuple):
 
 
 class State(NamedTuple):
-    """State at one time: tables of sides, fibres and branches, and the lengths ``last`` (2,) of the last steps [s]."""
+    """State at one time: tables of sides, fibres and branches, and the lengths ``last`` (2,) of the last steps [s].
+
+    ``chambers`` is the table of atria, see :mod:`heartfit.roles.chamber`, without columns if none has a volume.
+    ``reservoirs`` (4, c) are their volumes and the pressures of their veins, now and one step before.
+    """
 
     sides: Floats
     fibres: Floats
     branches: Floats
     last: Floats
+    chambers: Floats
+    reservoirs: Floats
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -124,9 +128,11 @@ def move_walls(stiffer, sides, p):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def record_curves(sides, branches, curves, n):  # type: ignore[no-untyped-def]
-    """Fill row n of the curves: volumes, pressures of ventricles and arteries, flows."""
-    count = sides.shape[1]
+def record_curves(sides, branches, chambers, curves, n):  # type: ignore[no-untyped-def]
+    """Fill row n of the curves: volumes, pressures of ventricles and arteries, flows, and those of the atria."""
+    count, first = sides.shape[1], 3 * sides.shape[1] + branches.shape[1]
+    for v in range(chambers.shape[1]):
+        curves[n, first + v], curves[n, first + count + v] = chambers[VOLUME, v], chambers[PRESSURE, v]
     for v in range(count):
         curves[n, v] = cavity(sides[rows.RADIUS, v], sides[rows.RATIO, v], sides[rows.NOW + rows.STRETCH, v])[
             0
@@ -140,18 +146,20 @@ def record_curves(sides, branches, curves, n):  # type: ignore[no-untyped-def]
 def _advance(tissue, inputs, state, curves, first, workspace):  # type: ignore[no-untyped-def]
     """:func:`advance` in a preallocated ``workspace``: reference counts of local arrays would take half its time."""
     passive, active, starling, eta, density = tissue
-    length, second_order, rate, attach, atria, waves, loads, laws, ends = inputs
-    sides, fibres, branches, last = state
+    length, second_order, rate, attach, atria, walls, waves, loads, laws, ends = inputs
+    sides, fibres, branches, last, chambers, reservoirs = state
     branch_states, p, system, work, jacobian = workspace
     total = 0
-    record_curves(sides, branches, curves, first)
+    record_curves(sides, branches, chambers, curves, first)
     for n in range(first, rate.shape[0]):
         step = steps.next_step(length, second_order, last[0])
         steps.begin_sides(step, sides)
         steps.begin_branches(step, branches)
-        steps.begin_arteries(step, waves, n, sides, system)
+        steps.begin_chambers(step, walls, n, chambers, reservoirs)
+        steps.begin_arteries(step, waves, n, sides, chambers, system)
+        begin_atria(chambers, step.effective, atria, n, system)
         steps.begin_fibres(active, starling, step, rate, attach, n, sides, fibres)
-        steps.predict(step, last, sides, p)
+        steps.predict(step, last, sides, chambers, p)
         outcome = rows.UNBALANCED
         for _ in range(NEWTON_ITERATIONS):
             total += 1
@@ -160,7 +168,9 @@ def _advance(tissue, inputs, state, curves, first, workspace):  # type: ignore[n
                 break
             stiffer = press_walls(loads, n, sides, p)
             linearise_walls(step, stiffer, sides, system, p)
-            size = solve_circuit(ends, laws, branch_states, atria, n, system, p, work, jacobian)
+            for v in range(chambers.shape[1]):
+                descend_planes(chambers, v, sides[rows.VOLUME, v], system)
+            size = solve_circuit(ends, laws, branch_states, chambers, atria, n, system, p, work, jacobian)
             move_walls(stiffer, sides, p)
             if size < IMBALANCE_TOLERANCE:
                 steps.follow_walls(sides, fibres)
@@ -170,11 +180,12 @@ def _advance(tissue, inputs, state, curves, first, workspace):  # type: ignore[n
             outcome = rows.NO_FIBRE_SOLUTION
         if outcome != rows.SOLVED:
             return n, outcome, total
-        steps.commit_sides(step, waves, n, sides, p)
+        steps.commit_chambers(step, ends, branch_states, sides, chambers, reservoirs, p, work)
+        steps.commit_sides(step, waves, n, sides, chambers, p, work)
         steps.commit_branches(branches)
         steps.commit_fibres(active, step, sides, fibres)
         last[1], last[0] = last[0], length
-        record_curves(sides, branches, curves, n + 1)
+        record_curves(sides, branches, chambers, curves, n + 1)
     return rate.shape[0], rows.SOLVED, total
 
 
@@ -182,10 +193,10 @@ def _advance(tissue, inputs, state, curves, first, workspace):  # type: ignore[n
 def advance(tissue, inputs, state, curves, first):  # type: ignore[no-untyped-def]
     """Take the steps from ``first`` on; return the index of the first failed step, its outcome and the iterations.
 
-    Without a failure the index is n and the outcome SOLVED. The rows of ``curves`` (n + 1, 3 v + k) are filled with
-    volumes, pressures of ventricles and arteries, and flows, before the first and after every step. A failed step
-    leaves the state as it was at its start.
+    Without a failure the index is n and the outcome SOLVED. The rows of ``curves`` (n + 1, 3 v + k + 2 c) are filled
+    with volumes, pressures of ventricles and arteries, flows, and volumes and pressures of c atria, before the first
+    and after every step. A failed step leaves the state as it was at its start.
     """
-    n = 2 * state.sides.shape[1]
+    n = 2 * state.sides.shape[1] + state.chambers.shape[1]
     equations = np.empty(n), np.zeros((n, 3 + n)), np.empty((3, n)), np.empty((n, n))
     return _advance(tissue, inputs, state, curves, first, (state.branches[rows.STEP_STATES :], *equations))

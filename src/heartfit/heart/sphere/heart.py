@@ -1,20 +1,28 @@
 """Heart of one or two spherical ventricles, as the arrays of its compiled beat."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import brentq
 
 from heartfit.core.arrays import Floats
+from heartfit.heart.circulation.atria import fill_atria
 from heartfit.heart.circulation.enclosure import VENTRICLES, load_table
-from heartfit.heart.circulation.network import ARTERIES, Network, mechanism_pressures, net_outflow
+from heartfit.heart.circulation.network import (
+    ARTERIES,
+    Network,
+    atrial_walls,
+    mechanism_pressures,
+    net_outflow,
+)
 from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.heart import Heart
 from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.beat import SphereTissue, State, StepInputs
 from heartfit.heart.sphere.body import LARGEST_STRETCH, Sphere, fibre_activation, wall_stiffenings
 from heartfit.heart.sphere.wall import cavity, passive_stress, tabulate
+from heartfit.roles.chamber import ACTIVE, VEIN_END, VEINS, VOLUME
 from heartfit.roles.laws import FLOW, STATE_ROWS
 
 SMALLEST_FILLING_STRETCH = 0.8
@@ -57,6 +65,7 @@ class SphericalHeart:
         )
         self._network = Network(heart.circulation, heart.mechanisms, len(spheres))
         self.branches = self._network.names
+        self.atria = self._network.atria
         self._leaflets, inertances = self._network.leaflets.copy(), dict(inertia.valves)
         self._leaflets[:, 0] += [inertances.get(name, 0.0) for name in self.branches]
 
@@ -64,28 +73,36 @@ class SphericalHeart:
         """Inputs of steps of ``length`` [s] that begin at ``start`` (n,) [s]."""
         heart, control, end = self.heart, self.muscle.control, start + length
         rate, attach = control.mean(start[:, None], length, self._activation, heart.period)
-        atria = np.ascontiguousarray(self.atria(end).T)
+        atria = np.ascontiguousarray(self.prescribed(end).T)
         waves = mechanism_pressures(ARTERIES[: len(self.spheres)], end, heart.period, heart.mechanisms)
         waves = np.ascontiguousarray(waves.T)
         loads = load_table(heart.mechanisms, VENTRICLES[: len(self.spheres)], end, heart.period)
-        laws = self._network.laws(end)
+        laws, walls = self._network.laws(end), self._walls(end)
         return StepInputs(
-            length, self._second_order, rate, attach, atria, waves, loads, laws, self._network.ends
+            length, self._second_order, rate, attach, atria, walls, waves, loads, laws, self._network.ends
         )
 
-    def atria(self, time: Floats) -> Floats:
-        """Pressures (v, t) of the atria [Pa] at ``time`` (t,) [s]."""
+    def _walls(self, time: Floats) -> Floats:
+        """Active elastances [Pa/m^3] and outside pressures [Pa] (t, 2, v) of atria with a volume."""
+        heart, sides = self.heart, len(self.spheres)
+        if not self.atria.shape[1]:
+            return np.empty((len(time), 2, 0))
+        contraction, outside = atrial_walls(time, heart.period, heart.mechanisms, sides)
+        return np.stack([contraction[:, None] * self.atria[ACTIVE], outside.T], axis=1)
+
+    def prescribed(self, time: Floats) -> Floats:
+        """Pressures (v, t) of atria without a volume [Pa] at ``time`` (t,) [s]."""
         heart = self.heart
         return heart.circulation.atrial(time, heart.period, heart.mechanisms, len(self.spheres))
 
     def flows(self, p: Floats, inert: Floats) -> Floats:
-        """Flows (k,) [m^3/s] as a beat starts at the pressures p (2 v,) [Pa]; ``inert`` in branches with a state."""
+        """Flows (k,) [m^3/s] as a beat starts at the pressures p (n,) [Pa]; ``inert`` in branches with a state."""
         moving, work, zero = (
             np.zeros((STATE_ROWS, len(self.branches))),
             np.empty((len(p), len(p))),
             np.zeros(1),
         )
-        laws, atria = self._network.laws(zero), np.ascontiguousarray(self.atria(zero).T)
+        laws, atria = self._network.laws(zero), np.ascontiguousarray(self.prescribed(zero).T)
         net_outflow(self._network.ends, laws, moving, atria, 0, p, np.empty((1, len(p))), work)
         return np.where(self._leaflets.any(axis=1), inert, moving[FLOW])
 
@@ -94,6 +111,7 @@ class SphericalHeart:
         pressures = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
         sides = np.zeros((rows.SIDE_ROWS, len(self.spheres)))
         windkessels = self.heart.circulation.start(self.heart.period)
+        filling = np.flatnonzero(self.atria[VEINS, ::-1])
         for v, (sphere, tree) in enumerate(zip(self.spheres, self.trees, strict=True)):
             sides[[rows.RADIUS, rows.RATIO, rows.WALL], v] = (
                 sphere.radius,
@@ -101,7 +119,7 @@ class SphericalHeart:
                 sphere.wall,
             )
             sides[rows.R_P : rows.R_P + 5, v], sides[rows.OWN_COMPLIANCE, v] = (
-                tree.constants(),
+                replace(tree, P_ve=0.0).constants() if v in filling else tree.constants(),
                 self.inertia.arteries,
             )
             memory = np.zeros(rows.REMEMBERED)
@@ -110,9 +128,15 @@ class SphericalHeart:
             for row in (rows.NOW, rows.BEFORE, rows.OLDER):
                 sides[row : row + rows.REMEMBERED, v] = memory
         sides[rows.P] = pressures[: len(self.spheres)]
-        return State(
-            sides, self._relaxed_fibres(sides[rows.NOW + rows.STRETCH]), self._resting_branches(), np.zeros(2)
-        )
+        fibres, branches = self._relaxed_fibres(sides[rows.NOW + rows.STRETCH]), self._resting_branches()
+        return State(sides, fibres, branches, np.zeros(2), *self._filled_atria(sides, pressures))
+
+    def _filled_atria(self, sides: Floats, pressures: Floats) -> tuple[Floats, Floats]:
+        """Table of the relaxed atria, and their volumes and veins now and one step before."""
+        atria, stretch = self.atria.copy(), sides[rows.NOW + rows.STRETCH]
+        volumes = [cavity(*sides[[rows.RADIUS, rows.RATIO], v], x)[0] for v, x in enumerate(stretch)]  # type: ignore[call-arg]
+        fill_atria(atria, pressures, np.array(volumes))
+        return atria, atria[[VOLUME, VEIN_END, VOLUME, VEIN_END]]
 
     def _relaxed_fibres(self, stretch: Floats) -> Floats:
         fibres, active = np.zeros((rows.FIBRE_ROWS, len(self._activation))), self.muscle.active

@@ -7,7 +7,9 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.heart.beat import COST, Beat, failed_beat
+from heartfit.heart.circulation.atria import has_volume
 from heartfit.heart.circulation.elements import WindkesselState
+from heartfit.heart.circulation.network import ATRIA
 from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, Recurrence
@@ -16,6 +18,7 @@ from heartfit.heart.sphere.beat import State, StepInputs, advance
 from heartfit.heart.sphere.body import HEALTHY_ACTIVATION, Sphere
 from heartfit.heart.sphere.heart import Inertia, SphericalHeart
 from heartfit.roles import COMPARTMENTS
+from heartfit.roles.chamber import VEINS
 
 FAILURE_REASONS = (
     "",
@@ -66,17 +69,36 @@ class _SphereRun:
         state, length = self.heart.start(), self.period / self.steps
         before: Recurrence | None = None
         inputs = self.heart.inputs(length * np.arange(float(self.steps)), length)
-        curves = np.empty((self.steps + 1, 3 * len(self.heart.spheres) + len(self.heart.branches)))
+        curves = np.empty((self.steps + 1, self._columns))
         while True:
             first = _windkessels(state)
             self._run_beat(inputs, state, curves)
             self.beats += 1
-            cycle = Recurrence(curves[:, : len(self.heart.spheres)], first, _windkessels(state))
+            cycle = self._recurrence(curves, first, _windkessels(state))
             self.drift = cycle.drift()
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
                 return self._beat(curves)
             _shift_pressures(state, cycle.shifts(self.heart.trees, self.period, before))
             before = cycle
+
+    def _recurrence(
+        self, curves: Floats, first: list[WindkesselState], last: list[WindkesselState]
+    ) -> Recurrence:
+        volumes, atria = curves[:, : len(self.heart.spheres)].copy(), list(self._chambers(curves).values())
+        return Recurrence(volumes, first, last, np.array(atria).reshape(-1, len(curves)).T, self._closed)
+
+    @property
+    def _columns(self) -> int:
+        return 3 * len(self.heart.spheres) + len(self.heart.branches) + 2 * self.heart.atria.shape[1]
+
+    @property
+    def _closed(self) -> bool:
+        return bool(self.heart.atria[VEINS].any())
+
+    def _chambers(self, curves: Floats) -> dict[str, Floats]:
+        """Volumes (t,) of the atria that have one [m^3], by name."""
+        first = 3 * len(self.heart.spheres) + len(self.heart.branches)
+        return {ATRIA[s]: curves[:, first + s] for s in has_volume(self.heart.atria)}
 
     def _run_beat(self, inputs: StepInputs, state: State, curves: Floats) -> None:
         completed = self._steps(inputs, state, curves, 0)
@@ -94,7 +116,7 @@ class _SphereRun:
         if cuts == 0:
             raise StepFailed(f"at {start:.4f} s, step {length:.2g} s: {FAILURE_REASONS[self.outcome]}")
         self.cuts, half = self.cuts + 1, 0.5 * length
-        scratch = np.empty((2, 3 * len(self.heart.spheres) + len(self.heart.branches)))
+        scratch = np.empty((2, self._columns))
         state.last[1] = 0.0
         for begin in (start, start + half):
             if not self._steps(self.heart.inputs(np.array([begin]), half), state, scratch, 0):
@@ -104,15 +126,17 @@ class _SphereRun:
     def _beat(self, curves: Floats) -> Beat:
         heart, v = self.heart.heart, len(self.heart.spheres)
         time = np.linspace(0.0, self.period, self.steps + 1)
-        atria = self.heart.atria(time)
-        curves[0, 3 * v :] = self.heart.flows(curves[0, v : 3 * v], curves[0, 3 * v :])
+        flows, chambers = slice(3 * v, 3 * v + len(self.heart.branches)), self.heart.atria.shape[1]
+        atria = curves[:, -chambers:].T if chambers else self.heart.prescribed(time)
+        unknown = np.concatenate([curves[0, v : 3 * v], atria[:chambers, 0]])
+        curves[0, flows] = self.heart.flows(unknown, curves[0, flows])
         signals = [*curves[:, v : 3 * v].T, *atria]
         names = [name for side in range(3) for name in COMPARTMENTS[2 * side : 2 * side + v]]
         return Beat(
             time=time,
-            volume=dict(zip(COMPARTMENTS, curves[:, :v].T, strict=False)),
+            volume=dict(zip(COMPARTMENTS, curves[:, :v].T, strict=False)) | self._chambers(curves),
             pressure=dict(zip(names, signals, strict=True)),
-            flow=dict(zip(self.heart.branches, curves[:, 3 * v :].T, strict=True)),
+            flow=dict(zip(self.heart.branches, curves[:, flows].T, strict=True)),
             period=heart.period,
             trigger=heart.trigger,
             diagnostics=self.diagnostics() | {"wall_volume_loss": 0.0},

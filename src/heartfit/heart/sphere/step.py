@@ -7,13 +7,24 @@ kinks of the valves do not affect the walls. Starting values are those of :mod:`
 
 from numba import njit
 
-from heartfit.heart.circulation.circuit import CONSTANT, ONE_KILOPASCAL, REFERENCE, STORAGE, WEIGHT
+from heartfit.heart.circulation.atria import drain_arteries, end_atrium
 from heartfit.heart.circulation.elements import advance_windkessel, affine_coefficients
+from heartfit.heart.circulation.system import CONSTANT, ONE_KILOPASCAL, REFERENCE, STORAGE, WEIGHT
 from heartfit.heart.muscle.bcs import LARGEST_INCREMENT, bridges
 from heartfit.heart.muscle.control import available_fraction
 from heartfit.heart.muscle.spring import frozen_spring_slope, green_strain
 from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.wall import CompiledStep, cavity
+from heartfit.roles.chamber import (
+    OUTSIDE,
+    PRESSURE,
+    START_VEIN,
+    START_VOLUME,
+    STIFFENING,
+    VEIN_END,
+    VEINS,
+    VOLUME,
+)
 from heartfit.roles.laws import (
     CLOSING_RATE,
     FLOW,
@@ -70,8 +81,18 @@ def begin_branches(step, branches):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def begin_arteries(step, waves, n, sides, system):  # type: ignore[no-untyped-def]
-    """Set the equations of the arteries, p - a - b q = 0, with their ``waves`` and their own compliance."""
+def begin_chambers(step, walls, n, chambers, reservoirs):  # type: ignore[no-untyped-def]
+    """Set the starting values of atria and veins, and the walls of the atria at the end of step n."""
+    for v in range(chambers.shape[1]):
+        volume, vein = reservoirs[0, v], reservoirs[1, v]
+        chambers[START_VOLUME, v] = volume + step.gain * (volume - reservoirs[2, v])
+        chambers[START_VEIN, v] = vein + step.gain * (vein - reservoirs[3, v])
+        chambers[STIFFENING, v], chambers[OUTSIDE, v] = walls[n, 0, v], walls[n, 1, v]
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def begin_arteries(step, waves, n, sides, chambers, system):  # type: ignore[no-untyped-def]
+    """Set the equations of the arteries, p - a - b q - c P = 0, with their ``waves`` and their own compliance."""
     count = sides.shape[1]
     for v in range(count):
         a, b = affine_coefficients(
@@ -84,13 +105,27 @@ def begin_arteries(step, waves, n, sides, system):  # type: ignore[no-untyped-de
             sides[rows.START + rows.Q_L, v],
             step.effective,
         )
+        a, b, c = drain_arteries(
+            chambers,
+            v,
+            step.effective,
+            sides[rows.R_P, v],
+            sides[rows.TAU, v],
+            sides[rows.START + rows.P_C, v],
+            a,
+            b,
+            waves[n, v],
+        )
         a += waves[n, v]
         stiff = sides[rows.OWN_COMPLIANCE, v] / step.effective
+        c = c / (1.0 + b * stiff)
         b = b / (1.0 + b * stiff)
         a += b * stiff * (sides[rows.START + rows.ARTERY, v] - a)
         row = count + v
         system[row, WEIGHT], system[row, STORAGE + row] = b / ONE_KILOPASCAL, 1.0 / ONE_KILOPASCAL
         system[row, CONSTANT], system[row, REFERENCE] = 0.0, a
+        if chambers.shape[1] == 2:
+            system[row, STORAGE + 2 * count + 1 - v] = -c / ONE_KILOPASCAL
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -120,9 +155,11 @@ def extrapolate(step, last, sides, row, v):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def predict(step, last, sides, p):  # type: ignore[no-untyped-def]
-    """Set the initial guess of the stretches and of the arterial pressures."""
+def predict(step, last, sides, chambers, p):  # type: ignore[no-untyped-def]
+    """Set the initial guess of the stretches and of the pressures of arteries and atria."""
     count = sides.shape[1]
+    for v in range(chambers.shape[1]):
+        p[2 * count + v] = chambers[PRESSURE, v]
     for v in range(count):
         sides[rows.X, v], sides[rows.X_BEFORE, v] = (
             extrapolate(step, last, sides, rows.STRETCH, v),
@@ -143,8 +180,35 @@ def follow_walls(sides, fibres):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def commit_sides(step, waves, n, sides, p):  # type: ignore[no-untyped-def]
-    """Store the solution in the table of the sides."""
+def commit_chambers(step, ends, branch_states, sides, chambers, reservoirs, p, work):  # type: ignore[no-untyped-def]
+    """Store volumes and veins of the atria, from the flows of the branches.
+
+    ``work`` is overwritten: row 0 by the net outflow of ventricles, arteries and atria, row 1 by the inflow of the
+    Windkessels.
+    """
+    count = chambers.shape[1]
+    if count == 0:
+        return
+    for i in range(3 * count):
+        work[0, i] = 0.0
+    for k in range(ends.shape[0]):
+        for end, sign in ((0, 1.0), (1, -1.0)):
+            side, place = ends[k, end] % 2, ends[k, end] // 2
+            work[0, place * count + side] += sign * branch_states[FLOW, k]
+    for v in range(count):
+        stiff = sides[rows.OWN_COMPLIANCE, v] / step.effective
+        swelling = stiff * (p[count + v] - sides[rows.START + rows.ARTERY, v])
+        work[1, v] = -work[0, count + v] - swelling
+    for v in range(count):
+        inflow, i = work[1, count - 1 - v], 2 * count + v
+        end_atrium(chambers, v, step.effective, inflow, work[0, i], p[i])
+        reservoirs[2, v], reservoirs[3, v] = reservoirs[0, v], reservoirs[1, v]
+        reservoirs[0, v], reservoirs[1, v] = chambers[VOLUME, v], chambers[VEIN_END, v]
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def commit_sides(step, waves, n, sides, chambers, p, work):  # type: ignore[no-untyped-def]
+    """Store the solution in the table of the sides; row 1 of ``work`` holds the inflow of arteries that fill veins."""
     count = sides.shape[1]
     for v in range(count):
         for row in range(rows.REMEMBERED):
@@ -152,16 +216,17 @@ def commit_sides(step, waves, n, sides, p):  # type: ignore[no-untyped-def]
                 sides[rows.BEFORE + row, v],
                 sides[rows.NOW + row, v],
             )
+        fills = chambers.shape[1] == 2 and chambers[VEINS, 1 - v] > 0.0
         tree = (
             sides[rows.R_P, v],
             sides[rows.TAU, v],
             sides[rows.Z_C, v],
             sides[rows.L, v],
-            sides[rows.P_VE, v],
+            chambers[VEIN_END, 1 - v] if fills else sides[rows.P_VE, v],
         )
         state = sides[rows.START + rows.P_C, v], sides[rows.START + rows.Q_L, v]
         a, b = affine_coefficients(*tree, *state, step.effective)
-        inflow = (p[count + v] - waves[n, v] - a) / b
+        inflow = work[1, v] if fills else (p[count + v] - waves[n, v] - a) / b
         sides[rows.NOW + rows.P_C, v], sides[rows.NOW + rows.Q_L, v] = advance_windkessel(
             *tree, *state, inflow, step.effective
         )
