@@ -110,7 +110,11 @@ def noise_model(wildcards):
 
 def second_reading(wildcards):
     """Volume from the blood of a measured heart's images; empty without images beside a fitted surface."""
-    return [f"<results>/{wildcards.case}/curves/blood_volume.csv"] if wildcards.case in FITTED_WITH_IMAGES else []
+    return (
+        [f"<results>/{wildcards.case}/curves/blood_volume.csv"]
+        if wildcards.case in FITTED_WITH_IMAGES
+        else []
+    )
 
 
 def registered_sequences(acquisition, numbers):

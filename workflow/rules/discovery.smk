@@ -111,6 +111,26 @@ rule compare_attempts:
         "../scripts/compare_attempts.py"
 
 
+rule tabulate_extension:
+    input:
+        measured="<results>/{case}/curves/measured.csv",
+        second=second_reading,
+        cause="<results>/{case}/discovery/{setting}/cause.json",
+        traces="<results>/{case}/discovery/{setting}/traces.json",
+    output:
+        tables=table_files("{case}_{setting}_extension"),
+        figure=figure_files("extension_{case}_{setting}", "trials"),
+    script:
+        "../scripts/tabulate_extension.py"
+
+
+# the measured heart: what its simulation gets wrong, and what the named mechanisms gain; see config/measured_heart.yaml
+rule discover:
+    input:
+        [f"<results>/{case}/discovery/{setting}/cause.md" for case, setting in REFITTED],
+        [f"<results>/tables/{case}_{setting}_extension.md" for case, setting in REFITTED],
+
+
 rule tabulate_discovery:
     input:
         causes=[f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in REFITTED_VIRTUAL],
