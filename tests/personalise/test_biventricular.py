@@ -86,6 +86,19 @@ def test_planted_parameters_of_the_right_ventricle_are_recovered(
     assert shrunk[0] < 0.5 < 0.9 < shrunk[1:].min()
 
 
+def test_a_setting_may_ask_for_the_noise_of_its_observations(
+    measured: dict[str, Curve], simulated: tuple[list[SigmaPoint], list[Beat]]
+) -> None:
+    measurement = observe_measured(measured, OPERATOR.features(measured, BOTH.observe), 0.0)
+    noisy = BOTH.model_copy(update={"noise": True})
+    steps = [
+        estimate(setting, BOTH.gaussian(), *simulated, measured, measurement, OPERATOR, transform).step
+        for setting, transform in ((noisy, Transform()), (BOTH, Transform(noise=True)), (BOTH, Transform()))
+    ]
+    assert (steps[0] == steps[1]).all()
+    assert abs(steps[0] - steps[2]).max() > 0.01
+
+
 def test_without_the_right_volume_the_right_parameters_keep_their_prior(
     measured: dict[str, Curve], simulated: tuple[list[SigmaPoint], list[Beat]]
 ) -> None:

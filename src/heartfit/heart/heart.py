@@ -57,8 +57,9 @@ class Heart:
         """Copy of the heart with the parameters ``values`` replaced.
 
         A name is a dotted path ("circulation.pulmonary_tree.R_p") or its last part, provided that this is unique
-        or one of the paper's fourteen (R_p, tau, Z_c and L then mean the systemic circulation). Raises ``KeyError``
-        for an unknown or ambiguous name; the message lists the nearest names or the candidate paths.
+        or one of the paper's fourteen (R_p, tau, Z_c and L then mean the systemic circulation). A parameter of the
+        right wall gives way to another of its name. Raises ``KeyError`` for an unknown or ambiguous name; the message
+        lists the nearest names or the candidate paths.
         """
         known = self.parameters()
         changes: dict[str, Any] = {}
@@ -79,6 +80,8 @@ def _resolve_path(name: str, parameters: Mapping[str, float]) -> str:
     systemic = [path for path in paths if path.startswith("circulation.systemic.")]
     if len(paths) > 1 and name in PAPER_PARAMETERS and systemic:
         paths = systemic
+    if len(paths) > 1:
+        paths = [path for path in paths if not path.startswith("tissue.right.")]
     if len(paths) == 1:
         return paths[0]
     near = get_close_matches(name, [path.rsplit(".", 1)[-1] for path in parameters] + list(parameters))

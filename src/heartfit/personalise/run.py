@@ -110,17 +110,17 @@ def estimate(
 ) -> Posterior:
     """Return the posterior from the beats of all sigma points, in their order, each observed by its sensors.
 
-    Only the observations of the setting's curves are used. Without the transform's noise the measured values are fitted
-    exactly, as in the paper; with it, the bias-corrected values with their covariance. ``slopes`` add the uncertainty
-    due to parameters that are not estimated.
+    Only the observations of the setting's curves are used. Without the noise that transform or setting asks for, the
+    measured values are fitted exactly, as in the paper; with it, the bias-corrected values with their covariance.
+    ``slopes`` add the uncertainty due to parameters that are not estimated.
     """
     sensors = [setting.sensors(point.parameters) for point in points]
     features = operator.features(measured, setting.observe)
     measurement = measurement.of([name for observer in features.values() for name in observer.names])
-    noise = measurement.covariance if transform.noise else None
+    noise = measurement.covariance if transform.noise or setting.noise else None
     if noise is not None and slopes is not None:
         noise = noise + slopes.covariance(setting.estimate, measurement.corrected, transform.fixed_sd)
-    observed = measurement.corrected if transform.noise else measurement.values
+    observed = measurement.values if noise is None else measurement.corrected
     outcomes = observe_beats(beats, features, sensors)
     return calibrate(prior, outcomes, observed, noise, transform.scaling())
 

@@ -103,6 +103,9 @@ class Setting(Strict):
     cases: tuple[str, ...] | None = Field(
         None, min_length=1, description="cases that it is for; all by default"
     )
+    noise: bool = Field(
+        False, description="update with the noise of the observations, whatever the transform"
+    )
     heart: dict[str, float] = Field({}, description="parameters that differ from their declared value")
     prior: dict[str, Prior] = Field({}, description="differences from the study's prior")
 
@@ -144,7 +147,7 @@ class Setting(Strict):
         prior = self.prior | {name: mean.over(self.prior.get(name, Prior())) for name, mean in freed.items()}
         fixed = {name: value for name, value in self.heart.items() if name not in names}
         model = {"estimate": tuple(names), "heart": fixed, "prior": prior}
-        changes = model | {"with_pressure": (), "observe": (), "cases": None}
+        changes = model | {"with_pressure": (), "observe": (), "cases": None, "noise": False}
         return self.model_copy(update=changes)
 
     def with_prior(self, table: Mapping[str, Prior]) -> "Setting":

@@ -18,6 +18,7 @@ from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.heart.time_step import TimeStep
 from heartfit.mechanisms.delayed_activation import DelayedActivation
 from heartfit.mechanisms.fibre_stiffening import FibreStiffening
+from heartfit.mechanisms.image_trigger_delay import ImageTriggerDelay
 from heartfit.mechanisms.scar import Scar
 from heartfit.personalise.run import ventricles
 from tests.heart.sphere.test_simulation import LEFT, RIGHT, TIGHT, TWO_BEATS, departures
@@ -161,3 +162,10 @@ def test_inadmissible_values_are_refused() -> None:
     for values in ({"contractility": -0.1}, {"delay": -1e-3}, {"stiffness": float("nan")}):
         with pytest.raises(InputError, match=next(iter(values))):
             RightVentricle(**values)
+
+
+def test_a_short_name_means_the_other_parameter() -> None:
+    """A stated name of a mechanism keeps its meaning."""
+    heart = Heart() + ImageTriggerDelay()
+    assert heart.parameter_path("delay") == "ImageTriggerDelay.delay"
+    assert Heart().parameter_path("delay") == "tissue.right.delay"
