@@ -26,6 +26,17 @@ def test_the_noise_of_the_mean_is_recovered(memory: float) -> None:
     assert np.std(readings.mean.values - TRUE) == pytest.approx(estimated.deviation, rel=0.15)
 
 
+def test_one_reading_alone_is_noisier_by_the_root_of_two() -> None:
+    first, second = Curve(TIMES, TRUE, PERIOD), Curve(TIMES, TRUE + 1e-6 * np.cos(40.0 * TIMES), PERIOD)
+    readings = TwoReadings(first, second)
+    assert readings.take("mean")[1] == readings.noise()
+    for name, curve in (("first", first), ("second", second)):
+        taken, noise = readings.take(name)
+        assert taken is curve
+        assert noise.deviation == pytest.approx(np.sqrt(2.0) * readings.noise().deviation)
+        assert noise.memory == readings.noise().memory
+
+
 def test_equal_readings_have_no_noise() -> None:
     curve = Curve(TIMES, TRUE, PERIOD)
     assert TwoReadings(curve, curve).noise() == FrameNoise(0.0, 0.0)

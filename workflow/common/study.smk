@@ -92,6 +92,7 @@ wildcard_constraints:
     acquisition="|".join(map(re.escape, SEQUENCES)),
     batch=r"\d+",
     mechanism=r"\w+",
+    reading="first|second",
 
 
 def match_any(names):

@@ -54,8 +54,24 @@ rule search_cause:
         setting=setting_of,
         stated=configuration_text(case_of, setting_of),
         mechanisms=library_mechanisms,
+        reading="mean",
     script:
         "../scripts/search_cause.py"
+
+
+# the same search with the volume of the fitted surface, or of the blood in the slices, alone
+use rule search_cause as search_reading with:
+    output:
+        cause_card("<results>/{case}/discovery/{setting}/readings/{reading}"),
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        case=case_of,
+        setting=setting_of,
+        stated=configuration_text(case_of, setting_of),
+        mechanisms=library_mechanisms,
+        reading=lambda wildcards: wildcards.reading,
 
 
 rule refit_case:
@@ -119,7 +135,10 @@ rule tabulate_extension:
         traces="<results>/{case}/discovery/{setting}/traces.json",
     output:
         tables=table_files("{case}_{setting}_extension"),
-        figure=figure_files("extension_{case}_{setting}", "trials"),
+        figure=figure_files("extension_{case}_{setting}", "extension"),
+    resources:
+        mem_mb=500,
+        runtime=2,
     script:
         "../scripts/tabulate_extension.py"
 
@@ -129,6 +148,12 @@ rule discover:
     input:
         [f"<results>/{case}/discovery/{setting}/cause.md" for case, setting in REFITTED],
         [f"<results>/tables/{case}_{setting}_extension.md" for case, setting in REFITTED],
+        [
+            f"<results>/{case}/discovery/{setting}/readings/{reading}/cause.json"
+            for case, setting in REFITTED
+            for reading in ("first", "second")
+            if case in FITTED_WITH_IMAGES
+        ],
 
 
 rule tabulate_discovery:

@@ -12,7 +12,7 @@ from heartfit.results.cause_figure import render_cause
 
 record(snakemake.log[0])
 files, params, names = snakemake.input, snakemake.params, snakemake.wildcards
-fitted, unseen = read_measured_case(dict(files.items())).halves()
+fitted, unseen = read_measured_case(dict(files.items()), reading=params.reading).halves()
 heart, sensors = params.setting.base_heart(params.case.period), params.setting.sensors({})
 beats = [beat_curves(read_beat(Path(file)), sensors) for file in files.beats]
 outcome = centred_search(fitted, heart, beats, unseen)

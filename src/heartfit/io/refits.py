@@ -14,6 +14,7 @@ from heartfit.io.curves import read_curves
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.noise_models import read_noise_model
 from heartfit.io.results import read_record, read_truth, write_result
+from heartfit.observation.second_reading import Reading
 from heartfit.results.discovery import DiscoveryResult
 
 
@@ -27,15 +28,17 @@ def read_attempt(path: Path) -> Attempt:
     return read_record(Path(path), Attempt)
 
 
-def read_measured_case(files: Mapping[str, Any], both: bool = False) -> MeasuredCase:
+def read_measured_case(
+    files: Mapping[str, Any], both: bool = False, reading: Reading = "mean"
+) -> MeasuredCase:
     """Read a case: measured curves, noise model of its images and second reading, as far as it has them.
 
-    both: a refit fits both ventricles.
+    both: a refit fits both ventricles; reading: of a left volume that was read twice.
     """
     models = [read_noise_model(Path(model)) for model in files.get("noise", [])]
     seconds = [read_curves(Path(file))["lv_volume"] for file in files.get("second", [])]
     second = seconds[0] if seconds else None
-    return MeasuredCase.from_curves(read_curves(Path(files["measured"])), models, second, both)
+    return MeasuredCase.from_curves(read_curves(Path(files["measured"])), models, second, both, reading)
 
 
 def read_trial(files: Mapping[str, Any], parameters: Mapping[str, Any]) -> ExtensionTrial:

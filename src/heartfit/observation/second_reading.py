@@ -9,7 +9,8 @@ with the correlation :math:`\rho_1` of neighbouring frames of d. What both readi
 does not show in d.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.observation.curve import Curve
 
+Reading = Literal["mean", "first", "second"]
 FITTED_SCALES = 2
 """Parameters of the second reading that were fitted to the first: offset and slope."""
 
@@ -52,6 +54,14 @@ class TwoReadings:
         """Mean of both readings."""
         values = 0.5 * (self.first.values + self.second.values)
         return Curve(self.first.times, values, self.first.period)
+
+    def take(self, reading: Reading) -> tuple[Curve, FrameNoise]:
+        """Curve and noise of the mean or of one reading, whose noise is larger by the root of two."""
+        mean = self.noise()
+        alone = replace(mean, deviation=mean.deviation * float(np.sqrt(2.0)))
+        return {"mean": (self.mean, mean), "first": (self.first, alone), "second": (self.second, alone)}[
+            reading
+        ]
 
     def noise(self) -> FrameNoise:
         """Noise of the mean."""

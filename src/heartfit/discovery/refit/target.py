@@ -23,7 +23,7 @@ from heartfit.observation.curve import Curve
 from heartfit.observation.measurement import frame_noise
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.residual import SIMULATION_ROUGHNESS, unbiased_with_noise
-from heartfit.observation.second_reading import FrameNoise, TwoReadings
+from heartfit.observation.second_reading import FrameNoise, Reading, TwoReadings
 
 BIN, BLOCK = 0.010, 4
 """Length of the bins over which pressure is averaged [s], and number of bins in a block."""
@@ -171,14 +171,18 @@ class MeasuredCase:
         models: Sequence[NoiseModel],
         second: Curve | None = None,
         both: bool = False,
+        reading: Reading = "mean",
     ) -> "MeasuredCase":
-        """Remove the bias of measured curves; second: another reading of the left volume, which is averaged with it."""
+        """Remove the bias of measured curves.
+
+        second: another reading of the left volume; reading: whether their mean or one of them is the volume.
+        """
         corrected = {name: unbiased_with_noise(name, curve, models) for name, curve in measured.items()}
         curves = {name: curve for name, (curve, _) in corrected.items()}
-        noise, frames = {name: sd for name, (_, sd) in corrected.items()}, {}
+        noise = {name: sd for name, (_, sd) in corrected.items()}
+        frames: dict[str, FrameNoise] = {}
         if second is not None:
-            readings = TwoReadings(curves["lv_volume"], second)
-            curves["lv_volume"], frames = readings.mean, {"lv_volume": readings.noise()}
+            curves["lv_volume"], frames["lv_volume"] = TwoReadings(curves["lv_volume"], second).take(reading)
             scatter = np.hypot(frames["lv_volume"].deviation, SIMULATION_ROUGHNESS["volume"])
             noise["lv_volume"] = np.full(second.times.size, scatter)
         return cls(measured, curves, noise, models, frames, both and "rv_volume" in measured)
