@@ -7,6 +7,7 @@ from verification.arostica import arostica_checks
 from verification.audit_checks import audit_checks, audit_table, blood_checks, blood_table, limit_cycle
 from verification.block_checks import HARD, SIZES, SOFT, USUAL, block_checks, block_error
 from verification.check import Check
+from verification.closed_loop import closed_loop_checks
 from verification.land import coarse_land_checks, fine_land_checks, land_table
 from verification.physioblocks import physioblocks_checks
 from verification.reference import first_beats, reference_checks, reference_table
@@ -22,6 +23,7 @@ def all_checks() -> list[Check]:
         block_checks()
         + time_order_checks()
         + physioblocks_checks()
+        + closed_loop_checks()
         + slab_checks()
         + arostica_checks()
         + coarse_land_checks()

@@ -14,7 +14,12 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.heart.beat import COST, Beat, failed_beat
-from heartfit.heart.circulation.atria import chamber_table, fill_atria, has_volume
+from heartfit.heart.circulation.atria import (
+    chamber_table,
+    fill_atria,
+    sides_filling_veins,
+    sides_with_volume,
+)
 from heartfit.heart.circulation.coupling import Body, Coupling, HeartState, Tolerances
 from heartfit.heart.circulation.elements import Windkessel, WindkesselState
 from heartfit.heart.circulation.network import ATRIA, NetworkStep
@@ -23,7 +28,7 @@ from heartfit.heart.finite_elements.unloading import inflate
 from heartfit.heart.heart import Heart
 from heartfit.heart.time_step import TimeStep
 from heartfit.roles import COMPARTMENTS
-from heartfit.roles.chamber import VEIN_END, VEINS, VOLUME
+from heartfit.roles.chamber import VEIN_END, VOLUME
 
 INITIAL_RESPONSES = 1.1, 1.0
 """Fall of the pressure deficit of the aorta and of the pulmonary artery per rise of the pressure at the start of a beat
@@ -187,11 +192,11 @@ class _Run:
     def _recurrence(self, history: list[HeartState]) -> Recurrence:
         volumes = np.array([state.volumes for state in history])
         trees = history[0].trees, history[-1].trees
-        return Recurrence(volumes, *trees, self._atrial_volumes(history), bool(self.atria[VEINS].any()))
+        return Recurrence(volumes, *trees, self._atrial_volumes(history), bool(sides_filling_veins(self.atria)))
 
     def _atrial_volumes(self, history: list[HeartState]) -> Floats:
         """Volumes (t, c) of the atria that have one [m^3]."""
-        sides = has_volume(self.atria)
+        sides = sides_with_volume(self.atria)
         volumes: Floats = np.array([[state.atria[0, s] for s in sides] for state in history])  # type: ignore[index]
         return volumes
 
@@ -205,9 +210,10 @@ class _Run:
         atria = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
         pressures = np.array([*atria, *(tree.P_c for tree in trees)])
         filled = inflate(self.body, atria)
-        volumes, table = self.body.volumes(filled.x), self.atria.copy()
-        if not table.shape[1]:
+        volumes = self.body.volumes(filled.x)
+        if self.atria is None:
             return HeartState(filled, pressures, volumes, trees)
+        table = self.atria.copy()
         fill_atria(table, atria, volumes)
         start = table[[VOLUME, VEIN_END]]
         return HeartState(filled, np.append(pressures, atria), volumes, trees, atria=start)
@@ -241,7 +247,7 @@ class _Run:
         )
 
     def _chambers(self, history: list[HeartState]) -> dict[str, Floats]:
-        names = [ATRIA[s] for s in has_volume(self.atria)]
+        names = [ATRIA[s] for s in sides_with_volume(self.atria)]
         return dict(zip(names, self._atrial_volumes(history).T, strict=True))
 
     def _signals(

@@ -8,7 +8,8 @@ and the net outflow q through the valves,
 
 Veins are linear and add no unknown: with the Windkessel that fills them their pressure is
 :math:`P_v = \alpha + \beta q_{ar} + \gamma P`, and the arterial pressure becomes :math:`a + b q_{ar} + c P`. An atrium
-without a volume beside one keeps its prescribed pressure, :math:`P - P_{pre} = 0`.
+without a volume beside one keeps its prescribed pressure, :math:`P - P_{pre} = 0`. Where no atrium has a volume the table
+of atria is None, which removes these equations from the compiled functions.
 """
 
 from collections.abc import Sequence
@@ -51,8 +52,8 @@ from heartfit.roles.chamber import (
 )
 
 
-def chamber_table(mechanisms: Sequence[Mechanism], sides: int = 2) -> Floats:
-    """Table (ATRIUM_ROWS, sides) of the atria, or (ATRIUM_ROWS, 0) if none has a volume.
+def chamber_table(mechanisms: Sequence[Mechanism], sides: int = 2) -> Floats | None:
+    """Table (ATRIUM_ROWS, sides) of the atria, None if none has a volume.
 
     Raises InputError for veins with an elastance beside a single ventricle, whose circuit does not include their
     arteries.
@@ -67,12 +68,17 @@ def chamber_table(mechanisms: Sequence[Mechanism], sides: int = 2) -> Floats:
                     f"{type(chamber).__name__}: veins of elastance {law.veins:g} Pa/m^3 are filled by arteries of "
                     "the other side; expected both ventricles: add the right one or set the elastance to 0"
                 )
-    return table if table[RESISTANCE].any() else table[:, :0]
+    return table if table[RESISTANCE].any() else None
 
 
-def has_volume(atria: Floats) -> list[int]:
-    """Sides of the atria with a volume in a table of atria."""
-    return [int(s) for s in np.flatnonzero(atria[RESISTANCE])]
+def sides_with_volume(atria: Floats | None) -> list[int]:
+    """Sides of the atria that have a volume."""
+    return [] if atria is None else np.flatnonzero(atria[RESISTANCE]).tolist()
+
+
+def sides_filling_veins(atria: Floats | None) -> list[int]:
+    """Sides of the arteries that fill veins, those of the other side."""
+    return [] if atria is None else np.flatnonzero(atria[VEINS, ::-1]).tolist()
 
 
 def fill_atria(atria: Floats, pressures: Floats, ventricles: Floats) -> None:
@@ -92,22 +98,19 @@ def drain_arteries(atria, u, w, R_p, tau, P_c, a, b, wave):  # type: ignore[no-u
     side are a reservoir, and otherwise to zero plus the pressure of the veins. Fills the rows of the vein and of its
     arteries, whose pressure includes the ``wave`` [Pa].
     """
-    s = 1 - u
-    if atria.shape[1] < 2 or atria[VEINS, s] == 0.0:
-        return a, b, 0.0
-    decay, rise = 1.0 + w / tau, w * R_p / tau
-    fill, empty = w * atria[VEINS, s] / (R_p * decay), w * atria[VEINS, s] / atria[RESISTANCE, s]
-    per = 1.0 / (1.0 + empty + fill)
-    atria[VEIN, s] = per * (atria[START_VEIN, s] + fill * P_c)
-    atria[VEIN_PER_INFLOW, s] = per * fill * rise
-    atria[VEIN_PER_PRESSURE, s] = per * empty
-    back = w / tau / decay
-    a, b, c = (
-        a + back * atria[VEIN, s],
-        b + back * atria[VEIN_PER_INFLOW, s],
-        back * atria[VEIN_PER_PRESSURE, s],
-    )
-    atria[TREE, s], atria[TREE_PER_INFLOW, s], atria[TREE_PER_PRESSURE, s] = a + wave, b, c
+    s, c = 1 - u, 0.0
+    if atria is not None:
+        if atria.shape[1] == 2 and atria[VEINS, s] > 0.0:
+            decay, rise = 1.0 + w / tau, w * R_p / tau
+            fill, empty = w * atria[VEINS, s] / (R_p * decay), w * atria[VEINS, s] / atria[RESISTANCE, s]
+            per = 1.0 / (1.0 + empty + fill)
+            atria[VEIN, s] = per * (atria[START_VEIN, s] + fill * P_c)
+            atria[VEIN_PER_INFLOW, s] = per * fill * rise
+            atria[VEIN_PER_PRESSURE, s] = per * empty
+            back = w / tau / decay
+            a, b = a + back * atria[VEIN, s], b + back * atria[VEIN_PER_INFLOW, s]
+            c = back * atria[VEIN_PER_PRESSURE, s]
+            atria[TREE, s], atria[TREE_PER_INFLOW, s], atria[TREE_PER_PRESSURE, s] = a + wave, b, c
     return a, b, c
 
 

@@ -65,7 +65,7 @@ class Circuit:
         circuit_residual(*self._branches(), self._system(), p, work, np.empty((n, n)))
         return work[RESIDUAL] * np.where(self.network.stores_blood, ONE_MILLILITRE, ONE_KILOPASCAL)
 
-    def _branches(self) -> tuple[Integers, Floats, Floats, Floats, Floats, int]:
+    def _branches(self) -> tuple[Integers, Floats, Floats, Floats | None, Floats, int]:
         network = self.network
         return network.ends, network.laws, network.branch_states, network.atria, network.atrial[None], 0
 
@@ -74,7 +74,7 @@ class Circuit:
         system = np.zeros((n, STORAGE + n))
         self._fill_ventricles_and_arteries(system[:4])
         atria = self.network.atria
-        if atria.shape[1]:
+        if atria is not None:
             system[2, STORAGE + 5], system[3, STORAGE + 4] = -self.windkessels[:, 2] / ONE_KILOPASCAL
             begin_atria(atria, self.network.dt, self.network.atrial[None], 0, system)
             for side, volume in enumerate(self.volumes if self.volumes is not None else ()):
@@ -102,7 +102,7 @@ def circuit_residual(ends, laws, branch_states, atria, prescribed, t, system, p,
             storage = system[i, STORAGE + j]
             residual += storage * (p[j] - system[j, REFERENCE])
             jacobian[i, j] = storage + system[i, WEIGHT] * jacobian[i, j]
-        if i >= 2 * prescribed.shape[1]:
+        if atria is not None:
             stored, slope = store_blood(atria, i, p[i])
             residual += stored
             jacobian[i, i] += slope
@@ -123,7 +123,9 @@ def solve_circuit(ends, laws, branch_states, atria, prescribed, t, system, p, wo
     size = first = circuit_residual(
         ends, laws, branch_states, atria, prescribed, t, system, p, work, jacobian
     )
-    tolerance = ATRIAL_TOLERANCE if p.size > 2 * prescribed.shape[1] else RESIDUAL_TOLERANCE
+    tolerance = RESIDUAL_TOLERANCE
+    if atria is not None:
+        tolerance = ATRIAL_TOLERANCE
     for _ in range(NEWTON_ITERATIONS):
         if size < tolerance:
             break

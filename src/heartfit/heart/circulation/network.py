@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from heartfit.core.arrays import Floats
 from heartfit.core.parameter import parameter
-from heartfit.heart.circulation.atria import chamber_table, drain_arteries, end_atrium
+from heartfit.heart.circulation.atria import chamber_table, drain_arteries, end_atrium, sides_filling_veins
 from heartfit.heart.circulation.elements import PULMONARY, LinearValve, Valve, Windkessel, WindkesselState
 from heartfit.roles import COMPARTMENTS, Contraction, Dynamics, Flow, Mechanism, Narrowing, Pressure
 from heartfit.roles.chamber import (
@@ -25,7 +25,6 @@ from heartfit.roles.chamber import (
     START_VOLUME,
     STIFFENING,
     VEIN_END,
-    VEINS,
     VOLUME,
 )
 from heartfit.roles.laws import (
@@ -178,11 +177,10 @@ class NetworkStep:
             self.branch_states[START_FLOW : START_FLOW + 2] = start
         self._stateful = network.leaflets.any(axis=1)
         self.atria = network.atria
-        if self.atria.shape[1]:
+        if self.atria is not None:
             contraction, self.atria[OUTSIDE] = atrial_walls(time, period, mechanisms)
             self.atria[STIFFENING] = contraction * self.atria[ACTIVE]
-        if atrial_start is not None:
-            self.atria[[START_VOLUME, START_VEIN]] = atrial_start
+            self.atria[[START_VOLUME, START_VEIN]] = 0.0 if atrial_start is None else atrial_start
 
     def flows(self, pressures: Floats, states: Floats | None = None) -> dict[str, float]:
         """Flow of every branch by name [m^3/s]; those with a state have the flow of ``states`` (2, k)."""
@@ -197,7 +195,7 @@ class NetworkStep:
     @property
     def stores_blood(self) -> NDArray[np.bool_]:
         """True (n,) for ventricles and atria with a volume, whose equation is the balance of their blood."""
-        return np.array([True, True, False, False, *(self.atria[RESISTANCE] > 0.0)])
+        return np.array([True, True, False, False, *(() if self.atria is None else self.atria[RESISTANCE] > 0.0)])
 
     def outflow(self, pressures: Floats) -> tuple[Floats, Floats]:
         """Net outflow (n,) of the unknown compartments [m^3/s] and its Jacobian (n, n)."""
@@ -222,9 +220,9 @@ class NetworkStep:
 
     def trees(self) -> list[Windkessel]:
         """Windkessels, with a venous pressure of zero where they fill veins: that of the veins is added to it."""
-        filling = self.atria[VEINS, ::-1] > 0.0 if self.atria.shape[1] else (False, False)
-        pairs = zip(self._circulation.trees(), filling, strict=True)
-        return [replace(tree, P_ve=0.0) if fills else tree for tree, fills in pairs]
+        filling = sides_filling_veins(self.atria)
+        trees = enumerate(self._circulation.trees())
+        return [replace(tree, P_ve=0.0) if u in filling else tree for u, tree in trees]
 
     def branches(self) -> Floats:
         """Flows and openings (2, k) at the pressures of the last evaluation."""
@@ -240,18 +238,17 @@ class NetworkStep:
 
     def _drained(self, out: Floats, pressures: Floats) -> Sequence[Windkessel]:
         """Windkessels with the venous pressures at the end of the step, and the volumes of the atria there."""
-        if not self.atria.shape[1]:
-            return self._circulation.trees()
-        for s in range(2):
-            end_atrium(self.atria, s, self.dt, -out[3 - s], out[4 + s], pressures[4 + s])
-        pairs = zip(
-            self._circulation.trees(), self.atria[VEINS, ::-1], self.atria[VEIN_END, ::-1], strict=True
-        )
-        return [replace(tree, P_ve=float(vein)) if veins else tree for tree, veins, vein in pairs]
+        trees: list[Windkessel] = list(self._circulation.trees())
+        if self.atria is not None:
+            for s in range(2):
+                end_atrium(self.atria, s, self.dt, -out[3 - s], out[4 + s], pressures[4 + s])
+            for u in sides_filling_veins(self.atria):
+                trees[u] = replace(trees[u], P_ve=float(self.atria[VEIN_END, 1 - u]))
+        return trees
 
     def atrial_state(self) -> Floats | None:
         """Volumes [m^3] of the atria and pressures [Pa] of their veins (2, 2) at the end; None without volumes."""
-        return self.atria[[VOLUME, VEIN_END]] if self.atria.shape[1] else None
+        return None if self.atria is None else self.atria[[VOLUME, VEIN_END]]
 
 
 @njit(cache=True, error_model="numpy", inline="always")

@@ -58,16 +58,16 @@ class StepInputs(NamedTuple):
 class State(NamedTuple):
     """State at one time: tables of sides, fibres and branches, and the lengths ``last`` (2,) of the last steps [s].
 
-    ``chambers`` is the table of atria, see :mod:`heartfit.roles.chamber`, without columns if none has a volume.
-    ``reservoirs`` (4, c) are their volumes and the pressures of their veins, now and one step before.
+    ``chambers`` is the table of atria, see :mod:`heartfit.roles.chamber`, and ``reservoirs`` (4, v) are their volumes
+    and the pressures of their veins, now and one step before; None if no atrium has a volume.
     """
 
     sides: Floats
     fibres: Floats
     branches: Floats
     last: Floats
-    chambers: Floats
-    reservoirs: Floats
+    chambers: Floats | None
+    reservoirs: Floats | None
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -131,8 +131,9 @@ def move_walls(stiffer, sides, p):  # type: ignore[no-untyped-def]
 def record_curves(sides, branches, chambers, curves, n):  # type: ignore[no-untyped-def]
     """Fill row n of the curves: volumes, pressures of ventricles and arteries, flows, and those of the atria."""
     count, first = sides.shape[1], 3 * sides.shape[1] + branches.shape[1]
-    for v in range(chambers.shape[1]):
-        curves[n, first + v], curves[n, first + count + v] = chambers[VOLUME, v], chambers[PRESSURE, v]
+    if chambers is not None:
+        for v in range(count):
+            curves[n, first + v], curves[n, first + count + v] = chambers[VOLUME, v], chambers[PRESSURE, v]
     for v in range(count):
         curves[n, v] = cavity(sides[rows.RADIUS, v], sides[rows.RATIO, v], sides[rows.NOW + rows.STRETCH, v])[
             0
@@ -143,11 +144,11 @@ def record_curves(sides, branches, chambers, curves, n):  # type: ignore[no-unty
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)  # type: ignore[call-overload]
-def _advance(tissue, inputs, state, curves, first, workspace):  # type: ignore[no-untyped-def]
+def _advance(tissue, inputs, state, chambers, reservoirs, curves, first, workspace):  # type: ignore[no-untyped-def]
     """:func:`advance` in a preallocated ``workspace``: reference counts of local arrays would take half its time."""
     passive, active, starling, eta, density = tissue
     length, second_order, rate, attach, atria, walls, waves, loads, laws, ends = inputs
-    sides, fibres, branches, last, chambers, reservoirs = state
+    sides, fibres, branches, last = state
     branch_states, p, system, work, jacobian = workspace
     total = 0
     record_curves(sides, branches, chambers, curves, first)
@@ -155,9 +156,11 @@ def _advance(tissue, inputs, state, curves, first, workspace):  # type: ignore[n
         step = steps.next_step(length, second_order, last[0])
         steps.begin_sides(step, sides)
         steps.begin_branches(step, branches)
-        steps.begin_chambers(step, walls, n, chambers, reservoirs)
+        if chambers is not None:
+            steps.begin_chambers(step, walls, n, chambers, reservoirs)
         steps.begin_arteries(step, waves, n, sides, chambers, system)
-        begin_atria(chambers, step.effective, atria, n, system)
+        if chambers is not None:
+            begin_atria(chambers, step.effective, atria, n, system)
         steps.begin_fibres(active, starling, step, rate, attach, n, sides, fibres)
         steps.predict(step, last, sides, chambers, p)
         outcome = rows.UNBALANCED
@@ -168,8 +171,9 @@ def _advance(tissue, inputs, state, curves, first, workspace):  # type: ignore[n
                 break
             stiffer = press_walls(loads, n, sides, p)
             linearise_walls(step, stiffer, sides, system, p)
-            for v in range(chambers.shape[1]):
-                descend_planes(chambers, v, sides[rows.VOLUME, v], system)
+            if chambers is not None:
+                for v in range(chambers.shape[1]):
+                    descend_planes(chambers, v, sides[rows.VOLUME, v], system)
             size = solve_circuit(ends, laws, branch_states, chambers, atria, n, system, p, work, jacobian)
             move_walls(stiffer, sides, p)
             if size < IMBALANCE_TOLERANCE:
@@ -180,7 +184,8 @@ def _advance(tissue, inputs, state, curves, first, workspace):  # type: ignore[n
             outcome = rows.NO_FIBRE_SOLUTION
         if outcome != rows.SOLVED:
             return n, outcome, total
-        steps.commit_chambers(step, ends, branch_states, sides, chambers, reservoirs, p, work)
+        if chambers is not None:
+            steps.commit_chambers(step, ends, branch_states, sides, chambers, reservoirs, p, work)
         steps.commit_sides(step, waves, n, sides, chambers, p, work)
         steps.commit_branches(branches)
         steps.commit_fibres(active, step, sides, fibres)
@@ -194,9 +199,19 @@ def advance(tissue, inputs, state, curves, first):  # type: ignore[no-untyped-de
     """Take the steps from ``first`` on; return the index of the first failed step, its outcome and the iterations.
 
     Without a failure the index is n and the outcome SOLVED. The rows of ``curves`` (n + 1, 3 v + k + 2 c) are filled
-    with volumes, pressures of ventricles and arteries, flows, and volumes and pressures of c atria, before the first
+    with volumes, pressures of ventricles and arteries, flows, and volumes and pressures of c = v atria, before the first
     and after every step. A failed step leaves the state as it was at its start.
     """
-    n = 2 * state.sides.shape[1] + state.chambers.shape[1]
+    n = _unknowns(state.sides, state.chambers)
     equations = np.empty(n), np.zeros((n, 3 + n)), np.empty((3, n)), np.empty((n, n))
-    return _advance(tissue, inputs, state, curves, first, (state.branches[rows.STEP_STATES :], *equations))
+    workspace = (state.branches[rows.STEP_STATES :], *equations)
+    tables = state.sides, state.fibres, state.branches, state.last
+    return _advance(tissue, inputs, tables, state.chambers, state.reservoirs, curves, first, workspace)
+
+
+@njit(cache=True, error_model="numpy")
+def _unknowns(sides, chambers):  # type: ignore[no-untyped-def]
+    """Number of unknown pressures: of ventricles and arteries, and of atria if one has a volume."""
+    if chambers is None:
+        return 2 * sides.shape[1]
+    return 3 * sides.shape[1]

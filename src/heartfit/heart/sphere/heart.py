@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from heartfit.core.arrays import Floats
-from heartfit.heart.circulation.atria import fill_atria
+from heartfit.heart.circulation.atria import fill_atria, sides_filling_veins
 from heartfit.heart.circulation.enclosure import VENTRICLES, load_table
 from heartfit.heart.circulation.network import (
     ARTERIES,
@@ -22,7 +22,7 @@ from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.beat import SphereTissue, State, StepInputs
 from heartfit.heart.sphere.body import LARGEST_STRETCH, Sphere, fibre_activation, wall_stiffenings
 from heartfit.heart.sphere.wall import cavity, passive_stress, tabulate
-from heartfit.roles.chamber import ACTIVE, VEIN_END, VEINS, VOLUME
+from heartfit.roles.chamber import ACTIVE, VEIN_END, VOLUME
 from heartfit.roles.laws import FLOW, STATE_ROWS
 
 SMALLEST_FILLING_STRETCH = 0.8
@@ -85,7 +85,7 @@ class SphericalHeart:
     def _walls(self, time: Floats) -> Floats:
         """Active elastances [Pa/m^3] and outside pressures [Pa] (t, 2, v) of atria with a volume."""
         heart, sides = self.heart, len(self.spheres)
-        if not self.atria.shape[1]:
+        if self.atria is None:
             return np.empty((len(time), 2, 0))
         contraction, outside = atrial_walls(time, heart.period, heart.mechanisms, sides)
         return np.stack([contraction[:, None] * self.atria[ACTIVE], outside.T], axis=1)
@@ -111,7 +111,7 @@ class SphericalHeart:
         pressures = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
         sides = np.zeros((rows.SIDE_ROWS, len(self.spheres)))
         windkessels = self.heart.circulation.start(self.heart.period)
-        filling = np.flatnonzero(self.atria[VEINS, ::-1])
+        filling = sides_filling_veins(self.atria)
         for v, (sphere, tree) in enumerate(zip(self.spheres, self.trees, strict=True)):
             sides[[rows.RADIUS, rows.RATIO, rows.WALL], v] = (
                 sphere.radius,
@@ -131,8 +131,10 @@ class SphericalHeart:
         fibres, branches = self._relaxed_fibres(sides[rows.NOW + rows.STRETCH]), self._resting_branches()
         return State(sides, fibres, branches, np.zeros(2), *self._filled_atria(sides, pressures))
 
-    def _filled_atria(self, sides: Floats, pressures: Floats) -> tuple[Floats, Floats]:
+    def _filled_atria(self, sides: Floats, pressures: Floats) -> tuple[Floats | None, Floats | None]:
         """Table of the relaxed atria, and their volumes and veins now and one step before."""
+        if self.atria is None:
+            return None, None
         atria, stretch = self.atria.copy(), sides[rows.NOW + rows.STRETCH]
         volumes = [cavity(*sides[[rows.RADIUS, rows.RATIO], v], x)[0] for v, x in enumerate(stretch)]  # type: ignore[call-arg]
         fill_atria(atria, pressures, np.array(volumes))

@@ -7,7 +7,7 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.heart.beat import COST, Beat, failed_beat
-from heartfit.heart.circulation.atria import has_volume
+from heartfit.heart.circulation.atria import sides_filling_veins, sides_with_volume
 from heartfit.heart.circulation.elements import WindkesselState
 from heartfit.heart.circulation.network import ATRIA
 from heartfit.heart.finite_elements.kinematics import StepFailed
@@ -18,7 +18,6 @@ from heartfit.heart.sphere.beat import State, StepInputs, advance
 from heartfit.heart.sphere.body import HEALTHY_ACTIVATION, Sphere
 from heartfit.heart.sphere.heart import Inertia, SphericalHeart
 from heartfit.roles import COMPARTMENTS
-from heartfit.roles.chamber import VEINS
 
 FAILURE_REASONS = (
     "",
@@ -85,20 +84,22 @@ class _SphereRun:
         self, curves: Floats, first: list[WindkesselState], last: list[WindkesselState]
     ) -> Recurrence:
         volumes, atria = curves[:, : len(self.heart.spheres)].copy(), list(self._chambers(curves).values())
-        return Recurrence(volumes, first, last, np.array(atria).reshape(-1, len(curves)).T, self._closed)
+        closed = bool(sides_filling_veins(self.heart.atria))
+        return Recurrence(volumes, first, last, np.array(atria).reshape(-1, len(curves)).T, closed)
 
     @property
     def _columns(self) -> int:
-        return 3 * len(self.heart.spheres) + len(self.heart.branches) + 2 * self.heart.atria.shape[1]
+        return 3 * len(self.heart.spheres) + len(self.heart.branches) + 2 * self._atria
 
     @property
-    def _closed(self) -> bool:
-        return bool(self.heart.atria[VEINS].any())
+    def _atria(self) -> int:
+        """Number of atria among the unknowns."""
+        return 0 if self.heart.atria is None else len(self.heart.spheres)
 
     def _chambers(self, curves: Floats) -> dict[str, Floats]:
         """Volumes (t,) of the atria that have one [m^3], by name."""
         first = 3 * len(self.heart.spheres) + len(self.heart.branches)
-        return {ATRIA[s]: curves[:, first + s] for s in has_volume(self.heart.atria)}
+        return {ATRIA[s]: curves[:, first + s] for s in sides_with_volume(self.heart.atria)}
 
     def _run_beat(self, inputs: StepInputs, state: State, curves: Floats) -> None:
         completed = self._steps(inputs, state, curves, 0)
@@ -126,9 +127,9 @@ class _SphereRun:
     def _beat(self, curves: Floats) -> Beat:
         heart, v = self.heart.heart, len(self.heart.spheres)
         time = np.linspace(0.0, self.period, self.steps + 1)
-        flows, chambers = slice(3 * v, 3 * v + len(self.heart.branches)), self.heart.atria.shape[1]
-        atria = curves[:, -chambers:].T if chambers else self.heart.prescribed(time)
-        unknown = np.concatenate([curves[0, v : 3 * v], atria[:chambers, 0]])
+        flows = slice(3 * v, 3 * v + len(self.heart.branches))
+        atria = curves[:, -v:].T if self._atria else self.heart.prescribed(time)
+        unknown = np.concatenate([curves[0, v : 3 * v], atria[: self._atria, 0]])
         curves[0, flows] = self.heart.flows(unknown, curves[0, flows])
         signals = [*curves[:, v : 3 * v].T, *atria]
         names = [name for side in range(3) for name in COMPARTMENTS[2 * side : 2 * side + v]]

@@ -124,8 +124,9 @@ def begin_arteries(step, waves, n, sides, chambers, system):  # type: ignore[no-
         row = count + v
         system[row, WEIGHT], system[row, STORAGE + row] = b / ONE_KILOPASCAL, 1.0 / ONE_KILOPASCAL
         system[row, CONSTANT], system[row, REFERENCE] = 0.0, a
-        if chambers.shape[1] == 2:
-            system[row, STORAGE + 2 * count + 1 - v] = -c / ONE_KILOPASCAL
+        if chambers is not None:
+            if count == 2:
+                system[row, STORAGE + 2 * count + 1 - v] = -c / ONE_KILOPASCAL
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -158,8 +159,9 @@ def extrapolate(step, last, sides, row, v):  # type: ignore[no-untyped-def]
 def predict(step, last, sides, chambers, p):  # type: ignore[no-untyped-def]
     """Set the initial guess of the stretches and of the pressures of arteries and atria."""
     count = sides.shape[1]
-    for v in range(chambers.shape[1]):
-        p[2 * count + v] = chambers[PRESSURE, v]
+    if chambers is not None:
+        for v in range(count):
+            p[2 * count + v] = chambers[PRESSURE, v]
     for v in range(count):
         sides[rows.X, v], sides[rows.X_BEFORE, v] = (
             extrapolate(step, last, sides, rows.STRETCH, v),
@@ -187,8 +189,6 @@ def commit_chambers(step, ends, branch_states, sides, chambers, reservoirs, p, w
     Windkessels.
     """
     count = chambers.shape[1]
-    if count == 0:
-        return
     for i in range(3 * count):
         work[0, i] = 0.0
     for k in range(ends.shape[0]):
@@ -216,13 +216,16 @@ def commit_sides(step, waves, n, sides, chambers, p, work):  # type: ignore[no-u
                 sides[rows.BEFORE + row, v],
                 sides[rows.NOW + row, v],
             )
-        fills = chambers.shape[1] == 2 and chambers[VEINS, 1 - v] > 0.0
+        fills, venous = False, sides[rows.P_VE, v]
+        if chambers is not None:
+            fills = count == 2 and chambers[VEINS, 1 - v] > 0.0
+            venous = chambers[VEIN_END, 1 - v] if fills else venous
         tree = (
             sides[rows.R_P, v],
             sides[rows.TAU, v],
             sides[rows.Z_C, v],
             sides[rows.L, v],
-            chambers[VEIN_END, 1 - v] if fills else sides[rows.P_VE, v],
+            venous,
         )
         state = sides[rows.START + rows.P_C, v], sides[rows.START + rows.Q_L, v]
         a, b = affine_coefficients(*tree, *state, step.effective)
