@@ -3,7 +3,7 @@
 
 Each command first installs the locked packages into .venv, if necessary.
 
-python3 study.py              run the whole study on two cores
+python3 study.py              run the whole study on two cores, then the measured heart, and print what is found
 python3 study.py run ARGS     run it with further arguments for Snakemake, such as --configfile config/smoke.yaml
 python3 study.py test ARGS    run the tests; ARGS go to pytest
 python3 study.py lint         check style and types, and lint the workflow
@@ -29,6 +29,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
@@ -38,6 +39,9 @@ OLDEST, NEWEST = (3, 11), (3, 13)
 LOCK = ROOT / "requirements.lock"
 STAMP = ENVIRONMENT / "installed.sha256"
 MEASURED = ROOT / "docs" / "measured" / "study.tsv"
+DISCOVER = ("discover", "--configfile", "config/measured_heart.yaml")
+"""Search and refit of the measured heart, with configuration and results of their own."""
+DISCOVERED = ROOT / "results" / "measured_heart"
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 LINTS = (
     ("ruff", "check", "."),
@@ -116,11 +120,22 @@ def tool(name: str, *arguments: str) -> list[str]:
 
 
 def run(arguments: list[str]) -> int:
-    """Run the workflow and append the remaining time to Snakemake's count of steps."""
+    """Run the workflow with the arguments; without any, the study, then the search and refit of the measured heart."""
     print(
         f"The study takes about {duration()} minutes on two cores; results that are up to date are kept.",
         flush=True,
     )
+    code = snakemake(arguments)
+    if arguments or code:
+        return code
+    code = snakemake(DISCOVER)
+    for file in (*DISCOVERED.glob("*/discovery/*/cause.md"), *DISCOVERED.glob("tables/*_extension.md")):
+        print(f"\n{file.relative_to(ROOT)}\n\n{file.read_text(encoding='utf-8')}", flush=True)
+    return code
+
+
+def snakemake(arguments: Sequence[str]) -> int:
+    """Run Snakemake and append the remaining time to its count of steps."""
     command = tool("snakemake", "--cores", "2", *BRISK, *arguments)
     begin = time.monotonic()
     with subprocess.Popen(command, stderr=subprocess.STDOUT, stdout=subprocess.PIPE, text=True) as process:

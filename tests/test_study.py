@@ -63,3 +63,30 @@ def test_a_python_without_ensurepip_and_pip_is_refused_with_advice(study, monkey
 
 def test_the_lock_names_no_address():
     assert "://" not in (ROOT / "requirements.lock").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "codes", "expected"),
+    [
+        ([], [0, 0], [[], ["discover"]]),
+        ([], [1], [[]]),
+        (["--configfile", "config/smoke.yaml"], [0], [["--configfile"]]),
+    ],
+    ids=["the whole study", "a failed one", "with arguments"],
+)
+def test_the_measured_heart_follows_the_study_and_its_card_is_printed(
+    study, tmp_path, monkeypatch, capsys, arguments, codes, expected
+):
+    monkeypatch.setattr(study, "ROOT", tmp_path)
+    monkeypatch.setattr(study, "DISCOVERED", tmp_path)
+    calls, outcomes = [], iter(codes)
+    monkeypatch.setattr(study, "snakemake", lambda given: calls.append([*given][:1]) or next(outcomes))
+    monkeypatch.setattr(study, "duration", lambda: "29")
+    for file in ("patient1/discovery/physical/cause.md", "tables/patient1_physical_extension.md"):
+        (tmp_path / file).parent.mkdir(parents=True)
+        (tmp_path / file).write_text(f"text of {file}")
+    assert study.run(arguments) == codes[-1]
+    assert calls == expected
+    printed = capsys.readouterr().out
+    assert ("text of patient1/discovery" in printed) == (len(codes) == 2)
+    assert ("text of tables/patient1" in printed) == (len(codes) == 2)

@@ -192,7 +192,9 @@ class _Run:
     def _recurrence(self, history: list[HeartState]) -> Recurrence:
         volumes = np.array([state.volumes for state in history])
         trees = history[0].trees, history[-1].trees
-        return Recurrence(volumes, *trees, self._atrial_volumes(history), bool(sides_filling_veins(self.atria)))
+        return Recurrence(
+            volumes, *trees, self._atrial_volumes(history), bool(sides_filling_veins(self.atria))
+        )
 
     def _atrial_volumes(self, history: list[HeartState]) -> Floats:
         """Volumes (t, c) of the atria that have one [m^3]."""

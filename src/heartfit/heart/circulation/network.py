@@ -195,7 +195,9 @@ class NetworkStep:
     @property
     def stores_blood(self) -> NDArray[np.bool_]:
         """True (n,) for ventricles and atria with a volume, whose equation is the balance of their blood."""
-        return np.array([True, True, False, False, *(() if self.atria is None else self.atria[RESISTANCE] > 0.0)])
+        return np.array(
+            [True, True, False, False, *(() if self.atria is None else self.atria[RESISTANCE] > 0.0)]
+        )
 
     def outflow(self, pressures: Floats) -> tuple[Floats, Floats]:
         """Net outflow (n,) of the unknown compartments [m^3/s] and its Jacobian (n, n)."""
