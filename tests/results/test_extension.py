@@ -37,12 +37,12 @@ def diagnosis() -> Diagnosis:
 
 def test_errors_and_indices_are_those_of_the_curves(diagnosis: Diagnosis) -> None:
     shifted = Curve(TIMES, diagnosis.traces[0].measured + 3e-6, PERIOD)
-    table = extension_table(diagnosis, {"other reading": shifted}).set_index("quantity")
+    table = extension_table(diagnosis, (shifted, shifted)).set_index("quantity")
     assert table.loc["left ventricle, volume error (mL): frames that were not fitted", "with"] == "1.00"
     assert table.loc["circumferential strain, error (%): never fitted", "without"] == "5.00"
     dip = table.loc["fall of the volume in diastasis (mL)"]
     assert (dip["measured"], dip["without"], dip["with"]) == ("5", "0", "4")
-    other = table.loc["left ventricle, volume error (mL): the same frames, other reading"]
+    other = table.loc["left ventricle, volume error (mL): the same frames, surface alone"]
     held, trace = unseen(diagnosis.traces[0]), diagnosis.traces[0]
     expected = np.sqrt(np.mean((shifted.values - trace.extended)[held] ** 2))
     assert float(other["with"]) == pytest.approx(1e6 * expected, abs=0.005)
@@ -50,7 +50,7 @@ def test_errors_and_indices_are_those_of_the_curves(diagnosis: Diagnosis) -> Non
 
 def test_a_volume_without_two_waves_leaves_its_indices_empty(diagnosis: Diagnosis) -> None:
     flat = replace(diagnosis.traces[0], none=100e-6 + 40e-6 * np.cos(2.0 * np.pi * TIMES / PERIOD))
-    table = extension_table(replace(diagnosis, traces=(flat,)), {}).set_index("quantity")
+    table = extension_table(replace(diagnosis, traces=(flat,))).set_index("quantity")
     row = table.loc["early filling, peak flow E (mL/s)"]
     assert row["without"] == ""
     assert row["measured"] != ""

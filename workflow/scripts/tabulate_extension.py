@@ -4,17 +4,16 @@ from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.causes import read_diagnosis
-from heartfit.io.curves import read_curves
+from heartfit.io.refits import read_left_volume
 from heartfit.io.run import record
 from heartfit.io.tables import write_figure, write_table
-from heartfit.results.extension import READINGS, extension_table, plot_extension
+from heartfit.results.extension import extension_table, plot_extension
 from heartfit.results.text import render_table
 
 record(snakemake.log[0])
 files, output, names = snakemake.input, snakemake.output, snakemake.wildcards
 diagnosis = read_diagnosis(Path(files.cause).parent)
-volumes = zip(READINGS, (files.measured, *files.get("second", [])), strict=False)
-readings = {name: read_curves(Path(file))["lv_volume"] for name, file in volumes}
+readings = list(map(read_left_volume, (files.measured, *files.get("second", []))))
 table = render_table(extension_table(diagnosis, readings))
 list(map(write_table, map(Path, output.tables), repeat(table)))
 figure = plot_extension(diagnosis, f"{names.case}, {names.setting} setting")

@@ -14,6 +14,7 @@ from heartfit.io.curves import read_curves
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.noise_models import read_noise_model
 from heartfit.io.results import read_record, read_truth, write_result
+from heartfit.observation.curve import Curve
 from heartfit.observation.second_reading import Reading
 from heartfit.results.discovery import DiscoveryResult
 
@@ -36,9 +37,14 @@ def read_measured_case(
     both: a refit fits both ventricles; reading: of a left volume that was read twice.
     """
     models = [read_noise_model(Path(model)) for model in files.get("noise", [])]
-    seconds = [read_curves(Path(file))["lv_volume"] for file in files.get("second", [])]
+    seconds = list(map(read_left_volume, files.get("second", [])))
     second = seconds[0] if seconds else None
     return MeasuredCase.from_curves(read_curves(Path(files["measured"])), models, second, both, reading)
+
+
+def read_left_volume(path: Path) -> Curve:
+    """Read the left ventricular volume of a file of curves."""
+    return read_curves(Path(path))["lv_volume"]
 
 
 def read_trial(files: Mapping[str, Any], parameters: Mapping[str, Any]) -> ExtensionTrial:

@@ -1,6 +1,6 @@
 """A measured heart without and with the mechanisms that were named: errors on unseen samples and filling indices."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -31,16 +31,17 @@ READINGS = ("surface alone", "blood of the slices alone")
 COLUMNS = ("measured", "without", "with")
 
 
-def extension_table(diagnosis: Diagnosis, readings: Mapping[str, Curve]) -> pd.DataFrame:
+def extension_table(diagnosis: Diagnosis, readings: Sequence[Curve] = ()) -> pd.DataFrame:
     """Return one row per quantity: measured, and of the refitted heart without and with the named mechanisms.
 
     Errors are root mean squares over the samples that neither search nor refit used, of the left volume also against
-    each of its ``readings`` alone. Filling indices are read from the frames of the volume, as they are measured. They
+    each of its ``readings`` alone if there are two. Filling indices are read from the frames of the volume, as they are measured. They
     are empty where a volume has no two waves.
     """
     rows = [_error_row(gain) for gain in diagnosis.gain]
     left = _trace(diagnosis, "lv_volume")
-    rows += [_reading_row(name, curve, left) for name, curve in readings.items()]
+    named = zip(READINGS, readings, strict=True) if len(readings) > 1 else ()
+    rows += [_reading_row(name, curve, left) for name, curve in named]
     rows += _index_rows(left, diagnosis.period)
     return pd.DataFrame(rows)
 
