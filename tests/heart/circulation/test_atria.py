@@ -18,6 +18,7 @@ from heartfit.heart.sphere import rows
 from heartfit.heart.sphere import simulation as spheres
 from heartfit.heart.sphere.beat import State, StepInputs
 from heartfit.heart.sphere.body import Sphere, SphericalBody
+from heartfit.heart.sphere.heart import Inertia
 from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.mechanisms.atrial_kick import AtrialKick
 from heartfit.mechanisms.atrial_surge import AtrialSurge
@@ -236,6 +237,23 @@ def test_halved_steps_of_spheres_keep_the_blood(failing: int, monkeypatch: pytes
     assert beat.diagnostics["step_cuts"] == 1
     begin, end = (blood_of_spheres(heart, beat, state, n) for state, n in ((None, 0), (states[-1], -1)))
     assert end == pytest.approx(begin, rel=1e-10)
+
+
+def test_arteries_with_a_compliance_of_their_own_keep_the_blood(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The Windkessel, and through it the veins, take in what the artery does not store."""
+    heart, stiff, states, advance = Heart() + CLOSED[0] + CLOSED[1], 4e-10, [], spheres.advance
+
+    def remembering(tissue, inputs: StepInputs, state: State, curves: np.ndarray, first: int) -> tuple:
+        states.append(state)
+        return advance(tissue, inputs, state, curves, first)
+
+    monkeypatch.setattr(spheres, "advance", remembering)
+    beat = simulate_spheres(heart, [LEFT, RIGHT], Numerics(max_beats=1), inertia=Inertia(arteries=stiff))
+    begin, end = (blood_of_spheres(heart, beat, state, n) for state, n in ((None, 0), (states[-1], -1)))
+    arteries = [beat.pressure[name] for name in ("aorta", "pulmonary_artery")]
+    swollen = stiff * sum(curve[-1] - curve[0] for curve in arteries)
+    assert end + swollen == pytest.approx(begin, rel=1e-10)
+    assert abs(swollen) > 1e-8
 
 
 def blood_of_spheres(heart: Heart, beat, state: State | None, n: int) -> float:

@@ -21,9 +21,13 @@ from heartfit.heart.sphere.rows import UNBALANCED
 from heartfit.heart.sphere.simulation import FAILURE_REASONS, simulate_spheres
 from heartfit.mechanisms.aortic_stenosis import AorticStenosis
 from heartfit.mechanisms.arterial_reflection import ArterialReflection
+from heartfit.mechanisms.atrial_surge import AtrialSurge
 from heartfit.mechanisms.delayed_activation import DelayedActivation
+from heartfit.mechanisms.left_atrium import LeftAtrium
+from heartfit.mechanisms.mitral_dynamics import MitralDynamics
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.pericardium import Pericardium
+from heartfit.mechanisms.right_atrium import RightAtrium
 from heartfit.mechanisms.scar import Scar
 from heartfit.mechanisms.septal_load import SeptalLoad
 from heartfit.mechanisms.slow_relaxation import SlowRelaxation
@@ -90,6 +94,23 @@ def test_the_compiled_beat_is_that_of_the_coupled_path(
     assert compiled.diagnostics["drift"] == pytest.approx(coupled.diagnostics["drift"], rel=1e-4)
     assert (compiled.time == coupled.time).all()
     assert (compiled.period, compiled.trigger) == (coupled.period, coupled.trigger)
+
+
+@BOTH
+@pytest.mark.parametrize("veins", [(0.0, 0.0), (8e6, 2e6), (8e6, 0.0)], ids=["open", "closed", "half"])
+def test_compiled_atria_are_those_of_the_coupled_path(
+    heart: Heart, second_order: bool, veins: tuple[float, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Volumes of the atria too, with leaflets, waves, loads and the descent of a plane."""
+    monkeypatch.setattr(unloading, "INFLATION_FORCE_TOLERANCE", 1e-9)
+    heart = heart + LeftAtrium(descent=0.2, veins=veins[0]) + RightAtrium(veins=veins[1]) + AtrialSurge()
+    heart = heart + MitralDynamics()
+    numerics = replace(TWO_BEATS, second_order=second_order, tolerances=TIGHT)
+    coupled = simulate(heart, SphericalBody(LEFT, RIGHT, heart.muscle), numerics)
+    compiled = simulate_spheres(heart, [LEFT, RIGHT], numerics)
+    assert {"left_atrium_volume", "right_atrium_volume"} <= compiled.signals().keys()
+    assert max(departures(compiled, coupled).values()) < 1e-7
+    assert compiled.diagnostics["drift"] == pytest.approx(coupled.diagnostics["drift"], rel=1e-4)
 
 
 def test_a_single_left_ventricle_beats_as_beside_a_right_one(spherical_heart: Heart) -> None:
