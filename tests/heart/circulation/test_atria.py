@@ -26,7 +26,7 @@ from heartfit.mechanisms.left_atrium import LeftAtrium
 from heartfit.mechanisms.mitral_dynamics import MitralDynamics
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.right_atrium import RightAtrium
-from heartfit.roles.chamber import STIFFENING, stretched_volume, wall_pressure
+from heartfit.roles.chamber import ACTIVE, DESCENT, STIFFENING, VENTRICLE, stretched_volume, wall_pressure
 from tests.shrinking import assert_derivative
 from verification.elastance import Elastance, ElastanceBody
 
@@ -109,6 +109,26 @@ def test_a_closed_circuit_keeps_its_blood(body: str, second_order: bool) -> None
     blood = np.array([contents(heart, state) for state in states])
     assert abs(blood.sum(axis=1) / blood[0].sum() - 1.0).max() < 1e-12
     assert np.ptp(blood, axis=0).min() > 1e-6
+
+
+def test_pressures_agree_with_the_laws() -> None:
+    """Of the walls at the volumes, and of the arteries at their inflow, in a closed circuit with a plane."""
+    heart = Heart() + AtrialSurge() + replace(CLOSED[0], descent=0.2) + CLOSED[1]
+    table = chamber_table(heart.mechanisms)
+    assert table is not None
+    states = beat_history(heart)
+    for n, state in enumerate(states[2:], start=2):
+        contraction, outside = atrial_walls(
+            n * heart.period / (len(states) - 1), heart.period, heart.mechanisms
+        )
+        table[STIFFENING] = contraction * table[ACTIVE]
+        x = state.atria[0] + table[DESCENT] * (state.volumes - table[VENTRICLE])  # type: ignore[index]
+        laws = [outside[s] + wall_pressure(table, s, x[s])[0] for s in range(2)]
+        assert state.pressures[4:] == pytest.approx(laws, abs=1e-5)
+        inflow = state.branches[0, [1, 3]]  # type: ignore[index]
+        for u, (tree, held) in enumerate(zip(heart.circulation.trees(), state.trees, strict=True)):
+            across = tree.Z_c * (inflow[u] - held.q_L)
+            assert state.pressures[2 + u] == pytest.approx(held.P_c + across, abs=1e-4)
 
 
 @dataclass

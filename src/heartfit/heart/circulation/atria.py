@@ -8,8 +8,8 @@ and the net outflow q through the valves,
 
 Veins are linear and add no unknown: with the Windkessel that fills them their pressure is
 :math:`P_v = \alpha + \beta q_{ar} + \gamma P`, and the arterial pressure becomes :math:`a + b q_{ar} + c P`. An atrium
-without a volume beside one keeps its prescribed pressure, :math:`P - P_{pre} = 0`. Where no atrium has a volume the table
-of atria is None, which removes these equations from the compiled functions.
+without a volume beside one keeps its prescribed pressure, :math:`P - P_{pre} = 0`. Where no atrium has a volume the
+table of atria is None, which removes these equations from the compiled functions.
 """
 
 from collections.abc import Sequence
@@ -99,18 +99,17 @@ def drain_arteries(atria, u, w, R_p, tau, P_c, a, b, wave):  # type: ignore[no-u
     arteries, whose pressure includes the ``wave`` [Pa].
     """
     s, c = 1 - u, 0.0
-    if atria is not None:
-        if atria.shape[1] == 2 and atria[VEINS, s] > 0.0:
-            decay, rise = 1.0 + w / tau, w * R_p / tau
-            fill, empty = w * atria[VEINS, s] / (R_p * decay), w * atria[VEINS, s] / atria[RESISTANCE, s]
-            per = 1.0 / (1.0 + empty + fill)
-            atria[VEIN, s] = per * (atria[START_VEIN, s] + fill * P_c)
-            atria[VEIN_PER_INFLOW, s] = per * fill * rise
-            atria[VEIN_PER_PRESSURE, s] = per * empty
-            back = w / tau / decay
-            a, b = a + back * atria[VEIN, s], b + back * atria[VEIN_PER_INFLOW, s]
-            c = back * atria[VEIN_PER_PRESSURE, s]
-            atria[TREE, s], atria[TREE_PER_INFLOW, s], atria[TREE_PER_PRESSURE, s] = a + wave, b, c
+    if atria is not None and atria.shape[1] == 2 and atria[VEINS, s] > 0.0:
+        decay, rise = 1.0 + w / tau, w * R_p / tau
+        fill, empty = w * atria[VEINS, s] / (R_p * decay), w * atria[VEINS, s] / atria[RESISTANCE, s]
+        per = 1.0 / (1.0 + empty + fill)
+        atria[VEIN, s] = per * (atria[START_VEIN, s] + fill * P_c)
+        atria[VEIN_PER_INFLOW, s] = per * fill * rise
+        atria[VEIN_PER_PRESSURE, s] = per * empty
+        back = w / tau / decay
+        a, b = a + back * atria[VEIN, s], b + back * atria[VEIN_PER_INFLOW, s]
+        c = back * atria[VEIN_PER_PRESSURE, s]
+        atria[TREE, s], atria[TREE_PER_INFLOW, s], atria[TREE_PER_PRESSURE, s] = a + wave, b, c
     return a, b, c
 
 

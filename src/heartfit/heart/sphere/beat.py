@@ -199,8 +199,8 @@ def advance(tissue, inputs, state, curves, first):  # type: ignore[no-untyped-de
     """Take the steps from ``first`` on; return the index of the first failed step, its outcome and the iterations.
 
     Without a failure the index is n and the outcome SOLVED. The rows of ``curves`` (n + 1, 3 v + k + 2 c) are filled
-    with volumes, pressures of ventricles and arteries, flows, and volumes and pressures of c = v atria, before the first
-    and after every step. A failed step leaves the state as it was at its start.
+    with volumes, pressures of ventricles and arteries, flows, and volumes and pressures of c = v atria, before the
+    first and after every step. A failed step leaves the state as it was at its start.
     """
     n = _unknowns(state.sides, state.chambers)
     equations = np.empty(n), np.zeros((n, 3 + n)), np.empty((3, n)), np.empty((n, n))

@@ -124,9 +124,8 @@ def begin_arteries(step, waves, n, sides, chambers, system):  # type: ignore[no-
         row = count + v
         system[row, WEIGHT], system[row, STORAGE + row] = b / ONE_KILOPASCAL, 1.0 / ONE_KILOPASCAL
         system[row, CONSTANT], system[row, REFERENCE] = 0.0, a
-        if chambers is not None:
-            if count == 2:
-                system[row, STORAGE + 2 * count + 1 - v] = -c / ONE_KILOPASCAL
+        if chambers is not None and count == 2:
+            system[row, STORAGE + 2 * count + 1 - v] = -c / ONE_KILOPASCAL
 
 
 @njit(cache=True, error_model="numpy", inline="always")
