@@ -28,7 +28,6 @@ PAGES = {
         for name in (
             "conduction",
             "discovery_in_3d",
-            "discovery_measured_heart",
             "measured_heart",
             "registration",
             "reproducible",
