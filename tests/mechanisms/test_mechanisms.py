@@ -20,6 +20,7 @@ from heartfit.mechanisms.scar import Scar
 from heartfit.roles import (
     Amendment,
     Availability,
+    Chamber,
     Delay,
     External,
     Flow,
@@ -35,7 +36,7 @@ from heartfit.roles import (
 from heartfit.synthetic.campaign import plantable
 
 PERIOD = 0.829
-SANGUINE = (Flow, Narrowing, Pressure, External)
+SANGUINE = (Flow, Narrowing, Pressure, Chamber, External)
 MUSCULAR = (Amendment, Availability, Delay, Relaxation, Stress)
 LEFT = Sphere.from_volumes(80e-6, 130e-6)
 ONE_BEAT = Numerics(time_step=0.01, max_beats=1)
@@ -62,9 +63,10 @@ def test_one_parameter_turns_a_mechanism_off(kind: type[Mechanism]) -> None:
     assert kind().turned_off() != kind()
 
 
-def test_a_search_of_the_left_ventricle_tries_all_but_three_valves() -> None:
+def test_a_search_of_the_left_ventricle_tries_all_but_three_valves_and_the_atria() -> None:
     unsearched = {name for name, kind in KINDS.items() if kind.switch().scale is None}
-    assert unsearched == {"AorticDynamics", "PulmonaryDynamics", "TricuspidDynamics"}
+    valves = {"AorticDynamics", "PulmonaryDynamics", "TricuspidDynamics"}
+    assert unsearched == valves | {"LeftAtrium", "RightAtrium"}
     assert unsearched.isdisjoint(plantable())
 
 
