@@ -65,11 +65,11 @@ class TwoExponentials:
     constants: tuple[float, float, float, float] = (444.0, 2.9, 69.0, 6.5)
     eta: float = 70.0
 
-    def in_plane_stress(self, stretch: Floats) -> Floats:
-        return self._derivatives(stretch)[0]
+    def in_plane_stress(self, stretch: Floats, scale: Floats | float = 1.0) -> Floats:
+        return scale * self._derivatives(stretch)[0]
 
-    def in_plane_stiffness(self, stretch: Floats) -> Floats:
-        return self._derivatives(stretch)[1]
+    def in_plane_stiffness(self, stretch: Floats, scale: Floats | float = 1.0) -> Floats:
+        return scale * self._derivatives(stretch)[1]
 
     def _derivatives(self, x: Floats) -> Floats:
         """First and second derivative (2, ...) of the energy by the stretch x."""
