@@ -35,8 +35,8 @@ def extension_table(diagnosis: Diagnosis, readings: Sequence[Curve] = ()) -> pd.
     """Return one row per quantity: measured, and of the refitted heart without and with the named mechanisms.
 
     Errors are root mean squares over the samples that neither search nor refit used, of the left volume also against
-    each of its ``readings`` alone if there are two. Filling indices are read from the frames of the volume, as they are measured. They
-    are empty where a volume has no two waves.
+    each of its ``readings`` alone if there are two. Filling indices are read from the frames of the volume, as they are
+    measured. They are empty where a volume has no two waves.
     """
     rows = [_error_row(gain) for gain in diagnosis.gain]
     left = _trace(diagnosis, "lv_volume")
