@@ -5,6 +5,7 @@ A mechanism is one frozen dataclass in one file of ``heartfit/mechanisms``; it d
 is the registry: a file dropped there is a candidate everywhere.
 """
 
+from heartfit.roles.elastic_atrium import ElasticAtrium
 from heartfit.roles.interfaces import (
     COMPARTMENTS,
     Amendment,
@@ -34,6 +35,7 @@ __all__ = [
     "Contraction",
     "Delay",
     "Dynamics",
+    "ElasticAtrium",
     "External",
     "Flow",
     "Mechanism",
