@@ -80,7 +80,9 @@ def test_the_measured_heart_follows_the_study_and_its_card_is_printed(
     monkeypatch.setattr(study, "ROOT", tmp_path)
     monkeypatch.setattr(study, "DISCOVERED", tmp_path)
     calls, outcomes = [], iter(codes)
-    monkeypatch.setattr(study, "snakemake", lambda arguments: calls.append([*arguments][:1]) or next(outcomes))
+    monkeypatch.setattr(
+        study, "snakemake", lambda arguments: calls.append([*arguments][:1]) or next(outcomes)
+    )
     monkeypatch.setattr(study, "duration", lambda: "29")
     for file in ("patient1/discovery/physical/cause.md", "tables/patient1_physical_extension.md"):
         (tmp_path / file).parent.mkdir(parents=True)

@@ -19,7 +19,7 @@ class ElasticAtrium(Chamber):
     of the heart, whose shape e(t) is. :math:`\kappa` is the share of the volume of the ventricle, V_c, that the descent
     of the valve plane hands over; its force on the ventricle is neglected. Veins of elastance :math:`E_v > 0` are
     filled by the arteries of the other side. Without resistance, R_v = 0, there is no atrium apart from its veins: the
-    pressure is prescribed as it is without this mechanism. A subclass names the ``compartment`` and declares its values.
+    pressure is prescribed as it is without this mechanism. A subclass names the ``compartment`` and declares values.
     Sources: Hoit, J Am Coll Cardiol 2014, 63:493, for the three functions; Pironet et al., PLoS One 2013, 8:e65146,
     for an atrium of variable elastance.
     """

@@ -8,7 +8,7 @@ import pytest
 
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.discovery.refit.model import Extension
-from heartfit.discovery.refit.refit import Refit, continue_refit, refit, restart_refit
+from heartfit.discovery.refit.refit import Refit, continue_refit, refit, renew_slopes, restart_refit
 from heartfit.discovery.refit.target import BIN, BLOCK, MeasuredCase, Split, Target, average_bins, covariance
 from heartfit.discovery.refit.verdict import causes_of
 from heartfit.heart.beat import Beat, failed_beat
@@ -224,6 +224,31 @@ def test_a_refit_from_the_prior_means_takes_the_first_slopes_of_the_baseline(
     assert restarted.first_slopes[:, :2] == pytest.approx(none.first_slopes)
     shifted = replace(none, first_slopes=np.zeros_like(none.first_slopes))
     assert restart_refit(extension, run, target(case), 0, shifted).slopes[:, :2] == pytest.approx(0.0)
+
+
+def test_renewed_slopes_are_differences_at_the_estimate_and_end_no_higher(
+    case: MeasuredCase, refits: tuple[Refit, Refit]
+) -> None:
+    extension, fit = Extension.from_names(PLAIN, "MitralRegurgitation"), refits[1]
+    spoilt = replace(fit, slopes=0.0 * fit.slopes)
+    kept = renew_slopes(extension, run, target(case), 0, spoilt)
+    assert kept.simulations == fit.simulations + fit.estimate.size
+    assert kept.estimate == pytest.approx(fit.estimate)
+    shifted = fit.estimate + 0.25 * np.eye(3)[1]
+    curves = beat_curves(run(extension, extension.parameters(shifted)))
+    values = np.concatenate([curves[name](held.times) for name, held in case.split.fitted.items()])
+    assert kept.slopes[:, 1] == pytest.approx((values - fit.predicted) / 0.25)
+    further = renew_slopes(extension, run, target(case), 20, spoilt)
+    assert further.objective <= fit.objective
+    assert further.converged
+
+
+def test_a_slope_is_kept_where_its_difference_does_not_beat(
+    case: MeasuredCase, refits: tuple[Refit, Refit]
+) -> None:
+    extension, fit = Extension.from_names(PLAIN, "MitralRegurgitation"), refits[1]
+    failing = renew_slopes(extension, lambda *_: failed_beat("never", PERIOD, 0.0, {}), target(case), 0, fit)
+    assert failing.slopes == pytest.approx(fit.slopes)
 
 
 def test_an_absent_effect_ends_at_zero_at_the_optimum_of_the_baseline() -> None:

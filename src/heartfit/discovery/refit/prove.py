@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.discovery.refit.model import Extension, Model, ObservedBeat
-from heartfit.discovery.refit.refit import Refit, continue_refit, refit, restart_refit
+from heartfit.discovery.refit.refit import Refit, continue_refit, refit, renew_slopes, restart_refit
 from heartfit.discovery.refit.target import MeasuredCase, Target
 from heartfit.discovery.refit.verdict import Proof, TriedExtension, apply_proof, propose_extensions
 from heartfit.discovery.sphere_model.cause import Attempt, Diagnosis
@@ -40,7 +40,10 @@ class ExtensionTrial:
 
     def refitted(self) -> Refit:
         """Return the refit of the baseline model; raises CalibrationError if too many beats fail."""
-        return refit(self.baseline, self.model, self.target, self.most_steps)
+        return self._renewed(self.baseline, refit(self.baseline, self.model, self.target, self.most_steps))
+
+    def _renewed(self, extension: Extension, fit: Refit) -> Refit:
+        return renew_slopes(extension, self.model, self.target, self.most_steps, fit)
 
     def extended(self, extension: Extension, base: Refit) -> Refit:
         """Return the better of two refits, from the prior means and from the refit without the extension.
@@ -49,15 +52,17 @@ class ExtensionTrial:
         refit is. Raises CalibrationError if too many beats fail.
         """
         both = (
-            self.continue_refit(extension, base),
+            continue_refit(extension, self.model, self.target, self.most_steps, base),
             restart_refit(extension, self.model, self.target, self.most_steps, base),
         )
         best = min(both, key=lambda fit: fit.objective)
-        return replace(best, simulations=sum(fit.simulations for fit in both))
+        tried = replace(best, simulations=sum(fit.simulations for fit in both))
+        return self._renewed(extension, tried)
 
     def continue_refit(self, extension: Extension, base: Refit) -> Refit:
         """Return the refit that starts from the base; raises CalibrationError if the beat there fails."""
-        return continue_refit(extension, self.model, self.target, self.most_steps, base)
+        fit = continue_refit(extension, self.model, self.target, self.most_steps, base)
+        return self._renewed(extension, fit)
 
     def at(self, extension: Extension, fitted: Refit) -> FittedExtension:
         """Return a refit with the beat at its estimate; raises CalibrationError if the beat fails."""

@@ -6,10 +6,10 @@ switched on. Its slopes :math:`A = \mathrm{Cov}(Z, X) P^{-1}` start the descent 
 .. math:: \tfrac12 r^T R^{-1} r + \tfrac12 |x|^2 ,
 
 see :mod:`heartfit.discovery.inference.descent`: a step costs one beat, and Broyden's update corrects the slopes after
-each. Slopes are never recomputed: a 3-D beat is too expensive, and its limit cycle too rough for short differences.
-The end of the descent is the estimate, with the covariance :math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. An
-extension starts where the model without it started and where it ended, with the slopes there and one more beat for each
-further unknown. Laplace's approximation
+each. Where the descent ends all slopes are renewed once, by one beat for each coordinate, and it goes on: along
+directions in which no step was taken the first slopes are those of the prior mean. The end is the estimate, with the
+covariance :math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. An extension starts where the model without it
+started and where it ended, with the slopes there and one more beat for each further unknown. Laplace's approximation
 
 .. math:: \ln Z = -\tfrac12 r^T R^{-1} r - \tfrac12 |x|^2 + \tfrac12 \ln |C|
           + \sum_{a \ge 0} \ln 2 \Phi(x_a / \sigma_a) + \mathrm{const}
@@ -18,7 +18,7 @@ compares extensions that were fitted to the same samples; the sum is over amplit
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -40,6 +40,8 @@ OBJECTIVE_TOLERANCE = 0.3
 LONGEST_STEP = 1.5
 """Longest step along a coordinate [prior standard deviations], the range in which slopes are valid."""
 LEAST_DAMPING = 0.1
+RENEWAL_STEP = 0.25
+"""Step of the differences that renew the slopes [prior standard deviations]."""
 SCHEDULE = Schedule(
     OBJECTIVE_TOLERANCE, LEAST_DAMPING, longest_step=LONGEST_STEP, correct_on_failure=True, active_set=True
 )
@@ -125,6 +127,26 @@ def _extend(
     added = [_column(forward, start, predicted, index) for index in range(kept.size, start.size)]
     with_added, first = (np.column_stack([known, *added]) for known in (slopes, base.first_slopes))
     return _descend(forward, start, predicted, with_added, first, most)
+
+
+def renew_slopes(extension: Extension, run: Run, target: Target, most: int, fit: Refit) -> Refit:
+    """Renew all slopes at the estimate of a refit by differences, and descend from there.
+
+    Their step is long enough for the roughness of a limit cycle. A slope is kept where the beat of its difference
+    fails.
+    """
+    forward = _Forward(extension, run, target)
+    columns = [_difference(forward, fit, index) for index in range(fit.estimate.size)]
+    renewed = _descend(forward, fit.estimate, fit.predicted, np.column_stack(columns), fit.first_slopes, most)
+    return replace(renewed, simulations=fit.simulations + renewed.simulations)
+
+
+def _difference(forward: "_Forward", fit: Refit, index: int) -> Floats:
+    """Slope (n,) along a coordinate, forwards, so that no amplitude leaves its bound."""
+    shifted = fit.estimate.copy()
+    shifted[index] += RENEWAL_STEP
+    prediction = forward(shifted)
+    return fit.slopes[:, index] if prediction is None else (prediction - fit.predicted) / RENEWAL_STEP
 
 
 def _column(forward: "_Forward", start: Floats, predicted: Floats, index: int) -> Floats:
