@@ -43,7 +43,7 @@ def compose_heart(mechanisms: Iterable[str], heart: Heart | None = None) -> Hear
         if name not in known:
             near = get_close_matches(name, known, n=1, cutoff=0.0)[0]
             raise KeyError(
-                f"mechanism {name!r} is unknown; did you mean {near}? Known are {', '.join(known)}"
+                f"mechanism {name!r} is unknown; did you mean {near}? `heartfit parameters` lists all"
             )
         result = result + known[name]()
     return result
