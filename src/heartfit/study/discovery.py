@@ -43,7 +43,8 @@ class Discovery(Strict):
     )
     trials: tuple[str, ...] = Field(
         default=(),
-        description="mechanisms tried on these cases whatever the search names, 10 to 20 beats per trial",
+        description="mechanisms tried on these cases whatever the search names, 10 to 20 beats per trial "
+        "and one for each unknown",
     )
     most_steps: Count = Field(default=20, description="most steps of a refit, which may converge earlier")
     both_ventricles: bool = Field(

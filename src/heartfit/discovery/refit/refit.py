@@ -45,7 +45,7 @@ RENEWAL_STEP = 0.25
 SCHEDULE = Schedule(
     OBJECTIVE_TOLERANCE, LEAST_DAMPING, longest_step=LONGEST_STEP, correct_on_failure=True, active_set=True
 )
-"""Schedule for expensive simulations: every one corrects the slopes, and none is used for finite differences."""
+"""Schedule for expensive simulations: every one corrects the slopes; `renew_slopes` renews them once."""
 
 
 @dataclass(frozen=True, eq=False)
