@@ -15,12 +15,13 @@ those of the surface, the course over the beat is that of the images.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation, binary_erosion
 
-from heartfit.core.arrays import Floats
+from heartfit.core.arrays import Floats, Integers
 from heartfit.core.errors import InputError
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.sections import cut_surface
@@ -56,16 +57,21 @@ class MeasuredWall:
     surface: LabelledSurface
     positions: Floats
 
+    @cached_property
+    def rim(self) -> Integers:
+        """Points (r,) of the left valve rings."""
+        return Cavity.from_endocardium(self.surface, "lv_endo").rim
+
     def outline(self, name: str, grid: Grid, k: int, frame: int = 0) -> Floats:
         """Segments (s, 2, 3) [m] in which slice k cuts a surface in one frame."""
         return cut_surface(self.positions[frame], self.surface.surfaces[name], *slice_plane(grid, k))
 
     def readable_slices(self, grid: Grid) -> list[int]:
         """Slices that cut the left endocardium below its rings in every frame."""
-        rim, kept = Cavity.from_endocardium(self.surface, "lv_endo").rim, []
+        kept = []
         for k in range(grid.size[2]):
             origin, normal = slice_plane(grid, k)
-            above = (self.positions[:, rim] - origin) @ normal > 0.0
+            above = (self.positions[:, self.rim] - origin) @ normal > 0.0
             cut = [len(self.outline("lv_endo", grid, k, frame)) > 0 for frame in range(len(self.positions))]
             if (above.all() or not above.any()) and all(cut):
                 kept.append(k)
@@ -73,10 +79,7 @@ class MeasuredWall:
 
     def length(self, grid: Grid) -> Floats:
         """Length (p,) [m] from the apex of the left cavity to the mean of its valve rings, across the slices."""
-        nodes, rim = (
-            np.unique(self.surface.surfaces["lv_endo"]),
-            Cavity.from_endocardium(self.surface, "lv_endo").rim,
-        )
+        nodes, rim = np.unique(self.surface.surfaces["lv_endo"]), self.rim
         heights = self.positions @ grid.direction[:, 2]
         towards = np.sign(heights[0, rim].mean() - heights[0, nodes].mean())
         return towards * heights[:, rim].mean(axis=1) - (towards * heights[:, nodes]).min(axis=1)

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
+from heartfit.discovery.refit.target import fitted_mask
 from heartfit.discovery.sphere_model.cause import Diagnosis, Gain, Trace
 from heartfit.observation.curve import Curve
 from heartfit.observation.filling import volume_indices
@@ -63,8 +64,8 @@ def _error_row(gain: Gain) -> dict[str, Any]:
 
 
 def unseen(trace: Trace) -> np.ndarray:
-    """Mask (k,) of the frames that neither search nor refit used: every second one."""
-    return np.arange(trace.times.size) % 2 == 1
+    """Mask (k,) of the frames that neither search nor refit used."""
+    return ~fitted_mask(trace.times.size)
 
 
 def _reading_row(name: str, reading: Curve, trace: Trace) -> dict[str, Any]:

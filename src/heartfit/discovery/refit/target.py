@@ -72,8 +72,14 @@ def average_bins(curve: Curve) -> Samples:
 
 
 def _halves(samples: Samples, block: int) -> tuple[Samples, Samples]:
-    first = (np.arange(samples.times.size) // block) % 2 == 0
+    first = fitted_mask(samples.times.size, block)
     return samples.part(first), samples.part(~first)
+
+
+def fitted_mask(count: int, block: int = 1) -> np.ndarray:
+    """Mask (count,) of the fitted samples: every other block, the first included; a frame is a block of its own."""
+    mask: np.ndarray = (np.arange(count) // block) % 2 == 0
+    return mask
 
 
 def sample(curves: Mapping[str, Curve], like: Sampled) -> dict[str, Floats]:
