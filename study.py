@@ -10,7 +10,7 @@ python3 study.py lint         check style and types, and lint the workflow
 python3 study.py benchmark    measure the cost of a beat and write docs/performance.md; half an hour
 python3 study.py verification compare the simulator with closed forms and published results; one or two minutes
 python3 study.py convergence  measure the effect of mesh and time step, write docs/convergence.md; half an hour
-python3 study.py mutations    mutate kernels one by one and write the tests that fail into docs/mutations.md
+python3 study.py mutations    try new mutants of the sources, or --all; write the tests that fail into docs/mutations.md
 python3 study.py browser      test the report in a headless browser: no error, no network access, hearts that beat
 python3 study.py docs         build the site of docs/ and of the library in site/; any warning fails
 python3 study.py numbers      write the pages with numbers of docs/measured, or first store a NUMBERS.csv there
@@ -204,7 +204,7 @@ def convergence(_: list[str]) -> int:
 
 
 def mutations(arguments: list[str]) -> int:
-    """Test all mutants and write docs/mutations.md, or test only the named ones."""
+    """Try the mutants without a stored verdict, the named ones or --all, and write docs/mutations.md."""
     return subprocess.run(tool("python", "-m", "tests.mutations", *arguments), check=False).returncode
 
 

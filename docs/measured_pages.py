@@ -2,7 +2,7 @@
 
 python docs/measured_pages.py             write README.md and docs/*.md from docs/templates and docs/measured
 python docs/measured_pages.py --check     write nothing; fail if a page is not what its template and results give
-python docs/measured_pages.py NUMBERS     take the numbers of a study, results/tables/numbers.csv, first
+python docs/measured_pages.py NUMBERS     take the tables of a study first; NUMBERS is its results/tables/numbers.csv
 
 docs/measured/NAME.tsv holds either single values, with the columns of `COLUMNS`, which a template prints by
 `NAME('quantity', decimals)`, or a table, which it prints by `table('NAME')`. The first line says what made it.
@@ -16,8 +16,11 @@ from dataclasses import dataclass
 from difflib import unified_diff
 from pathlib import Path
 
+import pandas as pd
+
 from heartfit.core.pages import render_page, table_row
 from heartfit.io.files import write_text
+from heartfit.results.text import STATED_ONCE, without_repeats
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "docs" / "measured"
@@ -27,8 +30,10 @@ PAGES = {
         name: ROOT / "docs" / f"{name}.md"
         for name in (
             "conduction",
+            "deviations",
             "discovery_in_3d",
             "measured_heart",
+            "mutations",
             "registration",
             "reproducible",
             "sensitivity",
@@ -38,6 +43,8 @@ PAGES = {
 }
 """Templates by name, and what is written from them."""
 STUDY = RESULTS / "study.tsv"
+PRINTED = {"study_table1": "table1_as_printed", "study_table2": "table2_as_printed", "study_claims": "claims"}
+"""Stored tables that a study prints, and their names in its folder of tables."""
 COLUMNS = ["quantity", "value", "unit", "number", "commit"]
 """number: table/setting/case/quantity in the study's numbers.csv, empty where a value is in another result."""
 KEY = ("table", "setting", "case", "quantity")
@@ -118,6 +125,17 @@ def take(numbers: Path) -> None:
     head, *rows = read_rows(STUDY)
     lines = ["\t".join(row) for row in (head, *renewed(rows, numbers, commit))]
     write_text(STUDY, "\n".join([made_by, *lines]) + "\n")
+    for stem, table in PRINTED.items():
+        lines = ["\t".join(row) for row in printed(numbers.with_name(f"{table}.csv"))]
+        made_by = f"# made by: python3 study.py (tables/{table}); commit: {commit}"
+        write_text(RESULTS / f"{stem}.tsv", "\n".join([made_by, *lines]) + "\n")
+
+
+def printed(table: Path) -> Rows:
+    """The rows of a table of text of a study, its head first, as its Markdown shows them."""
+    frame = pd.read_csv(table, dtype=str, keep_default_na=False, comment="#")
+    shown = without_repeats(frame, STATED_ONCE.get(table.stem, ()))
+    return [list(shown.columns), *shown.to_numpy().tolist()]
 
 
 def main(arguments: list[str]) -> int:

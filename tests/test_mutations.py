@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.mutations import run
-from tests.mutations.mutants import MUTANTS, Mutant
-from tests.mutations.run import PAGE, ROOT, MutationError, Verdict, row
+from tests.mutations import run, stored
+from tests.mutations.catalogue import MUTANTS
+from tests.mutations.mutant import Mutant
+from tests.mutations.run import ROOT, MutationError, Verdict
 
 KERNELS = {
     "calibration/alternatives.py", "calibration/design.py", "calibration/unscented.py", "geometry/cavity.py",
@@ -46,11 +47,22 @@ def test_every_kernel_has_mutants_and_every_mutant_a_name():
     assert not KERNELS - {mutant.file for mutant in MUTANTS}
 
 
-def test_the_committed_page_has_every_mutant_and_all_were_caught():
-    """Regenerate by `python3 study.py mutations`."""
-    rows = [line.split(" | ") for line in PAGE.read_text().splitlines() if "`:" in line]
-    assert [cells[0].removeprefix("| ") for cells in rows] == [mutant.what for mutant in MUTANTS]
-    assert not [cells[0] for cells in rows if "nobody" in cells[-1]]
+def test_every_mutant_has_a_stored_verdict_and_all_were_caught():
+    """Try the others by `python3 study.py mutations`."""
+    rows = stored.read_rows()
+    assert list(rows) == [stored.key(mutant) for mutant in MUTANTS]
+    assert not [cells[0] for cells in rows.values() if cells[3] == stored.NOBODY]
+
+
+def test_the_tests_that_caught_a_mutant_still_exist():
+    caught = {cells[3].strip("`") for cells in stored.read_rows().values()}
+    lost = []
+    for name in sorted(caught):
+        file, _, test = name.partition("::")
+        source = ROOT / "tests" / file
+        if not source.exists() or (test and f"def {test.split('[')[0]}(" not in source.read_text()):
+            lost.append(name)
+    assert not lost
 
 
 class Fake:
@@ -72,14 +84,48 @@ def test_survivors_are_distinguished_from_caught_mutants(tmp_path, monkeypatch, 
     kernel.parent.mkdir(parents=True)
     kernel.write_text("right")
     monkeypatch.setattr(run, "Copy", lambda _: Fake(tmp_path))
-    (verdict,) = run.verdicts((Mutant("change", "kernel.py", "right", text, "tests"),))
+    (verdict,) = run.verdicts([Mutant("change", "kernel.py", "right", text, "tests")])
     assert verdict.caught_by == caught
-    assert ("nobody" in row(verdict)) is (caught == "")
+    assert (stored.NOBODY in stored.row(verdict, "today")) is (caught == "")
     assert kernel.read_text() == "right"
     with pytest.raises(MutationError, match=r"0 times 'left'; expected one"):
-        list(run.verdicts((Mutant("change", "kernel.py", "left", text, "tests"),)))
+        list(run.verdicts([Mutant("change", "kernel.py", "left", text, "tests")]))
 
 
 def test_a_row_shows_the_dropped_text():
-    shown = row(Verdict(Mutant("drop", "kernel.py", "    x -= y\n", "", "t"), "mechanics/test_x.py::test_y"))
-    assert shown == "| drop | `kernel.py`: nothing | `x -= y` | `mechanics/test_x.py::test_y` |\n"
+    verdict = Verdict(Mutant("drop", "kernel.py", "    x -= y\n", "", "t"), "mechanics/test_x.py::test_y")
+    assert stored.row(verdict, "2026-11-23") == (
+        "drop",
+        "`kernel.py`: nothing",
+        "`x -= y`",
+        "`mechanics/test_x.py::test_y`",
+        "2026-11-23",
+    )
+
+
+@pytest.fixture
+def tried(tmp_path, monkeypatch):
+    """Two mutants, the first of which has a stored verdict."""
+    mutants = [Mutant(name, "kernel.py", "right | left", name, "tests") for name in ("old", "new")]
+    monkeypatch.setattr(stored, "MUTANTS", mutants)
+    monkeypatch.setattr(stored, "STORED", tmp_path / "mutations.tsv")
+    first = Verdict(mutants[0], "test_x.py::test_y")
+    stored.write_rows({stored.key(mutants[0]): stored.row(first, "2026-11-23")})
+    return mutants
+
+
+def test_verdicts_are_kept_until_their_mutant_changes(tried, monkeypatch):
+    old, new = tried
+    assert stored.read_rows() == {
+        stored.key(old): stored.row(Verdict(old, "test_x.py::test_y"), "2026-11-23")
+    }
+    assert stored.chosen([]) == [new]
+    assert stored.chosen(["old"]) == [old]
+    assert stored.chosen(["--all"]) == [old, new]
+    monkeypatch.setattr(stored, "MUTANTS", [replace(old, new="another text"), new])
+    assert [mutant.what for mutant in stored.chosen([])] == ["old", "new"]
+
+
+def test_a_mutant_that_is_not_listed_is_refused(tried):
+    with pytest.raises(SystemExit, match="no mutant older"):
+        stored.chosen(["older"])

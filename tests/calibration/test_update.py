@@ -10,7 +10,7 @@ from hypothesis import strategies as some
 
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError, Scaling, sigma_points, transform
-from heartfit.calibration.update import calibrate, update
+from heartfit.calibration.update import calibrate, long_steps, update
 
 NAMES = ("V_min", "q_max", "q_min")
 NOISE = np.diag([0.01, 0.02, 0.005])
@@ -116,12 +116,17 @@ def test_more_observations_than_parameters_without_noise_are_reported() -> None:
     assert not update(prior, moments, named(moments.mean), 0.01 * np.eye(3)).notes
 
 
-def test_a_long_step_is_reported() -> None:
+@pytest.mark.parametrize("size", [4.0, -4.0])
+def test_a_long_step_in_either_direction_is_reported(size: float) -> None:
     prior, a, z, _ = linear(3, 3, 4)
-    far = a @ (prior.mean + np.array([4.0, 0, 0]) * prior.sd) + 1.0
+    far = a @ (prior.mean + np.array([size, 0, 0]) * prior.sd) + 1.0
     posterior = update(prior, transform(sigma_points(prior), z), named(far))
     assert len(posterior.notes) == 1
-    assert re.search(r"\bp0\b.*\+4\.0\b", posterior.notes[0])
+    assert re.search(rf"\bp0\b.*{re.escape(f'{size:+.1f}')}\b", posterior.notes[0])
+
+
+def test_a_step_is_long_beyond_two_and_a_half_prior_deviations_in_either_direction() -> None:
+    assert long_steps(("K", "mu", "R_p"), [-2.6, 2.4, 2.51]) == {"K": -2.6, "R_p": 2.51}
 
 
 @pytest.mark.parametrize("lost", [lost for n in (4, 7) for lost in losses(n)], ids=str)

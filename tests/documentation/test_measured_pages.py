@@ -71,6 +71,20 @@ def test_numbers_of_a_study_are_stored(pages, tmp_path):
     ]
 
 
+def test_printed_tables_of_a_study_are_stored_with_each_quote_once(pages, tmp_path):
+    claims = tmp_path / "claims.csv"
+    stated = "4.3,about 25%,error of q_max,about 25,%"
+    claims.write_text(
+        "# made by heartfit\nplace,quote,quantity,paper,unit,setting,ours\n"
+        f"{stated},paper,1.50\n{stated},physical,nan\n"
+    )
+    assert pages.printed(claims) == [
+        ["place", "quote", "quantity", "paper", "unit", "setting", "ours"],
+        ["4.3", "about 25%", "error of q_max", "about 25", "%", "paper", "1.50"],
+        ["", "", "", "", "", "physical", "nan"],
+    ]
+
+
 def test_a_quantity_that_is_not_stored_is_named(pages):
     values = pages.Values(Path("study.tsv"), {"V_min": "1.25"})
     assert (values("V_min", 1), values("V_min", 2, plus=True), values("V_min")) == ("1.2", "+1.25", "1.25")

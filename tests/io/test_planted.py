@@ -12,10 +12,11 @@ from heartfit.io.beats import MEASURED
 from heartfit.io.curves import read_curves
 from heartfit.io.fingerprint import PACKAGE, modules_below
 from heartfit.io.planted import read_conditions_of, read_planted, write_findings
+from heartfit.io.planting import write_planted
 from heartfit.io.scores import read_scored
-from heartfit.io.seals import open_seal, seal, write_planted
+from heartfit.io.seals import open_seal, seal
 from heartfit.synthetic.campaign import PlantedPlan
-from heartfit.synthetic.case import plant
+from heartfit.synthetic.case import Answer, plant
 from heartfit.synthetic.trial import VOLUME, ScoredDiagnosis
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "scripts"
@@ -29,7 +30,7 @@ def test_recording_and_answer_are_read_back(tmp_path):
     curves = read_curves(tmp_path / "measured" / "5" / MEASURED)
     for name, curve in CASE.curves["rest"].items():
         assert curves[name].values == pytest.approx(curve.values)
-    assert open_seal(tmp_path / "sealed" / "5.answer") == CASE.answer
+    assert open_seal(tmp_path / "sealed" / "5.answer", Answer) == CASE.answer
 
 
 def test_the_seal_is_not_read_in_passing(tmp_path):
@@ -45,13 +46,13 @@ def test_a_changed_answer_breaks_the_seal(tmp_path):
     other = (tmp_path / "b").read_text().split()[1]
     (tmp_path / "a").write_text(f"{digest}\n{other}\n")
     with pytest.raises(InputError, match="seal is broken"):
-        open_seal(tmp_path / "a")
+        open_seal(tmp_path / "a", Answer)
     assert base64.b64decode(body)
 
 
 def test_a_missing_answer_is_reported_in_one_line(tmp_path):
-    with pytest.raises(InputError, match="no sealed answer") as error:
-        open_seal(tmp_path / "none")
+    with pytest.raises(InputError, match="no sealed record") as error:
+        open_seal(tmp_path / "none", Answer)
     assert "\n" not in str(error.value)
 
 
@@ -87,6 +88,6 @@ def test_the_diagnosing_job_imports_no_code_that_plants_or_opens_a_seal():
     assert "synthetic/trial.py" in diagnosing
     answers = {f"synthetic/{name}.py" for name in ("case", "hidden", "campaign", "out_of_library", "scoring")}
     assert all((PACKAGE / name).exists() for name in answers)
-    assert not diagnosing & (answers | {"io/seals.py", "io/scores.py"})
+    assert not diagnosing & (answers | {"io/seals.py", "io/planting.py", "io/scores.py"})
     planting = {path.relative_to(PACKAGE).as_posix() for path in modules_below(SCRIPTS / "plant_effects.py")}
     assert not planting & {"discovery/inference/search.py", "discovery/sphere_model/diagnose.py"}

@@ -52,6 +52,9 @@ def beat() -> Beat:
 
 def test_a_posterior_round_trip(tmp_path: Path) -> None:
     write_posterior(tmp_path / "p.json", posterior(), "abc")
+    summary = read_result(tmp_path / "p.json")["summary"]
+    assert summary["step"] == pytest.approx(dict(zip(posterior().prior.names, posterior().step, strict=True)))
+    assert summary["long_steps"] == []
     restored = read_posterior(tmp_path / "p.json")
     assert restored.estimate.physical() == pytest.approx(posterior().estimate.physical(), rel=1e-14)
     assert restored.gain == pytest.approx(posterior().gain, rel=1e-14)

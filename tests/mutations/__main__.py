@@ -1,7 +1,7 @@
-"""python -m tests.mutations [mutant ...]"""
+"""python -m tests.mutations [--all | mutant ...]"""
 
 import sys
 
-from tests.mutations.run import main
+from tests.mutations.stored import main
 
 sys.exit(main(sys.argv[1:]))

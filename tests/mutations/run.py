@@ -5,20 +5,18 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from heartfit.core.pages import render_page
-from tests.mutations.mutants import MUTANTS, Mutant
+from tests.mutations.mutant import Mutant
 
 ROOT = Path(__file__).parents[2]
 PARTS = ("src", "verification", "tests", "config", "docs", "resources", "pyproject.toml")
 PASSED, FAILED = 0, 1
 TIMEOUT = 900.0  # s
-PAGE = ROOT / "docs" / "mutations.md"
 
 
 class MutationError(RuntimeError):
@@ -92,8 +90,8 @@ class Copy:
         return failed[1] if failed else ""
 
 
-def verdicts(mutants: tuple[Mutant, ...] = MUTANTS) -> Iterator[Verdict]:
-    """Verdicts on all mutants; raises MutationError if tests fail without a mutant."""
+def verdicts(mutants: Sequence[Mutant]) -> Iterator[Verdict]:
+    """Verdicts on the mutants; raises MutationError if tests fail without a mutant."""
     with TemporaryDirectory() as folder:
         copy = Copy(Path(folder) / "project")
         for tests in dict.fromkeys(mutant.tests for mutant in mutants):
@@ -102,30 +100,3 @@ def verdicts(mutants: tuple[Mutant, ...] = MUTANTS) -> Iterator[Verdict]:
         for mutant in mutants:
             with copy.mutated(mutant):
                 yield Verdict(mutant, copy.first_failure(mutant.tests))
-
-
-def row(verdict: Verdict) -> str:
-    """Row of the page."""
-    mutant, caught = verdict.mutant, f"`{verdict.caught_by}`" if verdict.caught_by else "**nobody**"
-    old, new = (
-        f"`{' '.join(text.split())}`" if text.strip() else "nothing" for text in (mutant.old, mutant.new)
-    )
-    return f"| {mutant.what} | `{mutant.file}`: {new} | {old} | {caught} |\n"
-
-
-def page(rows: Iterable[str]) -> str:
-    """The page of all mutants."""
-    return render_page("mutations", rows="".join(rows))
-
-
-def main(names: list[str]) -> int:
-    """Write the page, or print the rows of the named mutants; 1 if one survives."""
-    chosen = tuple(mutant for mutant in MUTANTS if not names or mutant.what in names)
-    rows, survived = [], 0
-    for verdict in verdicts(chosen):
-        rows.append(row(verdict))
-        survived += not verdict.caught_by
-        sys.stderr.write(rows[-1])
-    if not names:
-        PAGE.write_text(page(rows))
-    return int(survived > 0)

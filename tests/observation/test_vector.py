@@ -35,11 +35,12 @@ def measured(frames: int = 25) -> dict[str, Curve]:
     return {"lv_volume": Curve(times, 120e-6 + 50e-6 * np.cos(2 * np.pi * times / PERIOD), PERIOD)}
 
 
-def test_a_beat_and_its_frames_have_the_same_observations() -> None:
-    features = operators(measured())
-    assert features["lv_volume"].frames == 25
+@pytest.mark.parametrize("frames", [25, 36])
+def test_a_beat_and_its_frames_have_the_same_observations(frames: int) -> None:
+    features = operators(measured(frames))
+    assert features["lv_volume"].frames == frames
     observed = observe(beat_curves(beat()), features)
-    assert observed == pytest.approx(observe(measured(), features), rel=1e-3)
+    assert observed == pytest.approx(observe(measured(frames), features), rel=1e-3)
 
 
 def test_pressure_is_observed_where_it_was_measured() -> None:

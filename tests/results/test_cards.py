@@ -40,6 +40,19 @@ def test_the_table_has_a_row_per_parameter_and_no_verdict_without_a_truth(cohort
     assert row["rank"] == "3 of 4"
 
 
+def test_a_long_step_names_the_posteriors_that_took_it(cohort):
+    card = cohort[0]
+    place = card.noise_free.estimate.mean.copy()
+    place[0] = card.prior.mean[0] + 2.6 * card.prior.sd[0]
+    far = replace(
+        card, noise_free=replace(card.noise_free, estimate=replace(card.noise_free.estimate, mean=place))
+    )
+    flags = cards_table([far]).set_index("parameter")["long steps"]
+    assert flags.tolist() == ["met", "", "", ""]
+    assert "†" in plot_card(far).axes[0].get_yticklabels()[0].get_text()
+    assert "†" not in plot_card(card).axes[0].get_yticklabels()[0].get_text()
+
+
 def test_coverage_counts_hearts_with_a_truth(cohort):
     wrong = [
         replace(card, truth={name: 1e3 * value for name, value in card.truth.items()}) for card in cohort[:2]

@@ -1,48 +1,83 @@
-"""Evaluation of named effects: units, held-out ratios and the bias of the parameters."""
+"""Findings beside the answer: misfit in units of noise, size beside the hidden one, gains, bias of the parameters."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from heartfit.results.discovery import DiscoveryResult, discovery_table
+from heartfit.results.discovery import DiscoveryResult, discovery_table, printed_findings
+from heartfit.synthetic.campaign import Effect
+from tests.results.report.small_report import diagnosis
 
-CAUSE = {
-    "verdict": "named",
-    "mechanisms": [
-        {
-            "name": "MitralRegurgitation",
-            "ln_bayes_factor": 21.5,
-            "amplitude": 0.4e-4,
-            "unit": "m^2",
-            "interval": [0.3e-4, 0.5e-4],
-        }
-    ],
-    "gain": [{"curve": "lv_pressure", "ratio": 0.5}, {"curve": "rv_volume", "ratio": 1.1}],
-    "ranking": {"MitralRegurgitation": 21.5, "unknown": 3.0},
-    "simulations": 2100,
-}
-TRUTH = {"sigma_0": 200e3, "R_p": 1e8}
-PLANTED = [("MitralRegurgitation", 0.45e-4, "m^2")]
+LEAK = Effect("MitralRegurgitation", 3.5e-5, 0.0, "m^2", 2.8)
+TRUTH = {"sigma_0": 200e3, "mu": 7e3, "K": 1e6}
 
 
-def test_a_row_gives_the_planted_effect_the_named_effect_and_the_gain() -> None:
-    before = {"sigma_0": 220e3, "R_p": 1e8 * np.exp(0.2), "K": 5e5}
-    case = DiscoveryResult("leak1", "physical", CAUSE, before, dict(TRUTH), PLANTED, TRUTH)
-    row = discovery_table([case]).iloc[0]
-    assert row["planted"] == "MitralRegurgitation 0.45 cm²"
-    assert row["named"] == "MitralRegurgitation 0.4 cm² (0.3 cm² to 0.5 cm²)"
-    assert row["LV pressure ratio"] == 0.5
-    assert np.isnan(row["LV volume ratio"])
-    assert row["bias before (%)"] == pytest.approx(100.0 * np.sqrt((np.log(1.1) ** 2 + 0.04) / 2.0))
-    assert row["bias after (%)"] == 0.0
+def proved(without, extended):
+    card = diagnosis()
+    refitted = replace(card.refitted, none=without, extended=extended)
+    return replace(card, refitted=refitted)
 
 
-def test_without_a_named_effect_the_best_of_the_ranking_is_listed() -> None:
-    cause = CAUSE | {"verdict": "none", "mechanisms": [], "ranking": {"unknown": 1.5, "Pericardium": 0.3}}
-    row = discovery_table([DiscoveryResult("sound1", "physical", cause, {}, {}, [], {})]).iloc[0]
-    assert (row["planted"], row["named"], row["best of the ranking"], row["ln BF"]) == (
-        "",
-        "",
-        "unknown",
-        1.5,
-    )
-    assert np.isnan(row["bias before (%)"])
+def result(case="hidden1", hidden=(LEAK,), truth=TRUTH):
+    without = {"sigma_0": 200e3 * np.exp(0.3), "mu": 7e3 * np.exp(-0.4), "K": 1.0}
+    extended = {"sigma_0": 200e3, "mu": 7e3 * np.exp(0.1), "K": 2.0}
+    return DiscoveryResult(case, "physical", diagnosis(), proved(without, extended), hidden, truth)
+
+
+def numbers(discovery):
+    return discovery_table([discovery]).frame.set_index("quantity")
+
+
+def test_the_size_stands_beside_the_hidden_one_in_the_same_unit() -> None:
+    frame = numbers(result())
+    size = frame.loc["size of mitral regurgitation (cm²)"]
+    assert (size["value"], size["low"], size["high"]) == pytest.approx((0.3, 0.2, 0.4))
+    assert frame.loc["size of mitral regurgitation (cm²), hidden", "value"] == pytest.approx(0.35)
+    assert frame.loc["hidden", "text"] == "mitral regurgitation, 0.35 cm² (2.8 scales)"
+
+
+def test_the_misfit_is_counted_in_standard_deviations_of_the_noise() -> None:
+    wrong = numbers(result()).loc["wrong by: left ventricular pressure"]
+    assert wrong["value"] == pytest.approx(3.0)
+    assert "3 kPa too high" in wrong["text"]
+    assert "3.0 sd" in wrong["text"]
+
+
+def test_the_bias_is_the_root_mean_square_of_the_logarithms_without_k() -> None:
+    bias = numbers(result()).loc["bias of the parameters (%), without and with"]
+    assert bias["low"] == pytest.approx(100.0 * np.sqrt((0.3**2 + 0.4**2) / 2.0))
+    assert bias["value"] == pytest.approx(100.0 * 0.1 / np.sqrt(2.0))
+    assert "error of K (%), without and with" not in numbers(result()).index
+
+
+def test_a_measured_heart_has_neither_answer_nor_bias() -> None:
+    frame = numbers(result("patient1", hidden=None, truth=None))
+    assert not [name for name in frame.index if "hidden" in name or "bias" in name or "error of" in name]
+    assert frame.loc["change of K (%)", "value"] == pytest.approx(100.0)
+    ratio = frame.loc["error ratio: left ventricular pressure, legs_raised"]
+    assert (ratio["value"], ratio["low"], ratio["high"]) == (0.5, 0.4, 0.7)
+
+
+def test_a_sound_heart_hides_nothing_and_is_not_extended() -> None:
+    silent = replace(diagnosis(), verdict="none", mechanisms=(), refitted=None, gain=())
+    sound = DiscoveryResult("sound1", "physical", silent, silent, (), TRUTH)
+    frame = numbers(sound)
+    assert frame.loc["hidden", "text"] == "nothing"
+    assert frame.loc["said after the refit", "text"] == "none"
+    assert not [name for name in frame.index if name.startswith(("size", "error ratio", "change"))]
+
+
+def test_cases_are_columns_in_print_with_one_row_for_each_finding() -> None:
+    silent = replace(diagnosis(), verdict="none", mechanisms=(), refitted=None, gain=())
+    printed = printed_findings([result(), DiscoveryResult("sound1", "physical", silent, silent, (), TRUTH)])
+    assert list(printed.columns) == ["finding", "hidden1, physical", "sound1, physical"]
+    assert printed["finding"].is_unique
+    row = printed.set_index("finding").loc["size of mitral regurgitation (cm²)"]
+    assert list(row) == ["0.3 (0.2 to 0.4)", ""]
+
+
+def test_a_withdrawn_name_is_listed_with_the_verdict() -> None:
+    judged = replace(diagnosis(), verdict="unknown", mechanisms=(), withdrawn=("SlowRelaxation",))
+    frame = numbers(DiscoveryResult("hidden1", "physical", diagnosis(), judged, (LEAK,), TRUTH))
+    assert frame.loc["said after the refit", "text"] == "unknown (withdrawn: slow relaxation)"

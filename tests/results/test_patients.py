@@ -52,6 +52,17 @@ def test_parameters_stand_over_the_mean_of_the_virtual_volunteers_and_the_truths
     assert paper["quantity"].tolist() == ["sigma_0", "sigma_0", "K"]
 
 
+def test_a_long_step_of_a_patient_is_flagged_with_its_errors_and_its_parameter():
+    far = [replace(CASES[-1], estimate=CASES[-1].estimate | {"K": CASES[-1].prior["K"] * 9.0}), *CASES[:-1]]
+    errors = patient_errors(far, PUBLISHED, GROUPS).set_index(["setting", "case"])["long steps"]
+    assert errors["physical"].unique().tolist() == ["sigma_0 -2.6, K +11.0"]
+    parameters = patient_parameters(far, PUBLISHED, GROUPS)
+    flags = parameters[parameters["setting"] == "physical"].set_index("quantity")["long steps"]
+    assert flags.to_dict() == {"sigma_0": "†", "K": "†"}
+    near = patient_parameters(CASES, PUBLISHED, GROUPS).set_index(["setting", "quantity"])["long steps"]
+    assert near["physical", "K"] == ""
+
+
 def test_a_setting_has_its_own_healthy_mean():
     other = [
         replace(case, setting="paper", estimate={"sigma_0": 2 * case.estimate["sigma_0"], "K": 1.0})

@@ -8,7 +8,14 @@ import pytest
 from heartfit.results.card import Card
 from heartfit.results.case import Groups
 from heartfit.results.specificity import PatientComparison, compare_groups
-from heartfit.results.specificity_table import claims_table, plot_specificity, specificity_table
+from heartfit.results.specificity_table import (
+    ClaimedLimits,
+    plot_specificity,
+    specificity_claims,
+    specificity_table,
+)
+
+LIMITS = ClaimedLimits(weak=0.7, stiff=1.4)
 
 
 @pytest.fixture
@@ -49,6 +56,22 @@ def test_p_cannot_be_below_that_of_one_labeling(compared):
     assert sigma["p"] == pytest.approx(1 / 15)
 
 
+def test_long_steps_are_named_by_reading_and_never_of_the_truth(cohort, groups):
+    def with_contractility_at(card: Card, reach: float) -> Card:
+        mean = card.noise_free.estimate.mean.copy()
+        mean[0] = card.prior.mean[0] + reach * card.prior.sd[0]
+        estimate = replace(card.noise_free.estimate, mean=mean)
+        return replace(card, noise_free=replace(card.noise_free, estimate=estimate))
+
+    sick = [with_contractility_at(card, -2.9 if card.case == "lbbb2" else -1.0) for card in cohort]
+    compared = compare_groups(sick, groups)
+    flags = specificity_table(compared).set_index(["parameter", "reading"])["long steps"]
+    assert flags["sigma_0", "observations met"] == "lbbb2 -2.9"
+    assert flags["sigma_0", "truth"] == ""
+    claims = specificity_claims(compared, LIMITS).set_index(["claim", "reading"])["long steps"]
+    assert claims["sigma_0 of lbbb1 and lbbb2 below", "observations met"] == "lbbb2 -2.9"
+
+
 def unseen(card: Card) -> Card:
     """The same estimate with the prior's uncertainty."""
     estimate = replace(card.noise_aware.estimate, covariance=card.prior.covariance)
@@ -66,7 +89,7 @@ def test_a_difference_not_informed_by_the_data_has_a_warning(cohort, groups):
 
 
 def test_both_claims_hold_for_the_truth_and_one_fails_under_the_prior(compared):
-    claims = claims_table([compared]).set_index(["claim", "reading"])
+    claims = specificity_claims([compared], LIMITS).set_index(["claim", "reading"])
     weakest = claims.loc[("sigma_0 of lbbb1 and lbbb2 below", "truth"), "over healthy"]
     assert weakest == pytest.approx(compared.ratios("truth", "sigma_0")["lbbb1"]), "the less weak one decides"
     table = claims["holds"]
@@ -88,7 +111,7 @@ def test_K_is_compared_with_the_true_stiffness(cohort, groups):
     assert comparison.ratios("truth", "K") == pytest.approx(
         compare_groups(cohort, groups)[0].ratios("truth", "c_1")
     )
-    assert "K of lbbb2 above" in claims_table([comparison])["claim"].tolist()
+    assert "K of lbbb2 above" in specificity_claims([comparison], LIMITS)["claim"].tolist()
 
 
 def test_one_patient_and_one_volunteer_are_compared_as_well(cohort, groups):
@@ -101,9 +124,9 @@ def test_one_patient_and_one_volunteer_are_compared_as_well(cohort, groups):
 def test_the_figure_has_a_panel_per_parameter_and_grey_where_the_data_are_uninformative(
     cohort, groups, compared
 ):
-    figure = plot_specificity([compared])
+    figure = plot_specificity([compared], LIMITS)
     assert sum(axes.get_visible() for axes in figure.axes) == 4
     assert {axes.get_facecolor()[0] for axes in figure.axes} == {1.0}
-    grey = plot_specificity(compare_groups([unseen(card) for card in cohort], groups))
+    grey = plot_specificity(compare_groups([unseen(card) for card in cohort], groups), LIMITS)
     assert all(axes.get_facecolor()[0] < 1.0 for axes in grey.axes)
-    assert plot_specificity([]).axes
+    assert plot_specificity([], LIMITS).axes

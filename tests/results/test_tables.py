@@ -106,7 +106,7 @@ def test_parameters_in_printed_units_with_prior_paper_and_truth() -> None:
     assert "R_p of truth (%)" not in table
     assert table["longest step (prior sd)"].iloc[1] == pytest.approx(np.log(250 / 240) / 0.2)
     sigma = [place for place, column in enumerate(table.columns) if column.startswith("sigma_0")]
-    assert sigma == [3, 4, 5, 6]
+    assert sigma == [4, 5, 6, 7]
     assert table["sigma_0 over mean"].dropna().tolist() == pytest.approx([1, 1, 1, 6.49 / 5.8, 1])
 
 
@@ -180,6 +180,20 @@ def test_a_record_takes_everything_from_the_posterior_and_the_curves() -> None:
     smaller = record(wave(size=40e-6)).guards
     assert smaller["lv_EDV_error_percent"] == pytest.approx(-100 * 10 / 170, rel=0.01)
     assert smaller["lv_ESV_error_percent"] == pytest.approx(100 * 10 / 70, rel=0.01)
+
+
+def test_a_long_step_is_named_in_the_tables_of_errors_and_parameters() -> None:
+    far = replace(
+        case("virtual"), estimate={"sigma_0": 240e3 * np.exp(0.2 * 2.7), "R_p": 1.14e8 * np.exp(-0.2 * 2.4)}
+    )
+    assert far.steps() == pytest.approx({"sigma_0": 2.7, "R_p": -2.4})
+    for table in (
+        error_table([case(), far], PAPER_ERRORS, HEALTHY),
+        parameter_table([case(), far], PAPER_PARAMETERS, HEALTHY),
+    ):
+        flags = table.set_index("case")["long steps"]
+        assert flags["virtual"] == "sigma_0 +2.7", "2.4 is within 2.5"
+        assert set(flags.drop("virtual")) == {""}
 
 
 def test_a_failed_verification_is_a_row_without_errors() -> None:

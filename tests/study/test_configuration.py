@@ -192,7 +192,10 @@ def test_cases_are_read_in_si_units(tmp_path):
     ("text", "expected"),
     [
         ("case\tkind\tperiod_s\na\tmeasured\t900\n", "line 2: period = 900"),
-        ("case\tkind\tperiod_s\na\tphantom\t0.9\n", "line 2: kind = 'phantom'.*'measured' or 'virtual'"),
+        (
+            "case\tkind\tperiod_s\na\tphantom\t0.9\n",
+            "line 2: kind = 'phantom'.*'measured', 'virtual' or 'sealed'",
+        ),
         (
             "case\tkind\tperiod_s\na\tmeasured\tfast\n",
             "line 2: period = 'fast'",
@@ -210,7 +213,7 @@ def test_a_bad_table_of_cases_is_refused(tmp_path, text, expected):
 def test_without_the_measured_heart_virtual_cases_remain_and_one_line_reports_it(content, tmp_path):
     content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": [str(tmp_path / "nowhere")]}
     plan = plan_study(content)
-    assert {case.kind for case in plan.cases.values()} == {"virtual"}
+    assert {case.kind for case in plan.cases.values()} == {"virtual", "sealed"}
     assert "patient1" in plan.left_out
     assert str(tmp_path / "nowhere") in plan.left_out
     assert "\n" not in plan.left_out

@@ -8,7 +8,7 @@ from heartfit.discovery.sphere_model.cause import Cause
 from heartfit.observation.noise_model import Share
 from heartfit.synthetic.campaign import Effect
 from heartfit.synthetic.case import Answer
-from heartfit.synthetic.scoring import RATES, Scored, binomial_p_value
+from heartfit.synthetic.scoring import RATES, DetectableSizes, Scored, binomial_p_value
 from heartfit.synthetic.trial import ScoredDiagnosis
 
 
@@ -101,8 +101,22 @@ def test_amplitudes_are_compared_from_where_the_effect_is_off():
     assert scored.ratio(effect) == pytest.approx(0.8)
     assert scored.covered(effect)
     assert not scored.covered(Effect("Leak", 2.6, 1.0, "m^2", 2.0))
+    assert not scored.covered(Effect("Leak", 1.4, 1.0, "m^2", 2.0))
 
 
 def test_the_conclusion_is_the_named_effect_or_the_verdict():
     assert [case.conclusion for case in CASES[:5]] == ["none", "insufficient", "unknown", "Leak", "Leak"]
     assert CASES[9].conclusion == "two"
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "scales", "detectable"),
+    [(3.0, 2.0, True), (-1.0, 2.0, False), (-1.0, 4.0, True), (3.0, 1.0, False)],
+)
+def test_a_size_is_detectable_from_the_limit_of_its_sign_on(amplitude, scales, detectable):
+    """Detectable sizes of 1.5 scales above the off value of 1 and of 3 scales below it."""
+    sizes = DetectableSizes({("Delay", 1.0): 1.5, ("Delay", -1.0): 3.0})
+    effect = Effect("Delay", amplitude, 1.0, "s", scales)
+    planted = Scored(Answer(0, "single", (effect,), {}, {}, 0.02), diagnosis("none"))
+    assert sizes.is_detectable(planted) is detectable
+    assert not sizes.is_detectable(case("none", (), "none"))

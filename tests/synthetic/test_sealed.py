@@ -7,8 +7,9 @@ import pytest
 
 from heartfit.discovery.sphere_model import forward_model as library
 from heartfit.io.planted import read_planted, write_findings
+from heartfit.io.planting import write_planted
 from heartfit.io.scores import read_scored
-from heartfit.io.seals import seal, write_planted
+from heartfit.io.seals import seal
 from heartfit.roles import registered
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import plant

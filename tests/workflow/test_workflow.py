@@ -5,8 +5,8 @@ import re
 
 import pytest
 
-VOLUNTEERS, PATIENTS, SETTINGS = 7, 2, 2
-POINTS_OF_COHORT = SETTINGS * (VOLUNTEERS * 9 + PATIENTS * 15)
+VOLUNTEERS, PATIENTS, SEALED, SETTINGS = 7, 2, 2, 2
+POINTS_OF_COHORT = SETTINGS * (VOLUNTEERS * 9 + PATIENTS * 15) + SEALED * 15
 POINTS_OF_BOTH_VENTRICLES = 15
 """Sigma points of the third setting, which is for the measured heart."""
 
@@ -55,12 +55,14 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     counts = job_counts(planned.stdout)
     assert planned.returncode == 0, planned.stdout
     assert counts["simulate_point"] == POINTS_OF_COHORT
-    assert counts["simulate_calibrated"] == SETTINGS * (VOLUNTEERS + PATIENTS)
-    assert counts["generate_volunteer"] == VOLUNTEERS + PATIENTS
-    assert counts["record_pressure"] == PATIENTS
+    assert counts["simulate_calibrated"] == SETTINGS * (VOLUNTEERS + PATIENTS) + SEALED
+    assert counts["generate_volunteer"] == VOLUNTEERS + PATIENTS + SEALED
+    assert counts["record_pressure"] == PATIENTS + SEALED
     assert counts["make_tables"] == 1
     assert counts["compile_kernels"] == 1
-    assert readers(planned.stdout, "truth") == {"make_tables", "make_cards", "compare_groups", "report_study"}
+    evaluation = {"make_tables", "make_cards", "compare_groups", "report_study", "tabulate_discovery"}
+    assert readers(planned.stdout, "truth") == evaluation
+    assert readers(planned.stdout, "effects.sealed") == {"generate_volunteer", "tabulate_discovery"}
     everybody = {"make_cards", "compare_groups", "report_study", "exchange_results"}
     assert readers(planned.stdout, "posterior_noise") == everybody
     assert readers(planned.stdout, "cohort/motion") == {"image_volunteer", "plot_septal_flash"}
@@ -74,8 +76,12 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert readers(planned.stdout, "verification/motion") == {"plot_overlay", "plot_residual", "report_study"}
     assert counts["plot_overlay"] == PATIENTS + 1
     assert counts["try_acquisition"] == 21 + 3 + 6 * 2
-    assert counts["build_template"] == 3
+    assert counts["build_template"] == 5
     assert counts["tabulate_costs"] == counts["report_study"] == 1
+    assert counts["judge_claims"] == counts["print_tables"] == 1
+    (claims,) = (inputs(job) for rule, job in jobs(planned.stdout) if rule == "judge_claims")
+    errors = sum(name.endswith("verification/errors.json") for name in claims)
+    assert errors == counts["simulate_calibrated"] - SEALED
     assert "diagnose_planted" not in counts, "the search takes hours and was not requested"
     assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
     beating = {"generate_volunteer", "draw_volunteer", "simulate_point", "simulate_calibrated"}
@@ -85,6 +91,8 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
         "compare_alternatives",
         "cover_spheres",
         "search_cause",
+        "refit_case",
+        "prove_cause",
     }
     assert readers(planned.stdout, "kernels") == beating
     targets = inputs(dict(jobs(planned.stdout))["all"])
@@ -104,7 +112,7 @@ def test_the_measured_heart_is_one_more_case(workflow, measured_heart_folder):
     assert counts.get("register_cine", 0) == counts.get("compare_cine", 0) == min(imaged, 1)
     assert ("registration of images left out" in run.stdout) == (imaged == 0)
     assert counts["simulate_point"] == POINTS_OF_COHORT + SETTINGS * 9 + POINTS_OF_BOTH_VENTRICLES
-    assert counts["simulate_calibrated"] == SETTINGS * (VOLUNTEERS + PATIENTS + 1) + 1
+    assert counts["simulate_calibrated"] == SETTINGS * (VOLUNTEERS + PATIENTS + 1) + 1 + SEALED
     assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
 
 
@@ -191,7 +199,7 @@ def test_no_input_is_ancient(workflow):
     ("file", "text", "expected"),
     [
         ("config/config.yaml", "mehs: 1\n", "unknown key mehs; did you mean mesh?"),
-        ("config/cases.tsv", "x\tvirtual\t0.9" + 13 * "\t" + "\n", "x is virtual and lacks seed"),
+        ("config/cases.tsv", "x\tvirtual\t0.9" + 14 * "\t" + "\n", "x is virtual and lacks seed"),
     ],
 )
 def test_bad_input_is_refused_in_one_line_before_anything_runs(workflow, file, text, expected):

@@ -2,6 +2,7 @@
 
 from heartfit.io.fingerprint import PACKAGE
 from heartfit.io.sources import source_files
+from heartfit.results.report.record import TITLES
 
 TABLE_SUFFIXES = ("csv", "md", "tex")
 NOISE_MODEL = "<results>/registration_error/noise_model.json"
@@ -108,6 +109,33 @@ def noise_model(wildcards):
     return [NOISE_MODEL] if wildcards.case in VIRTUAL else []
 
 
+def hidden_template(wildcards):
+    """Template of the hidden mesh of a virtual case."""
+    return f"<results>/templates/{'sealed' if wildcards.case in SEALED else 'generator'}.vtu"
+
+
+def hidden_effects(wildcards):
+    """Sealed effects of a virtual case; empty for a volunteer or patient, who has none."""
+    return [f"<results>/{wildcards.case}/cohort/effects.sealed"] if wildcards.case in SEALED else []
+
+
+def model_template(wildcards):
+    """Template of the mesh on which a virtual case is calibrated."""
+    return f"<results>/templates/{'coarse' if wildcards.case in SEALED else 'calibrator'}.vtu"
+
+
+def refit_mesh(wildcards):
+    """Mesh of the refits of a case."""
+    folder = "discovery" if wildcards.case in COARSENED else "geometry"
+    return f"<results>/{wildcards.case}/{folder}/mesh.vtu"
+
+
+def refit_motion(wildcards):
+    """Registered motion of the mesh of the refits."""
+    folder = "discovery" if wildcards.case in COARSENED else "registration"
+    return f"<results>/{wildcards.case}/{folder}/motion.npz"
+
+
 def second_reading(wildcards):
     """Volume from the blood of a measured heart's images; empty without images beside a fitted surface."""
     return (
@@ -128,7 +156,10 @@ def noise_training_sequences(wildcards):
 
 
 def calibrated_beats(kind):
-    """Return an input function: a file of the calibrated beat, and of the refitted beat if there is one."""
+    """Return an input function: a file of the calibrated beat, and of the refitted beat if there is one.
+
+    The motion of a refit on another mesh is left out.
+    """
     calibrated, refitted = {
         "beat": ("verification/beat.json", "beat.json"),
         "motion": ("verification/motion.npz", "motion.npz"),
@@ -138,7 +169,7 @@ def calibrated_beats(kind):
     def list_files(wildcards):
         case, setting = wildcards.case, wildcards.setting
         files = [f"<results>/{case}/{setting}/{calibrated}"]
-        if (case, setting) in REFITTED:
+        if (case, setting) in REFITTED and not (kind == "motion" and case in COARSENED):
             files.append(f"<results>/{case}/discovery/{setting}/none/{refitted}")
         return files
 
@@ -170,13 +201,15 @@ STUDY_FIGURES = [
     *(["septal_flash"] if GROUPS.patients else []),
     *(f"{case}_activation" for case in CASES),
     *(f"sensitivity{topic}_{setting}" for topic in ("", "_curves") for setting in PERTURBED_SETTINGS),
-    *(f"{case}_contours" for case in VIRTUAL + IMAGED),
+    *(f"{case}_contours" for case in VIRTUAL + IMAGED if case not in SEALED),
     *(f"{case}_{COMMON_SETTINGS[-1]}_overlay" for case in SEPTAL_FLASH_CASES),
     *(f"{case}_cine_{topic}" for case in FITTED_WITH_IMAGES for topic in ("outlines", "volume")),
     *(f"residual_{case}_{setting}" for case, setting in CALIBRATIONS),
 ]
 STUDY_TABLES = [
+    "table1_as_printed",
     "table1",
+    "claims",
     "cards",
     *(["specificity", "selection"] if VIRTUAL else []),
     *(f"sensitivity_{setting}" for setting in PERTURBED_SETTINGS),
@@ -214,7 +247,7 @@ def study_causes():
             "<results>/{case}/discovery/{setting}/search/cause.json", case=CASES, setting=DISCOVERY.settings
         ),
         *(f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in REFITTED),
-        *(["<results>/tables/discovery.md"] if REFITTED_VIRTUAL else []),
+        *(["<results>/tables/discovery.md"] if REFITTED else []),
         *(f"<results>/figures/trials_{case}_{setting}.png" for case, setting in REFITTED if DISCOVERY.trials),
     ]
 

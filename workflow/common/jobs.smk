@@ -11,6 +11,7 @@ from heartfit.io.fingerprint import fingerprint
 from heartfit.io.campaign import NEEDS, read_table
 from heartfit.roles import registered
 from heartfit.study.need import SHARED, Need, largest
+from heartfit.synthetic.campaign import DRAWN
 
 MEASURED_COSTS = read_table(Need, Path(workflow.basedir, "resources", NEEDS))
 # rules that do the same work on other data share a name in logs, benchmarks and resources/costs.tsv
@@ -97,8 +98,9 @@ def setting_mechanisms(wildcards):
 
 
 def planted_mechanisms(wildcards):
-    """Fingerprints of the mechanisms that a virtual case adds to its true heart."""
-    return [file_fingerprint(inspect.getfile(type(part))) for part in case_of(wildcards).planted()]
+    """Fingerprint of each mechanism that a virtual case may add to its true heart: of all if it is drawn."""
+    plant, library = case_of(wildcards).plant, library_mechanisms(wildcards)
+    return library if plant == DRAWN else {name: code for name, code in library.items() if name == plant}
 
 
 def library_mechanisms(_):

@@ -35,8 +35,13 @@ onstart:
 STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources
 SETTINGS = list(STUDY.settings)
 COMMON_SETTINGS = list(STUDY.common_settings())
-CALIBRATIONS = [(case, setting) for case in CASES for setting in STUDY.settings_of(case)]
-COMMON_CALIBRATIONS = [(case, setting) for case, setting in CALIBRATIONS if setting in COMMON_SETTINGS]
+CALIBRATIONS = [(name, setting) for name, case in CASES.items() for setting in STUDY.settings_of(case)]
+# those of the cohort, which the tables compare
+COMMON_CALIBRATIONS = [
+    (case, setting)
+    for case, setting in CALIBRATIONS
+    if setting in COMMON_SETTINGS and CASES[case].kind != "sealed"
+]
 # settings whose perturbed beats are simulated; others of the same model and prior use them too
 PERTURBED_AS = {setting: STUDY.perturbed_as(setting) for setting in SETTINGS}
 PERTURBED_SETTINGS = list(dict.fromkeys(PERTURBED_AS.values()))
@@ -47,8 +52,9 @@ def cases_of_kind(kind):
 
 
 # names of cases, by what their data allow
-VIRTUAL = cases_of_kind("virtual")
-WITHOUT_TRUTH = [name for name in CASES if name not in VIRTUAL]
+SEALED = cases_of_kind("sealed")
+WITHOUT_TRUTH = cases_of_kind("measured")
+VIRTUAL = [name for name in CASES if name not in WITHOUT_TRUTH]
 CATHETERISED = [name for name in VIRTUAL if CASES[name].catheter]
 SEGMENTED = [name for name, source in SOURCES.items() if source.segmented]
 FITTED = [name for name, source in SOURCES.items() if not source.segmented]
@@ -56,9 +62,9 @@ IMAGED = [name for name, source in SOURCES.items() if source.images]
 FITTED_WITH_IMAGES = [name for name in FITTED if name in IMAGED]
 RECORDED = [name for name, source in SOURCES.items() if source.pressure]
 GROUPS = Groups(
-    volunteers=tuple(name for name in VIRTUAL if CASES[name].healthy),
+    volunteers=tuple(name for name in cases_of_kind("virtual") if CASES[name].healthy),
     measured=tuple(name for name in WITHOUT_TRUTH if CASES[name].healthy),
-    patients=tuple(name for name in VIRTUAL if not CASES[name].healthy),
+    patients=tuple(name for name in cases_of_kind("virtual") if not CASES[name].healthy),
     measured_patients=tuple(name for name in WITHOUT_TRUTH if not CASES[name].healthy),
 )
 SEPTAL_FLASH_CASES = [*GROUPS.volunteers[:1], *GROUPS.patients]
@@ -73,10 +79,10 @@ VALIDATION_SEQUENCES = range(
     REGISTRATION_ERROR.sequences, REGISTRATION_ERROR.sequences + REGISTRATION_ERROR.fresh
 )
 
-# cases and settings whose heart is refitted and extended in 3-D; those with known truth
+# cases and settings whose heart is refitted and extended in 3-D; measured ones on a coarse mesh of their own
 DISCOVERY = STUDY.discovery
-REFITTED = [(case, setting) for case in DISCOVERY.cases if case in CASES for setting in DISCOVERY.settings]
-REFITTED_VIRTUAL = [(case, setting) for case, setting in REFITTED if CASES[case].kind == "virtual"]
+REFITTED = STUDY.refitted(CASES)
+COARSENED = [case for case in WITHOUT_TRUTH if DISCOVERY.coarse is not None]
 
 # cases of the discovery benchmark: batches of spheres, and single ventricles by number
 SPHERE_BATCHES = dict(enumerate(STUDY.discovery_benchmark.batches()))
@@ -106,7 +112,27 @@ def case_of(wildcards):
 
 def curves_besides(wildcards):
     """Curves of a case that are observed besides those of the left ventricle."""
-    return STUDY.curves_besides(wildcards.case)
+    return STUDY.curves_besides(case_of(wildcards))
+
+
+def numerics_of(wildcards):
+    """Numerics of the model that is calibrated to a case."""
+    return STUDY.calibrator(case_of(wildcards)).numerics
+
+
+def mesh_size_of(wildcards):
+    """Size of the mesh on which a case is calibrated."""
+    return STUDY.calibrator(case_of(wildcards)).mesh
+
+
+def refit_numerics_of(wildcards):
+    """Numerics of the refits of a case."""
+    return STUDY.refit_model(case_of(wildcards)).numerics
+
+
+def cohort_of(wildcards):
+    """Generation of a virtual case."""
+    return STUDY.cohort_of(case_of(wildcards))
 
 
 def filling_pressures_of(wildcards):
@@ -127,6 +153,11 @@ def perturbed_setting_of(wildcards):
 def element_setting(_):
     """Setting in which two elements are compared; a function, since a study may have none."""
     return STUDY.element_setting()
+
+
+def warping_setting(_):
+    """Setting of the simulation that warps the images."""
+    return STUDY.setting(COMMON_SETTINGS[-1])
 
 
 def template_size_of(wildcards):

@@ -29,9 +29,9 @@ rule simulate_point:
         case=case_of,
         setting=setting_of,
         pressures=filling_pressures_of,
-        scheme=STUDY.numerics,
+        scheme=numerics_of,
         mechanisms=setting_mechanisms,
-        stated=configuration_text(case_of, setting_of, STUDY.numerics, filling_pressures_of),
+        stated=configuration_text(case_of, setting_of, numerics_of, filling_pressures_of),
     script:
         "../scripts/simulate_point.py"
 

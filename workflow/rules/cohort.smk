@@ -1,6 +1,23 @@
+rule hide_effect:
+    output:
+        "<results>/{case}/cohort/effects.sealed",
+    wildcard_constraints:
+        case=match_any(SEALED),
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        case=case_of,
+        library=library_mechanisms,
+        stated=configuration_text(case_of),
+    script:
+        "../scripts/hide_effect.py"
+
+
 rule generate_volunteer:
     input:
-        template="<results>/templates/generator.vtu",
+        hidden=hidden_effects,
+        template=hidden_template,
         kernels="<results>/kernels.json",
     output:
         mesh="<results>/{case}/cohort/heart.vtu",
@@ -12,10 +29,10 @@ rule generate_volunteer:
         case=match_any(VIRTUAL),
     params:
         case=case_of,
-        cohort=STUDY.cohort,
+        cohort=cohort_of,
         pressures=filling_pressures_of,
         planted=planted_mechanisms,
-        stated=configuration_text(case_of, STUDY.cohort, filling_pressures_of),
+        stated=configuration_text(case_of, cohort_of, filling_pressures_of),
     script:
         "../scripts/generate_volunteer.py"
 

@@ -13,7 +13,9 @@ CALIBRATED_CASE = IMAGED_CASE | {
     "motions": calibrated_beats("motion"),
     "fitted": calibrated_beats("fitted"),
 }
-REFITTED_CASE = IMAGED_CASE | {
+REFITTED_CASE = MEASURED_CASE | {
+    "mesh": refit_mesh,
+    "registered": refit_motion,
     "kernels": "<results>/kernels.json",
 }
 REFIT_PARAMS = {
@@ -21,10 +23,10 @@ REFIT_PARAMS = {
     "setting": setting_of,
     "mechanisms": setting_mechanisms,
     "pressures": filling_pressures_of,
-    "scheme": STUDY.numerics,
+    "scheme": refit_numerics_of,
     "most_steps": DISCOVERY.most_steps,
     "both": DISCOVERY.both_ventricles,
-    "stated": configuration_text(case_of, setting_of, STUDY.numerics, filling_pressures_of, DISCOVERY),
+    "stated": configuration_text(case_of, setting_of, refit_numerics_of, filling_pressures_of, DISCOVERY),
 }
 
 
@@ -72,6 +74,26 @@ use rule search_cause as search_reading with:
         stated=configuration_text(case_of, setting_of),
         mechanisms=library_mechanisms,
         reading=lambda wildcards: wildcards.reading,
+
+
+rule coarsen_wall:
+    input:
+        mesh="<results>/{case}/geometry/mesh.vtu",
+        motion="<results>/{case}/registration/motion.npz",
+    output:
+        mesh="<results>/{case}/discovery/mesh.vtu",
+        motion="<results>/{case}/discovery/motion.npz",
+    wildcard_constraints:
+        case=match_any(COARSENED),
+    resources:
+        mem_mb=1500,
+        runtime=5,
+    params:
+        case=case_of,
+        size=DISCOVERY.coarse.mesh if DISCOVERY.coarse else None,
+        stated=configuration_text(case_of, DISCOVERY.coarse),
+    script:
+        "../scripts/coarsen_wall.py"
 
 
 rule refit_case:
@@ -158,15 +180,19 @@ rule discover:
 
 rule tabulate_discovery:
     input:
-        causes=[f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in REFITTED_VIRTUAL],
-        before=[f"<results>/{case}/discovery/{setting}/none/refit.json" for case, setting in REFITTED_VIRTUAL],
-        after=[f"<results>/{case}/discovery/{setting}/refit.json" for case, setting in REFITTED_VIRTUAL],
-        truths=[f"<results>/{case}/cohort/truth.json" for case, _ in REFITTED_VIRTUAL],
+        causes=[f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in REFITTED],
+        searched=[f"<results>/{case}/discovery/{setting}/search/cause.json" for case, setting in REFITTED],
+        truths=[f"<results>/{case}/cohort/truth.json" for case, _ in REFITTED if case in SEALED],
+        sealed=[f"<results>/{case}/cohort/effects.sealed" for case, _ in REFITTED if case in SEALED],
     output:
-        table_files("discovery"),
+        reported_tables("discovery"),
+    resources:
+        mem_mb=500,
+        runtime=2,
     params:
-        proved=REFITTED_VIRTUAL,
-        planted=[CASES[case].planted_sizes() for case, _ in REFITTED_VIRTUAL],
+        results=results_folder,
+        refitted=REFITTED,
+        virtual=SEALED,
     script:
         "../scripts/tabulate_discovery.py"
 

@@ -50,15 +50,15 @@ rule build_measured_mesh:
 rule build_volunteer_mesh:
     input:
         outline="<results>/{case}/cohort/heart.vtu",
-        generator="<results>/templates/generator.vtu",
-        template="<results>/templates/calibrator.vtu",
+        generator=hidden_template,
+        template=model_template,
     output:
         "<results>/{case}/geometry/mesh.vtu",
     wildcard_constraints:
         case=match_any(VIRTUAL),
     params:
         case=case_of,
-        size=STUDY.virtual_mesh,
-        stated=configuration_text(case_of, STUDY.virtual_mesh),
+        size=mesh_size_of,
+        stated=configuration_text(case_of, mesh_size_of),
     script:
         "../scripts/build_volunteer_mesh.py"

@@ -33,7 +33,7 @@ REPORTED_FILES = {
 rule report_study:
     input:
         study_results(),
-        table_files("table1", "table2", "table3", "table3_parameters", "plausibility", "costs"),
+        table_files(*TITLES),
         **POSTERIORS_AND_TRUTHS,
         **REPORTED_FILES,
         parts=report_templates,

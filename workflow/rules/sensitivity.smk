@@ -25,6 +25,7 @@ use rule simulate_point as simulate_surrounding with:
         case=REFERENCE,
         setting=perturbed_setting_of,
         pressures=STUDY.filling_pressures(REFERENCE),
+        scheme=STUDY.calibrator(REFERENCE).numerics,
         stated=configuration_text(
             REFERENCE, perturbed_setting_of, STUDY.numerics, STUDY.filling_pressures(REFERENCE)
         ),

@@ -8,7 +8,7 @@ from heartfit.heart.heart import Heart
 from heartfit.io.meshes import read_mesh
 from heartfit.io.run import record
 from heartfit.io.tables import write_figure, write_table
-from heartfit.results.discovery import element_table, plot_element
+from heartfit.results.element import element_table, plot_element
 from heartfit.results.text import render_table
 from heartfit.synthetic.element import compare_extensions, competing_extensions, hidden_case
 from heartfit.synthetic.volunteer import Template

@@ -4,10 +4,11 @@ from pathlib import Path
 
 from heartfit.io.results import read_posterior, read_truth
 from heartfit.io.run import record
-from heartfit.io.tables import write_figures, write_tables
+from heartfit.io.tables import read_published, write_figures, write_tables
 from heartfit.results.card import cards
+from heartfit.results.claims import claimed_limits
 from heartfit.results.specificity import compare_groups
-from heartfit.results.specificity_table import claims_table, plot_specificity, specificity_table
+from heartfit.results.specificity_table import plot_specificity, specificity_claims, specificity_table
 from heartfit.results.text import render_tables
 
 record(snakemake.log[0])
@@ -16,7 +17,10 @@ truths = dict(zip(params.groups.virtual, map(read_truth, map(Path, files.truths)
 noise_free = map(read_posterior, map(Path, files.noise_free))
 noise_aware = map(read_posterior, map(Path, files.noise_aware))
 compared = compare_groups(cards(params.calibrated, noise_free, noise_aware, truths), params.groups)
-folder = Path(params.results)
-tables = {"specificity": specificity_table(compared), "claims": claims_table(compared)}
+folder, limits = Path(params.results), claimed_limits(read_published(Path(files.claims)))
+tables = {
+    "specificity": specificity_table(compared),
+    "specificity_claims": specificity_claims(compared, limits),
+}
 write_tables(folder / "tables", render_tables(tables))
-write_figures(folder / "figures", {"specificity": plot_specificity(compared)})
+write_figures(folder / "figures", {"specificity": plot_specificity(compared, limits)})

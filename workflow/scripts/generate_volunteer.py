@@ -1,4 +1,4 @@
-"""Generate a virtual volunteer: wall, beat, and a separate file of the truth."""
+"""Generate a virtual heart, with its hidden effect if it has one: wall, beat, and a separate file of the truth."""
 
 from pathlib import Path
 
@@ -6,12 +6,15 @@ from heartfit.io.beats import write_beat
 from heartfit.io.meshes import read_mesh, write_mesh, write_motion
 from heartfit.io.results import write_result
 from heartfit.io.run import record
+from heartfit.io.seals import open_effects
+from heartfit.synthetic.campaign import mechanism_of
 from heartfit.synthetic.volunteer import OTHER_CONDUCTIONS, Template, generate, hide_heart
 
 record(snakemake.log[0])
 params = snakemake.params
 case, protocol = params.case, params.cohort.protocol(params.pressures)
-hidden = hide_heart(params.cohort.heart, case.hidden, case.period, case.seed, case.planted())
+planted = list(map(mechanism_of, open_effects(snakemake.input.get("hidden", []))))
+hidden = hide_heart(params.cohort.heart, case.hidden, case.period, case.seed, planted)
 size = params.cohort.mesh
 template = Template(read_mesh(Path(snakemake.input.template)), size.edge_length, size.tolerance)
 conduction = OTHER_CONDUCTIONS[case.conduction]

@@ -3,8 +3,8 @@
 from itertools import repeat
 from pathlib import Path
 
+from heartfit.io.planting import write_planted
 from heartfit.io.run import record
-from heartfit.io.seals import write_planted
 from heartfit.synthetic.case import plant
 
 record(snakemake.log[0])

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from heartfit.io.meshes import read_mesh, write_mesh
+from heartfit.io.planting import write_planted
 from heartfit.io.run import record
-from heartfit.io.seals import write_planted
 from heartfit.synthetic.ventricles import Imaging, Ventricles
 from heartfit.synthetic.volunteer import Template
 

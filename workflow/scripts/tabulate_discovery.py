@@ -1,17 +1,14 @@
-"""Compare named with planted mechanisms of each virtual case, and parameters with the truth."""
+"""Compare what was found of each refitted case with what a sealed heart hides."""
 
 from itertools import repeat
 from pathlib import Path
 
-from heartfit.io.refits import read_proved
+from heartfit.io.discoveries import read_discoveries
 from heartfit.io.run import record
 from heartfit.io.tables import write_table
 from heartfit.results.discovery import discovery_table
-from heartfit.results.text import render_table
 
 record(snakemake.log[0])
-files, params = snakemake.input, snakemake.params
-proved = list(
-    map(read_proved, params.proved, files.causes, files.before, files.after, params.planted, files.truths)
-)
-list(map(write_table, map(Path, snakemake.output), repeat(render_table(discovery_table(proved)))))
+params = snakemake.params
+results = read_discoveries(Path(params.results), params.refitted, params.virtual)
+list(map(write_table, map(Path, snakemake.output), repeat(discovery_table(results))))

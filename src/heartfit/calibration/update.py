@@ -23,7 +23,10 @@ from heartfit.calibration.unscented import (
     transform,
 )
 
-LONG_STEP = 3.0  # prior standard deviations, beyond which the moments do not describe the model
+LONG_STEP = 2.5
+"""Prior standard deviations beyond which a step is long. The points of four and of seven parameters are sqrt(4) = 2 and
+sqrt(7) = 2.65 of them from the centre: farther out no simulation supports the linear map, and the prior expects one
+estimate in eighty."""
 SILENT_VARIATION = 1e-8  # relative standard deviation of an observation that is only rounding
 COLLINEAR_EIGENVALUE = (
     1e-10  # largest eigenvalue of the normalised covariance of the observations that counts as zero
@@ -197,10 +200,14 @@ def _excess(parameters: int, names: tuple[str, ...], noise: np.ndarray | None) -
     ]
 
 
+def long_steps(names: Sequence[str], step: np.ndarray | Sequence[float]) -> dict[str, float]:
+    """Return the steps beyond ``LONG_STEP`` [prior standard deviations] by parameter."""
+    return {name: float(size) for name, size in zip(names, step, strict=True) if abs(size) > LONG_STEP}
+
+
 def _long_steps(names: Sequence[str], step: np.ndarray) -> list[str]:
     return [
         f"{name} moved by {size:+.1f} prior standard deviations: beyond {LONG_STEP:g} the prediction is "
         "extrapolated"
-        for name, size in zip(names, step, strict=True)
-        if abs(size) > LONG_STEP
+        for name, size in long_steps(names, step).items()
     ]

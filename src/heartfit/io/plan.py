@@ -86,8 +86,13 @@ def _contradictions(study: Study, cases: Mapping[str, Case]) -> list[str]:
     ]
     unknown = [
         f"discovery.cases: {name!r} is no case of {study.cases}; known are {', '.join(cases)}: correct it"
-        for name in study.discovery.cases
+        for name in study.discovery.cases or ()
         if name not in cases
+    ]
+    unsearched = [
+        f"{name} is sealed and no setting is searched; expected discovery.settings, such as [physical]"
+        for name, case in cases.items()
+        if case.kind == "sealed" and not study.discovery.settings
     ]
     blind = [
         f"settings.{name} observes {', '.join(setting.observe)}, whose errors in virtual images are unknown; "
@@ -96,7 +101,7 @@ def _contradictions(study: Study, cases: Mapping[str, Case]) -> list[str]:
         if setting.observe
         and (imaged := [case for case in cases if case not in measured and setting.serves(case)])
     ]
-    return unlisted + unrecorded + unknown + blind
+    return unlisted + unrecorded + unknown + unsearched + blind
 
 
 def _require_reference(study: Study, cases: Mapping[str, Case]) -> None:

@@ -1,6 +1,6 @@
 """Refits of the 3-D heart with and without an extension, as JSON."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -9,14 +9,12 @@ from heartfit.discovery.refit.prove import ExtensionTrial
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase
 from heartfit.discovery.sphere_model.cause import Attempt
-from heartfit.io.causes import read_cause
 from heartfit.io.curves import read_curves
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.noise_models import read_noise_model
-from heartfit.io.results import read_record, read_truth, write_result
+from heartfit.io.results import read_record, write_result
 from heartfit.observation.curve import Curve
 from heartfit.observation.second_reading import Reading
-from heartfit.results.discovery import DiscoveryResult
 
 
 def write_attempt(path: Path, attempt: Attempt, fingerprint: str) -> None:
@@ -64,18 +62,3 @@ def write_refit(path: Path, refit: Refit, fingerprint: str) -> None:
 def read_refit(path: Path) -> Refit:
     """Read a refit; raises InputError for a missing or broken file."""
     return read_record(path, Refit, "refit")
-
-
-def read_proved(
-    name: tuple[str, str],
-    cause: Path,
-    before: Path,
-    after: Path,
-    planted: Sequence[tuple[str, float, str]],
-    truth: Path,
-) -> DiscoveryResult:
-    """Read the evidence on a virtual case and setting ``name`` for its evaluation."""
-    baseline, extended = (read_refit(Path(file)).parameters for file in (before, after))
-    return DiscoveryResult(
-        *name, read_cause(Path(cause)), baseline, extended, planted, read_truth(Path(truth))
-    )

@@ -5,6 +5,7 @@ import platform
 from collections.abc import Mapping
 from importlib import metadata, resources
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from PIL import Image
@@ -14,6 +15,7 @@ from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.io.beats import read_beat
 from heartfit.io.causes import read_diagnosis
 from heartfit.io.curves import read_curves
+from heartfit.io.discoveries import read_discoveries
 from heartfit.io.meshes import read_mesh, read_motion, read_simulated_motion
 from heartfit.io.noise_models import read_noise_model
 from heartfit.io.results import read_case, read_fingerprint, read_posterior, read_sigma_points, read_truth
@@ -21,6 +23,7 @@ from heartfit.observation.beat import beat_curves
 from heartfit.personalise.setting import Setting
 from heartfit.results.report.page import Assets
 from heartfit.results.report.record import (
+    TABLES_OF_TEXT,
     TITLES,
     CaseRecord,
     FittedCase,
@@ -49,9 +52,14 @@ def read_study_results(
     folder: Path, study: Study, cases: Mapping[str, Case], left_out: str = ""
 ) -> StudyRecord:
     """Read the results of a study for its report; raises InputError for a missing result."""
+    sealed = [name for name, case in cases.items() if case.kind == "sealed"]
     records = {name: _case(Path(folder), study, case) for name, case in cases.items()}
     return StudyRecord(
-        records, _tables(Path(folder) / "tables"), _provenance(Path(folder), study, cases), left_out
+        records,
+        _tables(Path(folder) / "tables"),
+        _provenance(Path(folder), study, cases),
+        left_out,
+        read_discoveries(Path(folder), study.refitted(cases), sealed),
     )
 
 
@@ -65,8 +73,8 @@ def assets() -> Assets:
 def _case(results: Path, study: Study, case: Case) -> CaseRecord:
     folder = results / case.case
     model = results / "registration_error" / "noise_model.json"
-    truth = read_truth(folder / "cohort" / "truth.json") if case.kind == "virtual" else {}
-    settings = {name: study.setting(name, case) for name in study.settings_of(case.case)}
+    truth = read_truth(folder / "cohort" / "truth.json") if case.virtual else {}
+    settings = {name: study.setting(name, case) for name in study.settings_of(case)}
     return CaseRecord(
         name=case.case,
         kind=case.kind,
@@ -74,7 +82,7 @@ def _case(results: Path, study: Study, case: Case) -> CaseRecord:
         mesh=read_mesh(folder / "geometry" / "mesh.vtu"),
         registered=read_motion(folder / "registration" / "motion.npz"),
         measured=read_curves(folder / "curves" / "measured.csv"),
-        noise=[read_noise_model(model)] if case.kind == "virtual" else [],
+        noise=[read_noise_model(model)] if case.virtual else [],
         fits={name: _fit(folder, name, setting, truth) for name, setting in settings.items()},
         still=_still(results / "figures" / f"{case.case}_activation.png"),
     )
@@ -120,18 +128,20 @@ def _diagnosis(folder: Path) -> Diagnosis | None:
 
 
 def _tables(folder: Path) -> dict[str, ReportTable]:
-    return {
-        name: ReportTable.of(name, pd.read_csv(folder / f"{name}.csv", comment="#"))
-        for name in TITLES
-        if (folder / f"{name}.csv").exists()
-    }
+    files = {name: folder / f"{name}.csv" for name in TITLES}
+    return {name: ReportTable.of(name, _table(name, file)) for name, file in files.items() if file.exists()}
+
+
+def _table(name: str, file: Path) -> pd.DataFrame:
+    as_text: dict[str, Any] = {"dtype": str, "keep_default_na": False} if name in TABLES_OF_TEXT else {}
+    return pd.read_csv(file, comment="#", **as_text)
 
 
 def _provenance(results: Path, study: Study, cases: Mapping[str, Case]) -> Provenance:
     verified = {
         f"{case}, {setting}": read_fingerprint(results / case / setting / "verification" / "errors.json")
         for case in cases
-        for setting in study.settings_of(case)
+        for setting in study.settings_of(cases[case])
     }
     numbers = hashlib.sha256((results / "tables" / "numbers.csv").read_bytes()).hexdigest()[:16]
     return Provenance(

@@ -21,7 +21,7 @@ from pydantic_core import to_jsonable_python
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.sensitivity import Sensitivity
 from heartfit.calibration.unscented import SigmaPoint
-from heartfit.calibration.update import Posterior
+from heartfit.calibration.update import Posterior, long_steps
 from heartfit.core.errors import InputError
 from heartfit.io.files import require_as_written, write_text
 from heartfit.io.fingerprint import versions
@@ -129,16 +129,18 @@ def read_observations(path: Path) -> Measurement:
 
 
 def write_posterior(path: Path, posterior: Posterior, fingerprint: str) -> None:
-    """Write a posterior, with its physical estimate and relative deviations under "summary"."""
+    """Write a posterior, with its physical estimate, relative deviations and steps under "summary"."""
     summary = {
         "estimate": posterior.estimate.physical(),
         "relative_sd": dict(zip(posterior.estimate.names, posterior.estimate.sd, strict=True)),
+        "step": dict(zip(posterior.prior.names, posterior.step, strict=True)),
+        "long_steps": list(long_steps(posterior.prior.names, posterior.step)),
     }
     write_result(
         path,
         {"summary": summary, "posterior": posterior},
         fingerprint,
-        {"summary.estimate": "SI", "posterior": "ln of SI"},
+        {"summary.estimate": "SI", "summary.step": "prior standard deviations", "posterior": "ln of SI"},
     )
 
 

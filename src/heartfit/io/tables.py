@@ -76,10 +76,10 @@ def read_tolerances(path: Path) -> pd.DataFrame:
 
 
 def read_published(path: Path) -> pd.DataFrame:
-    """Read a published table; lines that begin with # state its origin."""
+    """Read a published table or one of a study, separated as its suffix says; lines that begin with # are comments."""
     if not Path(path).is_file():
         raise InputError(f"{path}: no such file; expected a published table under resources/")
-    return pd.read_csv(path, comment="#")
+    return pd.read_csv(path, sep="\t" if Path(path).suffix == ".tsv" else ",", comment="#")
 
 
 def read_shape(path: Path) -> pd.DataFrame:

@@ -8,9 +8,10 @@ import numpy as np
 import pandas as pd
 
 from heartfit.calibration.gaussian import Gaussian, Information, information
-from heartfit.calibration.update import Posterior
+from heartfit.calibration.update import Posterior, long_steps
 from heartfit.observation.noise_model import Share
 from heartfit.results.case import CaseResult, relative_errors
+from heartfit.results.text import LONG_STEPS
 
 WITHOUT_TRUTH = ("K",)
 """K acts only through the locking of linear tetrahedra; the hidden heart, on another element, has no true K."""
@@ -63,6 +64,10 @@ class Card:
     def place(self, estimate: Gaussian) -> np.ndarray:
         """Return the mean (n,) of an estimate in prior standard deviations from the prior mean."""
         return (estimate.mean - self.prior.mean) / self.prior.sd
+
+    def long_steps(self, estimate: Gaussian) -> dict[str, float]:
+        """Return the steps of an estimate that are too long for one straight step [prior standard deviations]."""
+        return long_steps(self.prior.names, self.place(estimate))
 
     def true_place(self) -> np.ndarray:
         """Return the truth (n,) in prior standard deviations from the prior mean, NaN without a truth."""
@@ -136,6 +141,7 @@ def _card_rows(card: Card) -> list[dict[str, object]]:
     information = card.information
     noise_free, noise_aware = card.noise_free.estimate, card.noise_aware.estimate
     covered = {name: card.covered(estimate(card)) for name, estimate in POSTERIORS.items()}
+    long = {"met": card.long_steps(noise_free), "weighed": card.long_steps(noise_aware)}
     common = {
         "rank": f"{information.rank} of {len(information.names)}",
         "effective number": information.degrees,
@@ -152,6 +158,7 @@ def _card_rows(card: Card) -> list[dict[str, object]]:
             "weighed": card.place(noise_aware)[i],
             "weighed sd over prior": information.sd_ratio[i],
             "seen": 1.0 - information.sd_ratio[i] ** 2,
+            LONG_STEPS: ", ".join(label for label, steps in long.items() if name in steps),
             "truth": card.true_place()[i],
             "met covered": _yes_or_no(covered["observations met"].get(name)),
             "weighed covered": _yes_or_no(covered["noise and fixed"].get(name)),

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from heartfit.calibration.gaussian import INFORMED_SHARE, Gaussian
 from heartfit.results.card import INTERVAL_REACH, Card
 from heartfit.results.figures import ARTERY, CALIBRATED, MEASURED, REFERENCE, clean
-from heartfit.results.text import symbol
+from heartfit.results.text import LONG_STEP_LEGEND, LONG_STEP_MARK, symbol
 
 AXIS_LIMIT = 4.0
 """Prior standard deviations; marks beyond are arrows at the edge."""
@@ -39,7 +39,8 @@ def plot_card(card: Card) -> Figure:
     )
     values = ", ".join(f"{value:.2f}" for value in card.noise_free.singular_values)
     least = f"least informed ({100 * card.information.reduction[-1]:.0f} %): {_weakest_direction(card)}"
-    figure.supxlabel(f"{least}; singular values of Cov(X, Z): {values}", fontsize=8)
+    legend = f"; {LONG_STEP_MARK} {LONG_STEP_LEGEND}" if card.long_steps(card.noise_free.estimate) else ""
+    figure.supxlabel(f"{least}; singular values of Cov(X, Z): {values}{legend}", fontsize=8)
     return figure
 
 
@@ -64,7 +65,11 @@ def draw_parameters(axes: Axes, card: Card) -> None:
             fontsize=8,
             color=CALIBRATED if "missed" in verdict else "black",
         )
-    axes.set_yticks(rows, [symbol(name) for name in card.prior.names])
+    long = card.long_steps(card.noise_free.estimate)
+    marks = [f" {LONG_STEP_MARK}" if name in long else "" for name in card.prior.names]
+    axes.set_yticks(
+        rows, [f"{symbol(name)}{mark}" for name, mark in zip(card.prior.names, marks, strict=True)]
+    )
     axes.set_ylim(len(rows) - 0.5, -0.5)
     axes.set_xlim(-AXIS_LIMIT - 0.1, AXIS_LIMIT + 0.1)
     axes.set_xlabel("ln parameter − prior mean (prior sd)", fontsize=9)

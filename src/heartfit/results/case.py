@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from math import log
 from types import MappingProxyType
 
-from heartfit.calibration.update import Posterior
+from heartfit.calibration.update import Posterior, long_steps
 from heartfit.observation.curve import Curve, fit_curves
 from heartfit.observation.measurement import Measurement
 from heartfit.observation.operator import CurveFeatures, cavity_indices, observe
@@ -96,6 +97,17 @@ class CaseResult:
     def floor(self) -> dict[str, float]:
         """Return the noise of each observation in percent of its value; smaller errors have no meaning."""
         return {name: 100 * self.noise[name] / abs(value) for name, value in self.observed.items()}
+
+    def steps(self) -> dict[str, float]:
+        """Return the distance of each estimate from the prior's mean [prior standard deviations]."""
+        return {
+            name: log(value / self.prior[name]) / self.prior_sd[name] for name, value in self.estimate.items()
+        }
+
+    def long_steps(self) -> dict[str, float]:
+        """Return the steps that are too long for one straight step, see `heartfit.calibration.update`."""
+        steps = self.steps()
+        return long_steps(list(steps), list(steps.values()))
 
     def scores(self) -> dict[str, float]:
         """Return z, the signed error over its floor; |z| < 1 is as good as noise allows, or fits the noise."""

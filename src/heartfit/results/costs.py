@@ -51,6 +51,32 @@ def cost_table(costs: Sequence[Cost]) -> pd.DataFrame:
     return pd.DataFrame([*rows, _stage_row(WHOLE_STUDY, costs, whole)])
 
 
+def calibration_time(costs: Sequence[Cost], case: str, setting: str) -> float:
+    """Return the wall time [s] of a calibration whose simulations all run in parallel, as the paper counts it.
+
+    Drawing of the points, the longest of the 2n+1 simulations, the update, and the simulation with the estimate; each
+    includes the start of its job. NaN without such jobs.
+    """
+    walls = _walls(costs, case, setting)
+    points = [wall for job, wall in walls.items() if job.startswith("simulate_point_")]
+    others = [
+        walls.get(job, float("nan"))
+        for job in ("draw_sigma_points", "update_parameters", "simulate_calibrated")
+    ]
+    return max(points, default=float("nan")) + sum(others)
+
+
+def number_of_updates(costs: Sequence[Cost], case: str, setting: str) -> int:
+    """Return the number of updates that a calibration ran."""
+    return sum(job.startswith("update_parameters") for job in _walls(costs, case, setting))
+
+
+def _walls(costs: Sequence[Cost], case: str, setting: str) -> dict[str, float]:
+    """Return the wall time [s] of the jobs of a case under a setting, by name."""
+    folder = f"{case}/{setting}/"
+    return {cost.job.removeprefix(folder): cost.wall for cost in costs if cost.job.startswith(folder)}
+
+
 def _stage_row(stage: str, costs: Sequence[Cost], whole: float) -> dict[str, str | int | float]:
     wall = sum(cost.wall for cost in costs)
     return {

@@ -8,6 +8,7 @@ import pandas as pd
 
 from heartfit.core.arrays import Floats
 from heartfit.results.case import CaseResult, Groups, require_one_fingerprint
+from heartfit.results.text import LONG_STEPS, printed_steps
 
 PAPER = "Marchesseau et al. 2012"
 BELOW_NOISE = "below noise"
@@ -56,6 +57,7 @@ def _case_row(case: CaseResult) -> dict[str, Any]:
         BELOW_NOISE: below_noise(case),
         **_volume_fits(case.root_mean_square),
         "failed points": f"{case.failed_points} of {case.sigma_points}",
+        LONG_STEPS: printed_steps(case.long_steps()),
     }
 
 
@@ -85,6 +87,7 @@ def _mean_row(setting: str, rows: Sequence[Mapping[str, Any]], suffix: str) -> d
         "setting": setting,
         "case": f"mean of {len(completed)}{suffix}",
         BELOW_NOISE: "",
+        LONG_STEPS: "",
         **numbers.to_dict(),
     }
 
@@ -98,6 +101,7 @@ def _paper_rows(paper: pd.DataFrame) -> list[dict[str, Any]]:
             **{f"{name} (%)": error for name, error in table[column].items()},
             "mean (%)": table[column].mean(),
             BELOW_NOISE: "",
+            LONG_STEPS: "",
         }
         for column in table.columns
     ]

@@ -14,7 +14,7 @@ import pandas as pd
 import xarray as xr
 
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.calibration.update import Posterior
+from heartfit.calibration.update import Posterior, long_steps
 from heartfit.core.arrays import Floats
 from heartfit.observation.curve import Curve
 from heartfit.observation.measurement import Measurement
@@ -185,7 +185,10 @@ INTERVAL_WIDTH = 1.959964
 
 
 def parameters_table(cases: Sequence[Calibrated]) -> pd.DataFrame:
-    """Return median and 95 % interval of each parameter by Gaussian, and the standard deviation of its logarithm."""
+    """Return median and 95 % interval of each parameter by Gaussian, and the standard deviation of its logarithm.
+
+    long_step: the median is too far from the prior's mean for one straight step, see `heartfit.calibration.update`.
+    """
     return pd.DataFrame([row for calibrated in cases for row in _belief_rows(calibrated)])
 
 
@@ -195,11 +198,14 @@ def curves_table(cases: Sequence[Calibrated]) -> pd.DataFrame:
 
 
 def _belief_rows(calibrated: Calibrated) -> Iterator[dict[str, Any]]:
+    prior = calibrated.noise_free.prior
     for belief_name, belief in calibrated.beliefs.items():
+        long = long_steps(prior.names, (belief.mean - prior.mean) / prior.sd)
         for name, mean, sd in zip(belief.names, belief.mean, belief.sd, strict=True):
             median, low, high = np.exp(mean + INTERVAL_WIDTH * sd * np.array([0.0, -1.0, 1.0]))
             value = {"median": median, "low": low, "high": high, "sd_of_ln": sd}
             row = {"belief": belief_name, "parameter": name, **value, "unit": calibrated.case.units[name]}
+            row["long_step"] = "yes" if name in long else ""
             yield _key(calibrated) | row
 
 

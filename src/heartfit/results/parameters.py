@@ -12,8 +12,9 @@ from heartfit.core.parameter import column_heading, printed_unit, to_printed_uni
 from heartfit.results.card import truth_errors
 from heartfit.results.case import CaseResult, Groups, require_one_fingerprint
 from heartfit.results.errors import PAPER
+from heartfit.results.text import LONG_STEPS, printed_steps
 
-LONGEST_STEP = "longest step (prior sd)"  # an estimate beyond three is an extrapolation
+LONGEST_STEP = "longest step (prior sd)"
 
 
 def parameter_table(
@@ -49,7 +50,9 @@ def healthy_mean(cases: Sequence[CaseResult], groups: Groups) -> dict[str, float
 
 def _sort_columns(table: pd.DataFrame, names: list[str]) -> pd.DataFrame:
     """Return the table with the columns of each parameter side by side, the parameters of the paper first."""
-    place = {name: index for index, name in enumerate(["setting", "case", LONGEST_STEP.split()[0], *names])}
+    first = ["setting", "case", LONGEST_STEP.split()[0], LONG_STEPS.split()[0], *names]
+    place = {name: index for index, name in enumerate(first)}
+    table = table.fillna({LONG_STEPS: ""}) if LONG_STEPS in table else table
     return table[sorted(table.columns, key=lambda column: place.get(column.split()[0], len(place)))]
 
 
@@ -65,10 +68,12 @@ def _prior_row(case: CaseResult) -> dict[str, object]:
 
 def _case_row(case: CaseResult, mean: Mapping[str, float], truth: Mapping[str, float]) -> dict[str, object]:
     errors = truth_errors(case, truth)
-    steps = [
-        abs(log(value / case.prior[name])) / case.prior_sd[name] for name, value in case.estimate.items()
-    ]
-    row: dict[str, object] = {"setting": case.setting, "case": case.case, LONGEST_STEP: max(steps)}
+    row: dict[str, object] = {
+        "setting": case.setting,
+        "case": case.case,
+        LONGEST_STEP: max(map(abs, case.steps().values())),
+        LONG_STEPS: printed_steps(case.long_steps()),
+    }
     for name, value in case.estimate.items():
         row |= {
             column_heading(name, case.units[name]): to_printed_unit(value, case.units[name]),

@@ -10,6 +10,7 @@ from heartfit.results.card import comparable_truth
 from heartfit.results.case import CaseResult, Groups, require_one_fingerprint
 from heartfit.results.errors import PAPER, mean_error
 from heartfit.results.parameters import healthy_mean
+from heartfit.results.text import LONG_STEP_MARK, LONG_STEPS, printed_steps
 
 Row = dict[str, Any]
 PAPER_CASES = ("1", "2")  # of the paper's LBBB cases
@@ -77,6 +78,7 @@ def _error_rows(case: CaseResult) -> Iterable[Row]:
             "floor (%)": floor[name],
             "z": abs(scores[name]),
             "below noise": "yes" if abs(scores[name]) < 1.0 else "",
+            LONG_STEPS: printed_steps(case.long_steps()),
         }
     yield {
         "setting": case.setting,
@@ -85,6 +87,7 @@ def _error_rows(case: CaseResult) -> Iterable[Row]:
         "error (%)": mean_error(errors),
         "prior error (%)": mean_error(prior),
         "below noise": "",
+        LONG_STEPS: printed_steps(case.long_steps()),
     }
 
 
@@ -97,6 +100,7 @@ def _paper_error_rows(paper: pd.DataFrame) -> list[Row]:
             "quantity": "mean",
             "error (%)": float(row[number]),
             "below noise": "",
+            LONG_STEPS: "",
         }
         for number in PAPER_CASES
     ]
@@ -119,6 +123,8 @@ def _parameter_row(
         "value": case.estimate[name] / scale,
         "sd (%)": 100 * case.estimate_sd[name],
         "healthy mean": healthy / scale,
+        "step (prior sd)": case.steps()[name],
+        LONG_STEPS: LONG_STEP_MARK if name in case.long_steps() else "",
         "over healthy mean": case.estimate[name] / healthy,
         "true over healthy mean": truth[name] / true_means[name]
         if name in truth and name in true_means
@@ -135,6 +141,7 @@ def _paper_parameter_rows(paper: pd.DataFrame) -> list[Row]:
             "quantity": row["quantity"],
             "unit": row["unit"],
             "value": row[number],
+            LONG_STEPS: "",
             "healthy mean": row["healthy_mean"],
             "over healthy mean": _ratio(row[number], row["healthy_mean"]),
         }

@@ -8,6 +8,7 @@ from itertools import combinations
 import numpy as np
 
 from heartfit.calibration.gaussian import Gaussian, Information, information
+from heartfit.calibration.update import long_steps
 from heartfit.results.card import Card
 from heartfit.results.case import Groups
 
@@ -110,6 +111,17 @@ class PatientComparison:
         available = {case: value for case, value in values.items() if value is not None}
         healthy = [available[card.case] for card in self.volunteers if card.case in available]
         return {case: value / float(np.mean(healthy)) for case, value in available.items()} if healthy else {}
+
+    def long_steps(self, reading: str, name: str) -> dict[str, float]:
+        """Return the long steps of a parameter by case [prior standard deviations]; none of the truth."""
+        if reading == "truth":
+            return {}
+        places = {
+            card.case: float(np.log(READINGS[reading](card)[name] / card.prior.physical()[name]))
+            / float(card.prior.marginal([name]).sd[0])
+            for card in (*self.volunteers, *self.patients)
+        }
+        return long_steps(list(places), list(places.values()))
 
     def test(self, reading: str, name: str, patients: Sequence[str] | None = None) -> PermutationTest:
         """Return the exact test of ln parameter, patients (all, or those named) less volunteers."""

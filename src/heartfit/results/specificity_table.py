@@ -1,6 +1,7 @@
 """Differences between patients and volunteers with exact p, their information, and the claims of the paper."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import chain
 from typing import Any
 
@@ -14,13 +15,22 @@ from heartfit.calibration.gaussian import INFORMED_SHARE
 from heartfit.results.case import DILATED
 from heartfit.results.figures import ARTERY, CALIBRATED, clean
 from heartfit.results.specificity import READINGS, STANDS_FOR, PatientComparison
-from heartfit.results.text import symbol
-
-WEAK_LIMIT, STIFF_LIMIT = 0.7, 1.4
-"""Claims of the paper over the healthy mean: contractility of both patients below, stiffness of case 2 above."""
+from heartfit.results.text import LONG_STEPS, printed_steps, symbol
 
 STIFFNESS = (*STANDS_FOR, *STANDS_FOR.values())
 Row = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class ClaimedLimits:
+    """Claims of the paper over its healthy mean: contractility of both patients below, stiffness of case 2 above."""
+
+    weak: float
+    stiff: float
+
+    def of(self, parameter: str) -> float | None:
+        """Return the limit of an estimated parameter, None without one."""
+        return self.weak if parameter == "sigma_0" else self.stiff if parameter in STIFFNESS else None
 
 
 def specificity_table(comparisons: Sequence[PatientComparison]) -> pd.DataFrame:
@@ -34,9 +44,11 @@ def specificity_table(comparisons: Sequence[PatientComparison]) -> pd.DataFrame:
     return pd.DataFrame(chain.from_iterable(rows))
 
 
-def claims_table(comparisons: Sequence[PatientComparison]) -> pd.DataFrame:
-    """Return the claims of the paper, one row per setting and reading: deciding ratio, limit, one-sided p."""
-    rows = [(*_weak_claims(comparison), *_stiff_claims(comparison)) for comparison in comparisons]
+def specificity_claims(comparisons: Sequence[PatientComparison], limits: ClaimedLimits) -> pd.DataFrame:
+    """Return both claims of the paper, one row per setting and reading: deciding ratio, limit, one-sided p."""
+    rows = [
+        (*_weak_claims(comparison, limits), *_stiff_claims(comparison, limits)) for comparison in comparisons
+    ]
     return pd.DataFrame(chain.from_iterable(rows))
 
 
@@ -58,6 +70,7 @@ def _parameter_rows(comparison: PatientComparison) -> Iterable[Row]:
                     "least p": 1.0 / test.labelings,
                     "seen": informed,
                     "warning": _warning(informed),
+                    LONG_STEPS: printed_steps(comparison.long_steps(reading, name)),
                 }
 
 
@@ -73,6 +86,7 @@ def _joint_rows(comparison: PatientComparison) -> Iterable[Row]:
                 "difference": float(np.linalg.norm(difference)),
                 "seen": informed,
                 "warning": _warning(informed),
+                LONG_STEPS: "",
             }
 
 
@@ -80,19 +94,21 @@ def _warning(informed: float) -> str:
     return "" if informed >= INFORMED_SHARE else "dominated by the prior"
 
 
-def _weak_claims(comparison: PatientComparison) -> Iterable[Row]:
+def _weak_claims(comparison: PatientComparison, limits: ClaimedLimits) -> Iterable[Row]:
     if "sigma_0" in comparison.names:
         names = [card.case for card in comparison.patients]
         for reading in READINGS:
             ratios, test = comparison.ratios(reading, "sigma_0"), comparison.test(reading, "sigma_0")
             worst = max(ratios[case] for case in names)
             claim = f"sigma_0 of {' and '.join(names)} below"
+            steps = comparison.long_steps(reading, "sigma_0")
+            holds = worst < limits.weak
             yield _claim_row(
-                comparison, claim, reading, worst, WEAK_LIMIT, worst < WEAK_LIMIT, test.less, test.labelings
+                comparison, claim, reading, worst, limits.weak, holds, test.less, test.labelings, steps
             )
 
 
-def _stiff_claims(comparison: PatientComparison) -> Iterable[Row]:
+def _stiff_claims(comparison: PatientComparison, limits: ClaimedLimits) -> Iterable[Row]:
     name = next((name for name in STIFFNESS if name in comparison.names), None)
     if name and DILATED in [card.case for card in comparison.patients]:
         for reading in READINGS:
@@ -103,10 +119,11 @@ def _stiff_claims(comparison: PatientComparison) -> Iterable[Row]:
                 claim,
                 reading,
                 ratio,
-                STIFF_LIMIT,
-                ratio > STIFF_LIMIT,
+                limits.stiff,
+                ratio >= limits.stiff,
                 test.greater,
                 test.labelings,
+                comparison.long_steps(reading, name),
             )
 
 
@@ -119,6 +136,7 @@ def _claim_row(
     holds: bool,
     p: float,
     labelings: int,
+    steps: Mapping[str, float],
 ) -> Row:
     return {
         "setting": comparison.setting,
@@ -129,6 +147,7 @@ def _claim_row(
         "holds": "holds" if holds else "does not hold",
         "p": p,
         "least p": 1.0 / labelings,
+        LONG_STEPS: printed_steps(steps),
     }
 
 
@@ -139,11 +158,10 @@ LABELS = {
     "unshrunk": "unshrunk",
     "truth": "truth",
 }
-CLAIMED_LIMITS = {"sigma_0": WEAK_LIMIT} | dict.fromkeys(STIFFNESS, STIFF_LIMIT)
 TICKS = (0.5, 0.7, 1.0, 1.4, 2.0)
 
 
-def plot_specificity(comparisons: Sequence[PatientComparison]) -> Figure:
+def plot_specificity(comparisons: Sequence[PatientComparison], limits: ClaimedLimits) -> Figure:
     """Plot the ratios to the healthy mean, one row per setting, one panel per parameter estimated in all cases.
 
     Each panel has one column per reading with the exact p. A grey panel marks a difference that the data hardly
@@ -158,7 +176,7 @@ def plot_specificity(comparisons: Sequence[PatientComparison]) -> Figure:
     for comparison, row in zip(comparisons, panels, strict=False):
         for name, axes in zip(comparison.names, row, strict=False):
             axes.set_visible(True)
-            _draw_panel(axes, comparison, name)
+            _draw_panel(axes, comparison, name, limits.of(name))
         row[0].set_ylabel(f"{comparison.setting}\nratio to the healthy mean", fontsize=9)
     if comparisons:
         handles, labels = panels[0, 0].get_legend_handles_labels()
@@ -166,7 +184,7 @@ def plot_specificity(comparisons: Sequence[PatientComparison]) -> Figure:
     return figure
 
 
-def _draw_panel(axes: Axes, comparison: PatientComparison, name: str) -> None:
+def _draw_panel(axes: Axes, comparison: PatientComparison, name: str, limit: float | None) -> None:
     for place, reading in enumerate(READINGS):
         ratios = comparison.ratios(reading, name)
         if ratios:
@@ -180,8 +198,8 @@ def _draw_panel(axes: Axes, comparison: PatientComparison, name: str) -> None:
         axes.set_facecolor("#e9e9e9")
     stands = f" (truth: {symbol(STANDS_FOR[name])})" if name in STANDS_FOR else ""
     axes.set_title(f"{symbol(name)}{stands}, informed {100 * informed:.0f} %", fontsize=9, pad=14)
-    if name in CLAIMED_LIMITS:
-        axes.axhline(CLAIMED_LIMITS[name], color=CALIBRATED, linewidth=0.9, linestyle=":")
+    if limit is not None:
+        axes.axhline(limit, color=CALIBRATED, linewidth=0.9, linestyle=":")
     _scale_axes(axes)
 
 

@@ -7,7 +7,8 @@ from pydantic import Field, PositiveInt, field_validator, model_validator
 
 from heartfit.core.validation import Name, Seed, Strict
 from heartfit.geometry.parametric import ParametricVentricles
-from heartfit.roles import Mechanism, Sensor, registered
+from heartfit.roles import Sensor, registered
+from heartfit.synthetic.campaign import DRAWN
 
 WALLS = ("fit", "surfaces", "segmentation")
 """Keys of a source that may provide the wall."""
@@ -120,8 +121,12 @@ class Source(Strict):
 SHAPE = ("edv", "wall_thickness", "sphericity", "rv_edv", "rv_wall_thickness")
 Factor = Annotated[float, Field(gt=0, lt=20)]
 HIDDEN = ("sigma_0", "mu", "c_1", "R_p")
-Kind = Literal["measured", "virtual"]
-CASE_KINDS: dict[Kind, str] = {"measured": "measured heart", "virtual": "virtual heart, truth known"}
+Kind = Literal["measured", "virtual", "sealed"]
+CASE_KINDS: dict[Kind, str] = {
+    "measured": "measured heart",
+    "virtual": "virtual heart, truth known",
+    "sealed": "virtual heart with or without a hidden effect, which the search for missing mechanisms is not told",
+}
 """Kinds of cases and their descriptions in the report; all but measured ones need no source."""
 
 
@@ -152,15 +157,20 @@ class Case(Strict):
     mu: Factor | None = None
     c_1: Factor | None = None
     R_p: Factor | None = None
-    plant: str | None = Field(None, description="mechanism of a virtual heart that the calibrator lacks")
-    plant_scales: float = Field(0.0, description="amplitude of the planted mechanism, in its scales")
+    plant: str | None = Field(
+        None,
+        description="mechanism that the calibrator lacks, by name or `drawn` by the seed; sealed hearts only",
+    )
+    plant_scales: float = Field(0.0, description="amplitude of a named mechanism, in its scales")
 
     @model_validator(mode="after")
     def _is_complete(self) -> Self:
-        needed = ("seed", *SHAPE, *HIDDEN) if self.kind == "virtual" else ()
+        needed = ("seed", *SHAPE, *HIDDEN) if self.virtual else ()
         missing = [name for name in needed if getattr(self, name) is None]
         if missing:
-            raise ValueError(f"{self.case} is virtual and lacks {', '.join(missing)}; give numbers")
+            raise ValueError(f"{self.case} is {self.kind} and lacks {', '.join(missing)}; give numbers")
+        if self.plant is not None and self.kind != "sealed":
+            raise ValueError(f"{self.case} is {self.kind} and has a plant; expected kind sealed, or no plant")
         if self.conduction == "lbbb" and self.qrs is None:
             raise ValueError(
                 f"{self.case} has a bundle branch block and lacks qrs; give its duration, qrs_ms"
@@ -171,25 +181,16 @@ class Case(Strict):
     @classmethod
     def _acts_on_the_heart(cls, plant: str | None) -> str | None:
         hearts = [name for name, kind in registered().items() if not issubclass(kind, Sensor)]
-        if plant is not None and plant not in hearts:
+        if plant is not None and plant not in (DRAWN, *hearts):
             raise ValueError(
-                f"plant {plant!r} is no mechanism of a heart; expected one of {', '.join(hearts)}"
+                f"plant {plant!r} is no mechanism of a heart; expected {DRAWN}, or one of {', '.join(hearts)}"
             )
         return plant
 
-    def planted_sizes(self) -> list[tuple[str, float, str]]:
-        """Return name, amplitude [SI] and unit of the planted mechanism, for evaluation only."""
-        return [
-            (type(mechanism).__name__, getattr(mechanism, mechanism.switch().name), mechanism.switch().unit)
-            for mechanism in self.planted()
-        ]
-
-    def planted(self) -> tuple[Mechanism, ...]:
-        """Return the planted mechanism of a virtual case, or an empty tuple."""
-        if self.plant is None:
-            return ()
-        kind = registered()[self.plant]
-        return (kind(**{kind.switch().name: kind.switch().at(self.plant_scales)}),)
+    @property
+    def virtual(self) -> bool:
+        """True for a generated heart, False for a measured one."""
+        return self.kind != "measured"
 
     @property
     def healthy(self) -> bool:

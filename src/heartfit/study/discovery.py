@@ -38,8 +38,18 @@ class Discovery(Strict):
     settings: tuple[str, ...] = Field(
         default=(), description="settings whose cases are searched, about ten seconds per case"
     )
-    cases: tuple[str, ...] = Field(
-        default=(), description="cases that are refitted and proved, about 120 beats per case"
+    cases: tuple[str, ...] | None = Field(
+        default=None,
+        description="cases that are refitted and proved, 80 to 200 beats per case; "
+        "by default the sealed ones, and measured ones with a recorded pressure",
+    )
+    coarse: Generator | None = Field(
+        default=None,
+        description="mesh and numerics of the refits, and of sealed cases throughout; those of the study by default",
+    )
+    generator: Generator | None = Field(
+        default=None,
+        description="mesh and numerics of the hidden hearts of sealed cases; the cohort's by default",
     )
     trials: tuple[str, ...] = Field(
         default=(),

@@ -125,11 +125,44 @@ class Study(Strict):
         """Return the names of the settings that are for all cases."""
         return tuple(name for name, setting in self.settings.items() if setting.cases is None)
 
-    def settings_of(self, case: str) -> tuple[str, ...]:
-        """Return the names of the settings under which a case is calibrated."""
-        return tuple(name for name, setting in self.settings.items() if setting.serves(case))
+    def settings_of(self, case: Case) -> tuple[str, ...]:
+        """Return the names of the settings under which a case is calibrated: a sealed one as it is searched."""
+        if case.kind == "sealed":
+            return self.discovery.settings
+        return tuple(name for name, setting in self.settings.items() if setting.serves(case.case))
 
-    def curves_besides(self, case: str) -> tuple[str, ...]:
+    def calibrator(self, case: Case) -> Generator:
+        """Return mesh and numerics of the model that is calibrated to a case."""
+        if case.kind == "sealed" and self.discovery.coarse is not None:
+            return self.discovery.coarse
+        return Generator(mesh=self.virtual_mesh if case.virtual else self.mesh, numerics=self.numerics)
+
+    def refitted(self, cases: Mapping[str, Case]) -> list[tuple[str, str]]:
+        """Return the pairs of case and setting that are refitted and proved in three dimensions."""
+        stated = self.discovery.cases
+        names = (
+            [
+                name
+                for name, case in cases.items()
+                if case.kind == "sealed" or (not case.virtual and case.catheter)
+            ]
+            if stated is None
+            else [name for name in stated if name in cases]
+        )
+        return [(name, setting) for name in names for setting in self.discovery.settings]
+
+    def refit_model(self, case: Case) -> Generator:
+        """Return mesh and numerics of the refits of a case."""
+        return self.discovery.coarse or self.calibrator(case)
+
+    def cohort_of(self, case: Case) -> Cohort:
+        """Return the generation of a virtual case; a sealed one has mesh and numerics of its own."""
+        generator = self.discovery.generator
+        if case.kind != "sealed" or generator is None:
+            return self.cohort
+        return self.cohort.model_copy(update={"mesh": generator.mesh, "numerics": generator.numerics})
+
+    def curves_besides(self, case: Case) -> tuple[str, ...]:
         """Return the curves that a setting of the case observes besides those of the left ventricle."""
         observed = (curve for name in self.settings_of(case) for curve in self.settings[name].observe)
         return tuple(dict.fromkeys(observed))
@@ -189,9 +222,12 @@ class Study(Strict):
 
     def templates(self) -> dict[str, MeshSize]:
         """Return the mesh sizes of the templates of virtual hearts, by their use."""
+        discovery = self.discovery
         return {
             "generator": self.cohort.mesh,
             "calibrator": self.virtual_mesh,
+            "sealed": discovery.generator.mesh if discovery.generator else self.cohort.mesh,
+            "coarse": discovery.coarse.mesh if discovery.coarse else self.virtual_mesh,
             "registration_error": self.registration_error.mesh,
             "planted": self.discovery_benchmark.ventricles.generator.mesh,
             "diagnoser": self.discovery_benchmark.ventricles.diagnoser.mesh,

@@ -12,6 +12,8 @@ from heartfit.heart.heart import Heart
 from heartfit.roles import Mechanism, registered
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 
+DRAWN = "drawn"
+"""Word in place of a mechanism's name: the seed draws the mechanism and its size."""
 TRUNCATION = 2.0
 """Truncation of the draws of timing and location [standard deviations]."""
 
@@ -74,6 +76,12 @@ def _effect_of(planted: Mechanism, scales: float) -> Effect:
     values = {parameter.name: parameter.value for parameter in parameters_of(planted)}
     amplitude = values.pop(switch.name)
     return Effect(type(planted).__name__, amplitude, switch.off or 0.0, switch.unit, scales, values)
+
+
+def mechanism_of(effect: Effect) -> Mechanism:
+    """Return the registered mechanism of an effect's name with its values."""
+    kind = registered()[effect.name]
+    return kind(**{kind.switch().name: effect.amplitude}, **effect.others)
 
 
 Kind = Literal["none", "single", "two", "outside"]

@@ -2,7 +2,15 @@
 
 import pytest
 
-from heartfit.discovery.inference.decide import STRICT_RULES, Decision, Evidences, decide
+from heartfit.discovery.inference.decide import (
+    CENTRED_RULES,
+    DEFAULT_RULES,
+    STRICT_RULES,
+    Decision,
+    Evidences,
+    Rules,
+    decide,
+)
 
 A, B, C, AB = ("a",), ("b",), ("c",), ("a", "b")
 
@@ -48,6 +56,13 @@ def test_decision_rules(evidence, expected) -> None:
     assert decide(evidence) == expected
 
 
-def test_a_model_of_another_structure_needs_stricter_rules() -> None:
-    assert decide(evidences(9.9), STRICT_RULES) == Decision("none")
-    assert decide(evidences(10.0), STRICT_RULES) == Decision("named", A)
+@pytest.mark.parametrize(
+    ("rules", "threshold"),
+    [(DEFAULT_RULES, 5.0), (CENTRED_RULES, 7.0), (STRICT_RULES, 10.0)],
+    ids=["other-integrator", "centred-on-a-3-D-beat", "other-structure"],
+)
+def test_the_farther_the_model_from_the_source_of_the_data_the_stricter_the_threshold(
+    rules: Rules, threshold: float
+) -> None:
+    assert decide(evidences(threshold - 0.1), rules) == Decision("none")
+    assert decide(evidences(threshold), rules) == Decision("named", A)

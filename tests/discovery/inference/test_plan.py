@@ -57,6 +57,13 @@ def test_a_repeated_measurement_adds_no_separation_and_a_different_one_does() ->
     assert evaluate(group, measured_as(OPPOSED)).gain > 3.0
 
 
+def test_a_measurement_is_worth_what_it_adds_for_the_worst_pair() -> None:
+    """It separates one of three explanations from the others and leaves these as they are."""
+    group = [explained(name) for name in ("a", "b", "c")]
+    assert evaluate(group[:2], measured_as(OPPOSED)).gain > 3.0
+    assert evaluate(group, measured_as(OPPOSED | {"c": ARCH})).gain == pytest.approx(0.0, abs=1e-9)
+
+
 def test_unknown_parameters_of_a_measurement_lower_its_expected_gain() -> None:
     group, flat = [explained("a"), explained("b")], {"a": np.ones(TIMES.size), "b": -np.ones(TIMES.size)}
     known, unknown = (evaluate(group, measured_as(flat, own=own)) for own in (0, 1))

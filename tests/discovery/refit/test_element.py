@@ -12,7 +12,7 @@ from heartfit.heart.beat import Beat
 from heartfit.observation.beat import beat_curves
 from heartfit.personalise.numerics import Pressures, TimeScheme
 from heartfit.personalise.setting import Setting
-from heartfit.results.discovery import element_table
+from heartfit.results.element import element_table
 from heartfit.synthetic.element import CompetingModel, compare_extensions, competing_extensions
 
 LOCKING = Setting.model_validate(

@@ -30,7 +30,7 @@ OTHER = Cause("AorticStenosis", 24.0, 2e3, "Pa", (1e3, 3e3))
 RANKING = {"unknown": 30.0, "AorticStenosis": 24.0, "MitralRegurgitation": 20.0}
 DIAGNOSIS = Diagnosis("named", (LEAK,), (), "", (), 100, 0.8, 5.0, RANKING)
 TWO, GROUP = (replace(DIAGNOSIS, verdict=verdict, mechanisms=(LEAK, OTHER)) for verdict in ("two", "group"))
-NOTHING = replace(DIAGNOSIS, verdict="none", mechanisms=())
+NOTHING, UNKNOWN = (replace(DIAGNOSIS, verdict=verdict, mechanisms=()) for verdict in ("none", "unknown"))
 
 
 def tried(diagnosis: Diagnosis) -> list[tuple[str, ...]]:
@@ -39,7 +39,8 @@ def tried(diagnosis: Diagnosis) -> list[tuple[str, ...]]:
 
 def test_named_effects_are_tried_and_otherwise_the_best_of_the_ranking() -> None:
     assert tried(DIAGNOSIS) == tried(GROUP) == [("MitralRegurgitation",)]
-    assert tried(NOTHING) == [("AorticStenosis",)]
+    assert tried(UNKNOWN) == [("AorticStenosis",)]
+    assert tried(NOTHING) == tried(replace(NOTHING, verdict="insufficient")) == []
 
 
 def test_the_stronger_of_two_effects_is_tried_alone_before_both() -> None:
@@ -188,7 +189,7 @@ def test_an_attempt_needs_no_search() -> None:
 
 
 def test_a_trial_is_no_named_effect() -> None:
-    proof = judged(NOTHING, ())
-    assert (proof.verdict, proof.mechanisms, proof.withdrawn) == ("none", (), ())
+    proof = judged(UNKNOWN, ())
+    assert (proof.verdict, proof.mechanisms, proof.withdrawn) == ("unknown", (), ())
     assert spaced_name("AorticStenosis") in gain_subject(proof)
     assert spaced_name("MitralRegurgitation") not in gain_subject(judged(DIAGNOSIS, ("MitralRegurgitation",)))

@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 
 from heartfit.results.report.page import number, quantity, rows
+from heartfit.results.report.record import ReportTable
 
 
 @pytest.mark.parametrize(
@@ -36,6 +37,9 @@ def test_rows_are_classified_as_study_mean_or_paper() -> None:
 
 
 def test_a_number_among_words_is_printed_as_a_number() -> None:
-    (row, paper) = rows(pd.DataFrame({"setting": ["paper"] * 2, "value": ["16.86318149764966", "<4"]}))
+    frame = pd.DataFrame({"setting": ["paper"] * 2, "value": ["16.86318149764966", "<4"]})
+    (row, paper) = rows(ReportTable.of("table3_parameters", frame).frame)
     assert row["cells"][-1] == "16.9"
     assert paper["cells"][-1] == "<4"
+    (as_text, _) = rows(ReportTable.of("table2_as_printed", frame).frame)
+    assert as_text["cells"][-1] == "16.86318149764966", "this table is rounded already"

@@ -86,10 +86,13 @@ def test_a_case_shows_the_outcome_of_its_fit_and_its_causes(page: str, ventricle
     assert (weak.count('class="good"'), weak.count('class="doubt"')) == (0, 1)
     assert [text.count('<article class="cause">') for text in (sound, weak)] == [2, 0]
     failed = study(ventricle).cases["heart2"].fits[SETTING]
-    completed = replace(failed, result=replace(failed.result, notes=()), calibrated=volumes(63.0))
+    near = replace(failed.result, estimate=failed.result.prior)
+    completed = replace(failed, result=near, calibrated=volumes(63.0))
     assert status(failed) in weak
     assert status(completed) in sound
-    assert status(replace(failed, calibrated=volumes(63.0))) not in (status(failed), status(completed))
+    assert status(replace(failed, calibrated=volumes(63.0))) == "calibrated, long step †"
+    assert "†</td>" in weak
+    assert "†</td>" not in sound
     assert sound.count(f'<p class="verdict named">{verdict_sentence(diagnosis())}</p>') == 2
     refits = [re.search(r"<h4>(.*?)</h4>", article)[1] for article in sound.split("<article")[1:]]
     assert len(set(refits)) == 2
@@ -114,3 +117,14 @@ def test_a_setting_of_one_case_leaves_the_others_unfitted(ventricle: Ventricular
     page = render(replace(whole, cases={**whole.cases, first.name: own}), ASSETS)
     assert page.count("not fitted") == len(whole.cases) - 1
     assert page.count("Setting own.") == 1
+
+
+def test_the_findings_stand_beside_what_the_sealed_heart_hides(page: str, ventricle: VentricularMesh) -> None:
+    section = page[page.index('<section id="discovery">') :]
+    section = section[: section.index("</section>")]
+    for expected in ("heart1, physical", "mitral regurgitation, 0.35 cm² (2.8 scales)", "0.3 (0.2 to 0.4)"):
+        assert expected in section
+    assert '<a href="#discovery">' in page
+    without = render(replace(study(ventricle), discoveries=()), ASSETS)
+    assert 'id="discovery"' not in without
+    assert 'href="#discovery"' not in without

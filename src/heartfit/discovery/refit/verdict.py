@@ -121,8 +121,11 @@ def propose_extensions(diagnosis: Diagnosis, base: Setting, both: bool = False) 
     """Return the extensions to refit in three dimensions, each of which contains the previous one; both: ventricles.
 
     They consist of the named mechanisms; of two, the stronger one is tried alone first, because the second may be
-    false. Of a group the best is tried, and without a named mechanism the best of the ranking.
+    false. Of a group the best is tried, and for an unknown effect the best of the ranking. Where the simulation
+    explains the recording nothing is tried.
     """
+    if diagnosis.verdict in ("none", "insufficient"):
+        return []
     named = sorted(
         (cause.name for cause in diagnosis.mechanisms), key=lambda name: -diagnosis.ranking.get(name, np.inf)
     )

@@ -69,25 +69,41 @@ def detection_limits(
     threshold: float = DEFAULT_RULES.detected,
 ) -> Iterator[DetectionLimit]:
     """Detection limits of all mechanisms, or of those named, for both signs of a two-sided amplitude."""
-    data = search_data(_sample_recording(nominal))
-    model = SphereForwardModel(nominal, {block.curve: block.times for block in data.blocks})
+    planned = _PlannedRecording(nominal)
     drawn = [
         np.zeros(len(BASE_COORDINATES)),
         *np.random.default_rng(0).standard_normal((hearts - 1, len(BASE_COORDINATES))),
     ]
-
-    def factor(candidate: Candidate, heart: Floats, amplitude: float) -> float:
-        x = np.concatenate([heart, [amplitude], np.zeros(len(candidate.unknowns) - 1)])
-        single = hypothesis(model, (candidate,))
-        expected = expected_log_bayes_factor(hypothesis(model), single, data.blocks, x)
-        return np.nan if expected is None else expected
-
-    for name, candidate in _select(candidates(model), names).items():
+    for name, candidate in _select(planned.candidates, names).items():
         switch = candidate.unknowns[0]
         for sign in (1.0,) if switch.one_sided else (1.0, -1.0):
-            by_heart = [[factor(candidate, heart, sign * size) for size in SIZES] for heart in drawn]
+            by_heart = [
+                [planned.log_bayes_factor(candidate, sign * size, heart) for size in SIZES] for heart in drawn
+            ]
             factors = tuple(np.nanmedian(by_heart, axis=0).tolist())
             yield DetectionLimit(name, switch, sign, factors, threshold_crossing(SIZES, factors, threshold))
+
+
+def expected_evidence(name: str, scales: float) -> float:
+    """Expected ln Bayes factor of a mechanism of a signed size [scales] in a recording of the average adult."""
+    planned = _PlannedRecording(ADULT)
+    return planned.log_bayes_factor(planned.candidates[name], scales, np.zeros(len(BASE_COORDINATES)))
+
+
+class _PlannedRecording:
+    """Samples that a study would record of a nominal heart, and what they would show of an effect."""
+
+    def __init__(self, nominal: NominalHeart) -> None:
+        self.blocks = search_data(_sample_recording(nominal)).blocks
+        self.model = SphereForwardModel(nominal, {block.curve: block.times for block in self.blocks})
+        self.candidates = candidates(self.model)
+
+    def log_bayes_factor(self, candidate: Candidate, amplitude: float, heart: Floats) -> float:
+        """Expected ln Bayes factor at an amplitude [scales] in the heart at coordinates (b,); NaN without a beat."""
+        x = np.concatenate([heart, [amplitude], np.zeros(len(candidate.unknowns) - 1)])
+        baseline, single = hypothesis(self.model), hypothesis(self.model, (candidate,))
+        expected = expected_log_bayes_factor(baseline, single, self.blocks, x)
+        return np.nan if expected is None else expected
 
 
 def _select(library: Mapping[str, Candidate], names: Sequence[str]) -> dict[str, Candidate]:

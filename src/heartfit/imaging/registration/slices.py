@@ -126,6 +126,18 @@ class SliceMotion:
                 )
         return points + self.grid.vectors(steps)
 
+    def carry_back(self, sequence: ImageSequence) -> Floats:
+        """Brightness (p, k, j, i) of every frame at the positions of the first; beyond the region that of the frame."""
+        (column, row), shape = self.corner, self.displacement.shape[2:4]
+        rows, columns = slice(row, row + shape[0]), slice(column, column + shape[1])
+        result, pixels = sequence.voxels.copy(), np.indices(shape)
+        for frame, fields in enumerate(self.displacement):
+            for k, field in enumerate(fields):
+                places = pixels + np.moveaxis(field[..., ::-1], -1, 0)
+                image = sequence.voxels[frame, k, rows, columns]
+                result[frame, k, rows, columns] = map_coordinates(image, places, order=3, mode="nearest")
+        return result
+
     def least_jacobian(self) -> Floats:
         """Smallest ratio (p, k) of an area to that in the first frame; not positive where a slice folds."""
         return np.array([[jacobian(field).min() for field in frame] for frame in self.displacement])

@@ -12,6 +12,7 @@ from heartfit.results.figures import MEASURED, clean
 from heartfit.results.report.curves import samples, simulated
 from heartfit.results.report.picture import TEXT, Picture, as_picture, grid, legend
 from heartfit.results.report.record import CaseRecord, FittedCase
+from heartfit.results.text import LONG_STEP_MARK
 from heartfit.study.case import CASE_KINDS
 
 ML = 1e-6
@@ -82,7 +83,7 @@ def status(fit: FittedCase) -> str:
         return "calibrated beat failed"
     failed = fit.result.failed_points
     remarks = [f"{failed} of {fit.result.sigma_points} points failed"] if failed else []
-    remarks += ["long step"] if any("beyond 3" in note for note in fit.result.notes) else []
+    remarks += [f"long step {LONG_STEP_MARK}"] if fit.result.long_steps() else []
     return ", ".join(["calibrated", *remarks])
 
 

@@ -15,18 +15,18 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from heartfit.results.cause_card import verdict_sentence
+from heartfit.results.discovery import NOTE, printed_findings
 from heartfit.results.errors import PAPER, mean_error
 from heartfit.results.report.cases import facts, observations, plot_cohort, status
 from heartfit.results.report.cause import CauseCard, cause_card
 from heartfit.results.report.curves import plot_curves
 from heartfit.results.report.parameters import plot_estimates, plot_parameters
 from heartfit.results.report.picture import Picture, still_address
-from heartfit.results.report.record import CaseRecord, FittedCase, StudyRecord
+from heartfit.results.report.record import CaseRecord, FittedCase, ReportTable, StudyRecord
 from heartfit.results.report.surface import colour_scales, viewer_data
-from heartfit.results.text import GREEK, RATES, cell_texts
+from heartfit.results.text import GREEK, LONG_STEP_LEGEND, LONG_STEP_MARK, RATES, cell_texts
 
 LETTERS = {"alpha": "α", "sigma": "σ", "mu": "μ", "tau": "τ", "eta": "η"}
-DECIMAL = re.compile(r"-?\d+\.\d+")
 
 
 def quantity(name: str) -> Markup:
@@ -60,15 +60,10 @@ def number(value: float | None, digits: int = 3) -> str:
 
 def rows(table: pd.DataFrame) -> list[Mapping[str, object]]:
     """Return cells as text by row, with the kind of each row: paper, mean or ours."""
-    texts = cell_texts(table.map(_value)).to_dict("records")
+    texts = cell_texts(table).to_dict("records")
     return [
         {"kind": _kind(row), "cells": [text.replace("nan", "") for text in row.values()]} for row in texts
     ]
-
-
-def _value(cell: object) -> object:
-    """Return a number from a cell of a column that also holds words."""
-    return float(cell) if isinstance(cell, str) and DECIMAL.fullmatch(cell) else cell
 
 
 def _kind(row: Mapping[Hashable, str]) -> str:
@@ -126,7 +121,15 @@ def render(study: StudyRecord, assets: Assets) -> str:
         parameters={setting: plot_parameters(cases, setting) for setting in settings},
         sections=[_section(case, cases) for case in cases],
         shades=colour_scales(cases),
+        discovery=_discovery(study),
     )
+
+
+def _discovery(study: StudyRecord) -> ReportTable | None:
+    """Return the findings of the refitted cases, None without such a case."""
+    if not study.discoveries:
+        return None
+    return ReportTable("Missing mechanisms", printed_findings(study.discoveries), NOTE)
 
 
 def _section(case: CaseRecord, cases: list[CaseRecord]) -> Section:
@@ -163,6 +166,8 @@ def _environment() -> Environment:
         "status": status,
         "sentence": verdict_sentence,
         "mean_error": mean_error,
+        "long_step_mark": LONG_STEP_MARK,
+        "long_step_legend": LONG_STEP_LEGEND,
     }
     return environment
 

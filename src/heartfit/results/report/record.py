@@ -6,6 +6,7 @@ Cov(X, y(t)) over the sigma points is that of the unscented transform of a whole
 is the prior covariance and C_post the posterior covariance of the logarithms.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Self
@@ -23,7 +24,8 @@ from heartfit.observation.curve import Curve
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.results.card import Card, comparable_truth
 from heartfit.results.case import CaseResult
-from heartfit.results.text import NOTES
+from heartfit.results.discovery import DiscoveryResult
+from heartfit.results.text import NOTES, STATED_ONCE, without_repeats
 from heartfit.study.case import Kind
 
 Curves = Mapping[str, Curve]
@@ -56,6 +58,9 @@ def curve_deviation(
 
 
 TITLES = {
+    "claims": "Every number that the paper states, beside ours",
+    "table1_as_printed": "Table 1 as printed, and ours in its layout",
+    "table2_as_printed": "Table 2 as printed, and ours in its layout",
     "table1": "Errors of the healthy hearts (the paper's Table 1)",
     "table2": "Parameters of the healthy hearts (the paper's Table 2)",
     "table3": "Errors of the patients (the paper's Table 3)",
@@ -63,6 +68,10 @@ TITLES = {
     "plausibility": "Plausibility outside the observations",
     "costs": "Computing time and memory",
 }
+
+
+TABLES_OF_TEXT = ("claims", "table1_as_printed", "table2_as_printed")
+"""Tables whose cells are rounded as printed, and read as text."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +154,10 @@ class CaseRecord:
 
 @dataclass(frozen=True, eq=False)
 class ReportTable:
-    """A table with its title, and a note below it on differences from the paper."""
+    """A table with its title, and a note below it on differences from the paper.
+
+    A cell of text is printed as it is, a number to the digits of all tables.
+    """
 
     title: str
     frame: pd.DataFrame
@@ -154,7 +166,16 @@ class ReportTable:
     @classmethod
     def of(cls, name: str, frame: pd.DataFrame) -> Self:
         """Return the table of this name, one of ``TITLES``."""
-        return cls(TITLES[name], frame, NOTES.get(name, ""))
+        shown = without_repeats(frame, STATED_ONCE.get(name, ()))
+        return cls(TITLES[name], shown if name in TABLES_OF_TEXT else frame.map(_number), NOTES.get(name, ""))
+
+
+DECIMAL = re.compile(r"-?\d+\.\d+")
+
+
+def _number(cell: object) -> object:
+    """Return a number from a cell of a column that also holds words."""
+    return float(cell) if isinstance(cell, str) and DECIMAL.fullmatch(cell) else cell
 
 
 @dataclass(frozen=True)
@@ -169,9 +190,13 @@ class Provenance:
 
 @dataclass(frozen=True, eq=False)
 class StudyRecord:
-    """All cases of a study by name, its tables by name, and their provenance."""
+    """All cases of a study by name, its tables by name, and their provenance.
+
+    discoveries: of the refitted cases, with the answers of sealed ones.
+    """
 
     cases: Mapping[str, CaseRecord]
     tables: Mapping[str, ReportTable]
     provenance: Provenance
     left_out: str = ""
+    discoveries: Sequence[DiscoveryResult] = ()

@@ -1,0 +1,121 @@
+"""Refit of a model whose curve is linear in the coordinates: estimate, covariance and evidence in closed form."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from heartfit.core.arrays import Floats
+from heartfit.discovery.refit import refit as module
+from heartfit.discovery.refit.model import Extension
+from heartfit.discovery.refit.refit import Refit, continue_refit, refit, renew_slopes, restart_refit
+from heartfit.discovery.refit.target import Target
+from heartfit.discovery.sphere_model.recording import Samples
+from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+from heartfit.personalise.setting import Setting
+
+PLAIN = Setting.model_validate(
+    {"element": "sphere", "estimate": ("sigma_0", "R_p"), "prior": {"sigma_0": {"mean": 150e3}}}
+).with_prior({})
+NONE, LEAKING = Extension(PLAIN), Extension.from_names(PLAIN, "MitralRegurgitation")
+SLOPES = np.random.default_rng(5).standard_normal((12, 3))
+TRUTH = np.array([0.6, -0.4, 1.2])
+NOISE = 0.2**2 * np.eye(12)
+WITHIN = 0.3
+"""Predicted decrease of the objective that ends a refit."""
+
+
+def target(x: Floats = TRUTH) -> Target:
+    return Target({"lv_volume": Samples(np.arange(12.0), SLOPES @ x)}, NOISE)
+
+
+def run(extension: Extension, parameters: Mapping[str, float]) -> SimpleNamespace:
+    """Stand-in for a beat: the coordinates at which the parameters lie."""
+    prior = PLAIN.gaussian()
+    x = (np.log([parameters[name] for name in prior.names]) - prior.mean) / prior.sd
+    areas = [parameters["MitralRegurgitation.area"]] if extension.added else []
+    return SimpleNamespace(completed=True, x=np.append(x, areas) / np.append(np.ones(2), leak_scale(areas)))
+
+
+def leak_scale(areas: list[float]) -> Floats:
+    return np.full(len(areas), MitralRegurgitation.switch().scale)
+
+
+@pytest.fixture(autouse=True)
+def _linear(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        module, "beat_curves", lambda beat, _: {"lv_volume": lambda _: SLOPES[:, : beat.x.size] @ beat.x}
+    )
+
+
+def posterior(count: int, y: Floats) -> tuple[Floats, Floats, float]:
+    """Mean, covariance and ln Z of the first coordinates under N(0, I), up to the constant of the samples."""
+    A = SLOPES[:, :count]
+    covariance = np.linalg.inv(np.eye(count) + A.T @ np.linalg.solve(NOISE, A))
+    marginal = NOISE + A @ A.T
+    volumes = np.linalg.slogdet(marginal)[1] - np.linalg.slogdet(NOISE)[1]
+    evidence = -0.5 * (y @ np.linalg.solve(marginal, y) + volumes)
+    return covariance @ A.T @ np.linalg.solve(NOISE, y), covariance, float(evidence)
+
+
+@pytest.fixture
+def fits() -> tuple[Refit, Refit]:
+    return refit(NONE, run, target(), 20), refit(LEAKING, run, target(), 20)
+
+
+def test_a_refit_ends_at_the_posterior_with_its_evidence(fits: tuple[Refit, Refit]) -> None:
+    for fit in fits:
+        mean, covariance, evidence = posterior(fit.estimate.size, target().values())
+        off = fit.estimate - mean
+        assert fit.converged
+        assert 0.5 * off @ np.linalg.solve(covariance, off) < WITHIN
+        assert fit.covariance == pytest.approx(covariance, rel=1e-6)
+        positive = np.log(2.0 * norm.cdf(mean[2] / np.sqrt(covariance[2, 2]))) if mean.size == 3 else 0.0
+        assert fit.log_evidence == pytest.approx(evidence + positive, abs=WITHIN)
+
+
+def test_the_slopes_of_an_unscented_step_are_those_of_the_model() -> None:
+    assert refit(LEAKING, run, target(), 0).slopes == pytest.approx(SLOPES)
+
+
+def test_an_amplitude_of_the_wrong_sign_is_held_at_zero() -> None:
+    fit = refit(LEAKING, run, target(TRUTH * [1.0, 1.0, -1.0]), 20)
+    assert fit.converged
+    assert fit.estimate[2] == 0.0
+
+
+def test_an_extension_starts_where_the_model_without_it_ended_and_where_it_started(
+    fits: tuple[Refit, Refit],
+) -> None:
+    """Without a step: the start, the known slopes of the model without it, and one more of the mechanism."""
+    none = replace(fits[0], slopes=2.0 * SLOPES[:, :2], first_slopes=3.0 * SLOPES[:, :2])
+    continued, restarted = (
+        start(LEAKING, run, target(), 0, none) for start in (continue_refit, restart_refit)
+    )
+    assert continued.estimate == pytest.approx([*none.estimate, 0.5])
+    assert restarted.estimate == pytest.approx([0.0, 0.0, 1.0])
+    for fit, known in ((continued, none.slopes), (restarted, none.first_slopes)):
+        assert fit.slopes[:, :2] == pytest.approx(known)
+        assert fit.slopes[:, 2] == pytest.approx(SLOPES[:, 2])
+        assert fit.first_slopes[:, :2] == pytest.approx(none.first_slopes)
+        assert fit.simulations == 2
+
+
+def test_renewed_slopes_cost_a_beat_each_and_lead_on(fits: tuple[Refit, Refit]) -> None:
+    spoilt = replace(fits[1], slopes=-SLOPES, estimate=np.zeros(3), predicted=np.zeros(12))
+    renewed = renew_slopes(LEAKING, run, target(), 0, spoilt)
+    assert renewed.slopes == pytest.approx(SLOPES)
+    assert renewed.simulations == spoilt.simulations + 3
+    further = renew_slopes(LEAKING, run, target(), 20, spoilt)
+    assert further.estimate == pytest.approx(fits[1].estimate, abs=0.1)
+
+
+def test_a_coordinate_is_a_standard_deviation_of_the_prior() -> None:
+    x, prior = np.array([1.0, -2.0, 0.5]), PLAIN.gaussian()
+    values = LEAKING.parameters(x)
+    assert values["sigma_0"] == pytest.approx(150e3 * np.exp(prior.sd[0]))
+    assert values["R_p"] == pytest.approx(np.exp(prior.mean[1] - 2.0 * prior.sd[1]))
+    assert values["MitralRegurgitation.area"] == pytest.approx(0.5 * MitralRegurgitation.switch().scale)

@@ -1,0 +1,127 @@
+"""A centred sphere must follow its beat and pass its self-test, else the rules are stricter; curves in closed form."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.discovery.inference.data import Block, Data, Noise
+from heartfit.discovery.inference.decide import DEFAULT_RULES, Rules
+from heartfit.discovery.sphere_model import recentred as module
+from heartfit.discovery.sphere_model.cause import Diagnosis
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, NominalHeart
+from heartfit.discovery.sphere_model.recentred import centred_search, fit_nominal_heart, recorded, self_test
+from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.observation.curve import Curve
+
+PERIOD = ADULT.heart.period
+TIMES = np.arange(80) * PERIOD / 80
+WAVE = np.cos(2.0 * np.pi * TIMES / PERIOD)
+BEAT = {
+    "lv_volume": Curve(TIMES, 100e-6 + 40e-6 * WAVE, PERIOD),
+    "lv_pressure": Curve(TIMES, 8e3 - 7e3 * WAVE, PERIOD),
+}
+RECORDING, UNSEEN = (
+    Recording(
+        PERIOD, {name: Samples(curve.times[part::2], curve.values[part::2]) for name, curve in BEAT.items()}
+    )
+    for part in (0, 1)
+)
+
+
+@pytest.mark.parametrize(
+    ("errors", "recorded_curves", "followed"),
+    [
+        ((0.69e-6, 99.0), ("lv_volume", "lv_pressure"), True),
+        ((0.71e-6, 99.0), ("lv_volume", "lv_pressure"), False),
+        ((0.69e-6, 101.0), ("lv_volume", "lv_pressure"), False),
+        ((0.69e-6, 1e4), ("lv_volume",), True),
+        ((1.0, 1e4), (), True),
+    ],
+    ids=["close", "volume-off", "pressure-off", "pressure-not-recorded", "nothing-recorded"],
+)
+def test_a_sphere_follows_the_recorded_curves_within_0_7_ml_and_0_1_kpa(
+    monkeypatch: pytest.MonkeyPatch,
+    errors: tuple[float, float],
+    recorded_curves: tuple[str, ...],
+    followed: bool,
+) -> None:
+    def missed(nominal: NominalHeart, data: Data) -> tuple[NominalHeart, Floats]:
+        return nominal, data.values + np.concatenate(
+            [np.full(block.times.size, error) for block, error in zip(data.blocks, errors, strict=True)]
+        )
+
+    monkeypatch.setattr(module, "_fit", missed)
+    if followed:
+        assert fit_nominal_heart(ADULT.heart, BEAT, recorded_curves).heart.period == PERIOD
+    else:
+        with pytest.raises(InputError, match="the sphere leaves"):
+            fit_nominal_heart(ADULT.heart, BEAT, recorded_curves)
+
+
+def test_the_self_test_is_the_median_of_the_largest_factors(monkeypatch: pytest.MonkeyPatch) -> None:
+    factors = iter([0.2, 9.0, 1.1])
+    monkeypatch.setattr(module, "largest_log_bayes_factor", lambda *_: next(factors))
+    assert self_test(RECORDING, ADULT, [BEAT] * 3) == 1.1
+
+
+def test_beats_of_a_self_test_are_recorded_with_the_noise_of_the_instruments_only() -> None:
+    times = np.arange(400) * PERIOD / 400
+    block = Block("lv_pressure", "Pa", times, PERIOD, Noise((50.0, 100.0, 200.0), 0.0, 1000.0, 0.0))
+    like = Data(np.zeros(400), (block,))
+    error = recorded(like, BEAT, np.random.default_rng(0)).values - BEAT["lv_pressure"](times)
+    assert np.std(error) == pytest.approx(100.0, rel=0.1)
+
+
+@pytest.fixture
+def searched(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, Recording | None]]:
+    """Thresholds of the searches, and the recordings that were kept from them."""
+    calls: list[tuple[float, Recording | None]] = []
+
+    def diagnosed(
+        recording: Recording,
+        nominal: NominalHeart | None = None,
+        rules: Rules = DEFAULT_RULES,
+        unseen: Recording | None = None,
+    ) -> Diagnosis:
+        calls.append((rules.detected, unseen))
+        return Diagnosis("none", (), (), "", (), 0, recording.period, rules.detected)
+
+    monkeypatch.setattr(module, "diagnose", diagnosed)
+    return calls
+
+
+@pytest.mark.parametrize(
+    ("follows", "tested", "threshold"),
+    [
+        (("lv_volume", "lv_pressure"), None, 7.0),
+        (("lv_volume", "lv_pressure"), 1.5, 7.0),
+        (("lv_volume", "lv_pressure"), 1.6, 10.0),
+        ((), None, 10.0),
+        ((), 0.2, 10.0),
+        (None, None, 10.0),
+    ],
+    ids=["close", "passes", "fails", "loose", "loose-but-passes", "no-sphere"],
+)
+def test_a_doubtful_sphere_has_the_strict_threshold_and_what_judges_is_never_searched(
+    monkeypatch: pytest.MonkeyPatch,
+    searched: list[tuple[float, Recording | None]],
+    follows: tuple[str, ...] | None,
+    tested: float | None,
+    threshold: float,
+) -> None:
+    """follows: curves that the sphere follows well enough, None where it does not beat."""
+
+    def fitted(_: object, __: Mapping[str, Curve], required: tuple[str, ...]) -> NominalHeart:
+        if follows is None or not set(required) <= set(follows):
+            raise InputError("the sphere does not follow")
+        return ADULT
+
+    monkeypatch.setattr(module, "fit_nominal_heart", fitted)
+    monkeypatch.setattr(module, "self_test", lambda *_: tested)
+    others = [] if tested is None else [BEAT]
+    result = centred_search(RECORDING, ADULT.heart, [BEAT, *others], UNSEEN)
+    assert searched == [(threshold, UNSEEN)]
+    assert result.self_test == tested

@@ -1,0 +1,181 @@
+"""Names that do not help on held-out data are withdrawn; what chose a name does not judge it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import cast
+
+import numpy as np
+import pytest
+
+from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES, Decision, Effects, Rules, Verdict
+from heartfit.discovery.sphere_model import diagnose as module
+from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
+from heartfit.discovery.sphere_model.diagnose import SearchedRecording, conclude, predict_explanation
+from heartfit.discovery.sphere_model.recording import Recording, Samples
+
+LEAK, DELAY = ("Leak",), ("Delay",)
+TIMES = np.arange(25) * 0.8 / 25
+VOLUME = Samples(TIMES, 100e-6 + 40e-6 * np.cos(2.0 * np.pi * TIMES / 0.8))
+PRESSURE = Samples(TIMES, 8e3 - 7e3 * np.cos(2.0 * np.pi * TIMES / 0.8))
+RAISED = {"legs raised": cast("Recording", None)}
+
+
+@dataclass(frozen=True)
+class Gained:
+    """Stand-in for a held-out prediction with this gain in ln likelihood."""
+
+    gain: float
+
+    def helps(self) -> bool:
+        return self.gain > 0.0
+
+    def log_likelihood_gain(self) -> float:
+        return self.gain
+
+    def gains(self) -> tuple[()]:
+        return ()
+
+
+@dataclass
+class Searched:
+    """Stand-in for a searched recording: its verdict, and the ln Bayes factors of the named effects, the best first."""
+
+    verdict: Verdict
+    factors: Mapping[Effects, float]
+    rules: Rules = DEFAULT_RULES
+    unseen: Recording | None = None
+    library: Mapping[str, str] = field(default_factory=lambda: {"Leak": "leak", "Delay": "delay"})
+    data: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(values=np.zeros(3)))
+    model: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(simulations=7, nominal="nominal"))
+    recording: SimpleNamespace = field(
+        default_factory=lambda: SimpleNamespace(
+            period=0.8, curves={"lv_volume": VOLUME, "lv_pressure": PRESSURE}
+        )
+    )
+
+    @property
+    def explanations(self) -> tuple[Effects, ...]:
+        return tuple(self.factors)
+
+    @property
+    def findings(self) -> SimpleNamespace:
+        at = {
+            effects: SimpleNamespace(fit=SimpleNamespace(x=f"fit of {effects}")) for effects in self.factors
+        }
+        baseline = SimpleNamespace(fit=SimpleNamespace(x="fit of none"))
+        return SimpleNamespace(
+            decision=Decision(self.verdict),
+            log_bayes_factor=self.factors.__getitem__,
+            explanation=at.get,
+            survey=SimpleNamespace(baseline=baseline, singles=list(at.values())),
+        )
+
+    def cause(self, effects: Effects, name: str) -> Cause:
+        return Cause(name, self.factors[effects], 1.0, "1", (0.5, 1.5))
+
+    def ranking(self) -> dict[str, float]:
+        return {}
+
+    def phases(self) -> None:
+        return None
+
+    def tried(self) -> tuple[()]:
+        return ()
+
+
+def concluded(
+    monkeypatch: pytest.MonkeyPatch,
+    case: Searched,
+    gains: Mapping[Effects, tuple[float, ...]],
+    conditions: Mapping[str, Recording] = RAISED,
+) -> Diagnosis:
+    """The conclusion where each effect has these gains on held-out data."""
+    monkeypatch.setattr(module, "traces", lambda *_: ())
+    monkeypatch.setattr(module, "next_measurement", lambda *_: "the flow")
+    monkeypatch.setattr(
+        module, "predict_explanation", lambda _, effects, __: list(map(Gained, gains[effects]))
+    )
+    return conclude(cast("SearchedRecording", case), conditions)
+
+
+def names(diagnosis: Diagnosis) -> tuple[str, ...]:
+    return tuple(cause.name for cause in diagnosis.mechanisms)
+
+
+@pytest.mark.parametrize("gains", [(-0.1,), (2.0, -0.1)], ids=["in-the-only-test", "in-one-of-two"])
+def test_a_name_that_makes_held_out_data_less_likely_is_withdrawn(
+    monkeypatch: pytest.MonkeyPatch, gains: tuple[float, ...]
+) -> None:
+    diagnosis = concluded(monkeypatch, Searched("named", {LEAK: 12.0}), {LEAK: gains})
+    assert (diagnosis.verdict, names(diagnosis), diagnosis.withdrawn) == ("unknown", (), LEAK)
+
+
+def test_a_name_that_helps_in_every_test_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    diagnosis = concluded(monkeypatch, Searched("named", {LEAK: 12.0}), {LEAK: (2.0, 0.1)})
+    assert (diagnosis.verdict, names(diagnosis), diagnosis.withdrawn) == ("named", LEAK, ())
+
+
+@pytest.mark.parametrize(("gain", "kept"), [(3.9, DELAY), (2.5, DELAY + LEAK), (0.5, LEAK + DELAY)])
+def test_another_condition_adds_its_evidence_to_that_of_each_member_of_a_group(
+    monkeypatch: pytest.MonkeyPatch, gain: float, kept: tuple[str, ...]
+) -> None:
+    """Evidences of 12 and 11, and gains of 0.1 and this one: beyond a difference of 3 one is named alone."""
+    group = Searched("group", {LEAK: 12.0, DELAY: 11.0})
+    diagnosis = concluded(monkeypatch, group, {LEAK: (0.1,), DELAY: (gain + 0.1 + 0.11,)})
+    assert names(diagnosis) == kept
+    assert diagnosis.verdict == ("named" if len(kept) == 1 else "group")
+
+
+def test_half_of_a_recording_withdraws_a_group_with_its_best_member(monkeypatch: pytest.MonkeyPatch) -> None:
+    group = Searched("group", {LEAK: 12.0, DELAY: 11.0})
+    diagnosis = concluded(monkeypatch, group, {LEAK: (-1.0,)}, {})
+    assert (diagnosis.verdict, diagnosis.withdrawn) == ("unknown", LEAK + DELAY)
+
+
+@pytest.fixture
+def judges(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Predictions that return their kind and the data that they judge by."""
+    monkeypatch.setattr(module, "search_data", lambda recording: f"data of {recording}")
+    monkeypatch.setattr(module, "predict_half", lambda _, data, *fits: ("half", data, fits))
+    monkeypatch.setattr(module, "predict_unseen", lambda _, data, *fits: ("unseen", data, fits))
+    monkeypatch.setattr(module, "predict_condition", lambda name, _, data, *fits: (name, data, fits))
+
+
+@pytest.mark.usefixtures("judges")
+def test_samples_that_the_search_has_not_seen_judge_in_place_of_half_of_the_recording() -> None:
+    fits = (("leak",), "fit of none", "fit of ('Leak',)")
+    case = Searched("named", {LEAK: 12.0})
+    raised = cast("Mapping[str, Recording]", {"legs raised": "raised legs"})
+
+    def judged(conditions: Mapping[str, Recording]) -> list[object]:
+        return list(predict_explanation(cast("SearchedRecording", case), LEAK, conditions))
+
+    assert judged({}) == [("half", case.data, fits)]
+    assert judged(raised) == [("legs raised", "data of raised legs", fits)]
+    case.unseen = cast("Recording", "the other half")
+    assert judged({}) == [("unseen", "data of the other half", fits)]
+    assert judged(raised) == [
+        ("legs raised", "data of raised legs", fits),
+        ("unseen", "data of the other half", fits),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("curves", "rules", "threshold"),
+    [
+        ({"lv_volume": VOLUME, "lv_pressure": PRESSURE}, DEFAULT_RULES, 5.0),
+        ({"lv_volume": VOLUME}, DEFAULT_RULES, 10.0),
+        ({"lv_volume": VOLUME}, Rules(detected=12.0), 12.0),
+        ({"lv_volume": VOLUME, "lv_pressure": PRESSURE}, STRICT_RULES, 10.0),
+    ],
+    ids=["both", "volume", "volume-strict", "both-strict"],
+)
+def test_a_volume_alone_needs_more_evidence(
+    monkeypatch: pytest.MonkeyPatch, curves: Mapping[str, Samples], rules: Rules, threshold: float
+) -> None:
+    applied: list[Rules] = []
+    monkeypatch.setattr(module, "candidates", lambda _: {})
+    monkeypatch.setattr(module, "search", lambda *arguments: applied.append(arguments[-1]))
+    SearchedRecording.search(Recording(0.8, curves), rules=rules)
+    assert [rule.detected for rule in applied] == [threshold]

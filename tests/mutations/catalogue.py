@@ -1,0 +1,27 @@
+"""All mutants, by subject."""
+
+from tests.mutations.mutants.calibration import CALIBRATION_MUTANTS
+from tests.mutations.mutants.circulation import CIRCULATION_MUTANTS
+from tests.mutations.mutants.decision import DECISION_MUTANTS
+from tests.mutations.mutants.finite_elements import ELEMENT_MUTANTS
+from tests.mutations.mutants.geometry import GEOMETRY_MUTANTS
+from tests.mutations.mutants.judging import JUDGING_MUTANTS
+from tests.mutations.mutants.mechanisms import MECHANISM_MUTANTS
+from tests.mutations.mutants.muscle import MUSCLE_MUTANTS
+from tests.mutations.mutants.proof import PROOF_MUTANTS
+from tests.mutations.mutants.search import SEARCH_MUTANTS
+from tests.mutations.mutants.sphere import SPHERE_MUTANTS
+
+MUTANTS = (
+    *MUSCLE_MUTANTS,
+    *ELEMENT_MUTANTS,
+    *SPHERE_MUTANTS,
+    *GEOMETRY_MUTANTS,
+    *CIRCULATION_MUTANTS,
+    *MECHANISM_MUTANTS,
+    *CALIBRATION_MUTANTS,
+    *SEARCH_MUTANTS,
+    *DECISION_MUTANTS,
+    *JUDGING_MUTANTS,
+    *PROOF_MUTANTS,
+)

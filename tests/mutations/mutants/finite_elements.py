@@ -1,0 +1,99 @@
+"""Mutants of finite elements: kinematics, assembly, solver, unloading, time step."""
+
+from tests.mutations.mutant import changes
+
+ELEMENTS = "tests/heart/finite_elements"
+BODY = f"{ELEMENTS}/test_body.py"
+TIME = "tests/heart/test_time_step.py"
+
+ELEMENT_MUTANTS = (
+    *changes(
+        "heart/finite_elements/kinematics.py",
+        f"{ELEMENTS}/test_kinematics.py {BODY}",
+        ("determinant's sign", "- F[e, 0, 1] * (F[e, 1, 0]", "+ F[e, 0, 1] * (F[e, 1, 0]"),
+        ("inverse's shear", "out[3] = (C[4] * C[5] - C[3] * C[2])", "out[3] = (C[4] * C[5] + C[3] * C[2])"),
+        ("fibre strain without shear", "e[i] = 0.5 * (normal - 1.0) + shear", "e[i] = 0.5 * (normal - 1.0)"),
+        (
+            "symmetric product not symmetric",
+            "0.5 * (A[VOIGT[r, k]] * A[VOIGT[c, m]] + A[VOIGT[r, m]] * A[VOIGT[c, k]])",
+            "A[VOIGT[r, k]] * A[VOIGT[c, m]]",
+        ),
+    ),
+    *changes(
+        "heart/finite_elements/assembly.py",
+        BODY,
+        (
+            "wall pressure inwards",
+            "S[e, i] += p[e] * J[e] * Ci[i] + viscous",
+            "S[e, i] += -p[e] * J[e] * Ci[i] + viscous",
+        ),
+        ("matrix not viscous", " + viscous + tension[e]", " + tension[e]"),
+        (
+            "tangent of the pressure dropped",
+            "volumetric = a * Ci[i] * Ci[j] - b * symmetric_product(Ci, i, j)",
+            "volumetric = a * Ci[i] * Ci[j]",
+        ),
+        (
+            "a shear in the wrong row",
+            "P[i, 2] = F[e, i, 0] * S[e, 4] + F[e, i, 1] * S[e, 5]",
+            "P[i, 2] = F[e, i, 0] * S[e, 5] + F[e, i, 1] * S[e, 4]",
+        ),
+        ("no geometric stiffness", "        _add_geometric(S[e], gradients[e], K)\n", ""),
+    ),
+    *changes(
+        "heart/finite_elements/elements.py",
+        f"{ELEMENTS}/test_elements.py {BODY}",
+        (
+            "no stabilisation",
+            "CONSISTENT_MASS / K + PROJECTION_DEFECT / G",
+            "CONSISTENT_MASS / K + 0.0 * PROJECTION_DEFECT / G",
+        ),
+        ("compressible the wrong way", "value -= compliance[a, b]", "value += compliance[a, b]"),
+        (
+            "pressure rows not coupled",
+            "out[e, 4 * b + 3, 4 * a + i] = coupling",
+            "out[e, 4 * b + 3, 4 * a + i] = 0.0",
+        ),
+    ),
+    *changes(
+        "heart/finite_elements/body.py",
+        BODY,
+        ("supports push", "self._support, x[:, :3]) - self._drag", "self._support, x[:, :3]) + self._drag"),
+        (
+            "tangent without the memory of the step",
+            "(1.0 + self.time_step.memory) * self._fibre[1]",
+            "self._fibre[1]",
+        ),
+    ),
+    *changes(
+        "heart/time_step.py",
+        TIME,
+        ("first order again", "self.length / (self.length + self.last) if", "0.0 * self.length if"),
+        (
+            "extrapolated backwards",
+            "(1.0 + self.memory) * mean - self.memory * before",
+            "(1.0 + self.memory) * mean + self.memory * before",
+        ),
+    ),
+    *changes(
+        "heart/finite_elements/solver.py",
+        f"{ELEMENTS}/test_solver.py",
+        (
+            "children are forgotten",
+            "update[start:end, :end] -= np.dot(",
+            "update[start:end, :end] += np.dot(",
+        ),
+        ("no substitution downwards", "            x -= np.dot(gathered, coupling)\n", ""),
+        ("scaled once only", "result[i, j] *= scale[i] * scale[j]", "result[i, j] *= scale[i]"),
+    ),
+    *changes(
+        "heart/finite_elements/unloading.py",
+        f"{ELEMENTS}/test_statics_unloading.py::test_the_tangent_at_fixed_loaded_positions_is_exact_but_for_the_supports",
+        (
+            "loaded positions move",
+            'np.einsum("eai,ebj->eaibj", forces, slopes)',
+            '0.0 * np.einsum("eai,ebj->eaibj", forces, slopes)',
+        ),
+        ("not pulled back", 'np.einsum("eaibk,ekj->eaibj", blocks[..., :3], F)', "blocks[..., :3]"),
+    ),
+)
