@@ -15,7 +15,7 @@ ANSWER = Answer(7, "single", (EFFECT,), {"no beat": 1}, {"sigma_0": -0.4}, 0.02)
 
 def test_a_sealed_answer_is_read_back_and_not_legible(tmp_path):
     seal(tmp_path / "7.answer", ANSWER)
-    assert open_seal(tmp_path / "7.answer") == ANSWER
+    assert open_seal(tmp_path / "7.answer", Answer) == ANSWER
     assert "Regurgitation" not in (tmp_path / "7.answer").read_text()
 
 
@@ -25,4 +25,4 @@ def test_an_answer_that_was_exchanged_breaks_the_seal(tmp_path):
     (digest, _), (_, body) = ((tmp_path / name).read_text().split() for name in ("true", "false"))
     (tmp_path / "true").write_text(f"{digest}\n{body}\n")
     with pytest.raises(InputError, match="seal is broken"):
-        open_seal(tmp_path / "true")
+        open_seal(tmp_path / "true", Answer)

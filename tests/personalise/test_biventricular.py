@@ -10,7 +10,7 @@ from heartfit.heart.beat import Beat
 from heartfit.heart.simulation import Numerics
 from heartfit.heart.sphere.body import Sphere
 from heartfit.heart.sphere.simulation import simulate_spheres
-from heartfit.io.configuration import schema
+from heartfit.io.configuration import read_cases, schema
 from heartfit.io.plan import plan_study
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
@@ -128,10 +128,11 @@ def test_a_parameter_of_zero_needs_a_median() -> None:
 
 def test_the_study_fits_both_ventricles_of_the_measured_heart_alone(config: dict) -> None:
     study = Study.model_validate(config)
-    assert study.settings_of("patient1") == ("paper", "physical", "biventricular")
-    assert study.settings_of("volunteer1") == study.common_settings() == ("paper", "physical")
-    assert study.curves_besides("patient1") == ("rv_volume",)
-    assert study.curves_besides("volunteer1") == ()
+    cases = {case.case: case for case in read_cases(ROOT / study.cases)}
+    assert study.settings_of(cases["patient1"]) == ("paper", "physical", "biventricular")
+    assert study.settings_of(cases["volunteer1"]) == study.common_settings() == ("paper", "physical")
+    assert study.curves_besides(cases["patient1"]) == ("rv_volume",)
+    assert study.curves_besides(cases["volunteer1"]) == ()
     assert study.perturbed_as("biventricular") == "physical"
     assert "observe" in str(schema())
 

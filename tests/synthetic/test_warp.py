@@ -94,13 +94,13 @@ def test_brightness_moves_with_the_wall_in_and_through_the_plane(
     ventricle: VentricularMesh, images: ImageSequence, warped: Motion
 ) -> None:
     first = np.broadcast_to(images.voxels[0], images.voxels.shape)
-    warped, grid, frame = warp_cine(images, first, ventricle, warped), images.grid, FRAMES // 2
+    shown, grid, frame = warp_cine(images, first, ventricle, warped), images.grid, FRAMES // 2
     origin = material_points(grid, ventricle, warped.positions[frame])
     inside = ~np.isnan(origin[..., 0])
     i, j, k = grid.index(origin[inside]).T
     assert np.abs(grid.index(origin[inside])[:, 2] - np.indices(grid.shape)[0][inside]).max() > 0.1
     expected = i + 2.0 * j + 10.0 * np.clip(k, 0, grid.size[2] - 1)
-    difference = np.abs(warped.voxels[frame][inside] - expected)
+    difference = np.abs(shown.voxels[frame][inside] - expected)
     assert np.median(difference) < 2.0
     assert np.median(difference) < 0.5 * np.median(np.abs(images.voxels[0][inside] - expected))
 
