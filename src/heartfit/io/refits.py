@@ -50,7 +50,9 @@ def read_trial(files: Mapping[str, Any], parameters: Mapping[str, Any]) -> Exten
     case, setting = read_measured_case(files, parameters["both"]), parameters["setting"]
     mesh, motion = read_mesh(Path(files["mesh"])), read_motion(Path(files["registered"]))
     model = Model(mesh, parameters["case"].period, parameters["pressures"], parameters["scheme"])
-    return ExtensionTrial(case, motion, model, setting, case.target, parameters["most_steps"])
+    return ExtensionTrial(
+        case, motion, model, setting, case.target, case.complete_target, parameters["most_steps"]
+    )
 
 
 def write_refit(path: Path, refit: Refit, fingerprint: str) -> None:

@@ -149,9 +149,16 @@ def refit_section(refitted: Refitted) -> str:
     ]
     return (
         f"Extension of the model: {added}. Its ln Bayes factor is {refitted.ln_bayes_factor:.1f} over the model "
-        f"without it; both were fitted to half of the samples in {refitted.simulations} beats. {convergence}.\n\n"
+        f"without it; both were fitted to half of the samples in {refitted.simulations} beats. {convergence}."
+        f"{_final_sizes(refitted)}\n\n"
         "| parameter (SI) | without | with | change (%) |\n|---|---|---|---|\n" + "\n".join(changes)
     )
+
+
+def _final_sizes(refitted: Refitted) -> str:
+    """Return the sentence on the sizes from both halves of the samples, empty where they were not computed."""
+    sizes = "; ".join(map(mechanism_with_size, refitted.from_all_samples))
+    return f" From all samples, after the other half has judged: {sizes}." if sizes else ""
 
 
 def gain_subject(diagnosis: Diagnosis) -> str:

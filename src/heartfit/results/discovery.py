@@ -81,8 +81,9 @@ def printed_findings(results: Sequence[DiscoveryResult]) -> pd.DataFrame:
 NOTE = (
     "Wrong by: largest departure of the refitted simulation without an added mechanism, in standard deviations of the "
     "noise. The search on the sphere and the refits use one half of the samples; the error ratio, with the mechanism "
-    "over without it, is that of the other half and of curves to which nothing was fitted. Sizes are fitted to the "
-    "first half. K has no true value. Refits are coarse where the configuration has `discovery.coarse`."
+    "over without it, is that of the other half and of curves to which nothing was fitted. The size from all samples "
+    "is one linear step from the refit, once the other half has judged. K has no true value. Refits are coarse where "
+    "the configuration has `discovery.coarse`."
 )
 
 
@@ -95,9 +96,10 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
     yield _number("ln Bayes factor of the search", max(searched.ranking.values(), default=NAN))
     yield _number("its threshold", searched.threshold)
     yield Entry("said after the refit", _verdict(proved))
-    for cause in proved.refitted.extension if proved.refitted else ():
-        yield from _sizes(cause, result.hidden or ())
     if proved.refitted:
+        yield from _sizes(proved.refitted.extension, "fitted half of the samples")
+        yield from _sizes(proved.refitted.from_all_samples, "all samples")
+        yield from _hidden_sizes(proved.refitted.extension, result.hidden or ())
         yield _number("ln Bayes factor of the refits", proved.refitted.ln_bayes_factor)
         yield Entry("both refits converged", "yes" if proved.refitted.converged else "no")
     yield from map(_gain, proved.gain)
@@ -133,14 +135,24 @@ def _departure(departure: Departure) -> Entry:
     return Entry(f"wrong by: {CURVES.get(departure.curve, departure.curve)}", text, departure.deviations)
 
 
-def _sizes(cause: Cause, hidden: Sequence[Effect]) -> Iterator[Entry]:
-    unit, factor = UNITS.get(cause.unit, (cause.unit, 1.0))
-    value, low, high = (factor * amplitude for amplitude in (cause.amplitude, *cause.interval))
-    name = spaced_name(cause.name)
-    heading = f"size of {name}{f' ({unit})' if unit else ''}"
-    yield Entry(heading, f"{value:.3g} ({low:.3g} to {high:.3g})", value, low, high)
+def _size(name: str, unit: str) -> tuple[str, float]:
+    """Return the heading of a mechanism's size, and the factor from SI to the printed unit."""
+    printed, factor = UNITS.get(unit, (unit, 1.0))
+    return f"size of {spaced_name(name)}{f' ({printed})' if printed else ''}", factor
+
+
+def _sizes(causes: Sequence[Cause], source: str) -> Iterator[Entry]:
+    for cause in causes:
+        heading, factor = _size(cause.name, cause.unit)
+        value, low, high = (factor * amplitude for amplitude in (cause.amplitude, *cause.interval))
+        yield Entry(f"{heading}, {source}", f"{value:.3g} ({low:.3g} to {high:.3g})", value, low, high)
+
+
+def _hidden_sizes(causes: Sequence[Cause], hidden: Sequence[Effect]) -> Iterator[Entry]:
+    names = [cause.name for cause in causes]
     for effect in hidden:
-        if effect.name == cause.name:
+        if effect.name in names:
+            heading, factor = _size(effect.name, effect.unit)
             yield Entry(f"{heading}, hidden", f"{factor * effect.amplitude:.3g}", factor * effect.amplitude)
 
 

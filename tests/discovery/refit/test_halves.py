@@ -49,6 +49,18 @@ def test_a_target_of_both_ventricles_has_half_of_the_right_volume_too() -> None:
     assert target.samples["rv_volume"].times == pytest.approx(TIMES["lv_volume"][~HELD["lv_volume"]])
 
 
+def test_the_complete_target_has_every_sample_of_the_fitted_curves_once() -> None:
+    both = case(error=0.1)
+    complete = both.complete_target
+    assert {name: samples.times.tolist() for name, samples in complete.samples.items()} == {
+        name: pytest.approx(times) for name, times in TIMES.items()
+    }
+    fitted = complete.rows_of(both.target.samples)
+    assert complete.values()[fitted] == pytest.approx(both.target.values())
+    assert complete.covariance[np.ix_(fitted, fitted)] == pytest.approx(both.target.covariance)
+    assert complete.rows_of({}).sum() == 0
+
+
 def test_one_half_chooses_a_name_and_the_other_judges_it() -> None:
     chosen, unseen = map(times_of, case().halves())
     for name, times in TIMES.items():

@@ -11,7 +11,14 @@ from scipy.stats import norm
 from heartfit.core.arrays import Floats
 from heartfit.discovery.refit import refit as module
 from heartfit.discovery.refit.model import Extension
-from heartfit.discovery.refit.refit import Refit, continue_refit, refit, renew_slopes, restart_refit
+from heartfit.discovery.refit.refit import (
+    Refit,
+    complete_posterior,
+    continue_refit,
+    refit,
+    renew_slopes,
+    restart_refit,
+)
 from heartfit.discovery.refit.target import Target
 from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
@@ -47,7 +54,9 @@ def leak_scale(areas: list[float]) -> Floats:
 @pytest.fixture(autouse=True)
 def _linear(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        module, "beat_curves", lambda beat, _: {"lv_volume": lambda _: SLOPES[:, : beat.x.size] @ beat.x}
+        module,
+        "beat_curves",
+        lambda beat, _: {"lv_volume": lambda times: (SLOPES[:, : beat.x.size] @ beat.x)[times.astype(int)]},
     )
 
 
@@ -106,11 +115,34 @@ def test_an_extension_starts_where_the_model_without_it_ended_and_where_it_start
 
 def test_renewed_slopes_cost_a_beat_each_and_lead_on(fits: tuple[Refit, Refit]) -> None:
     spoilt = replace(fits[1], slopes=-SLOPES, estimate=np.zeros(3), predicted=np.zeros(12))
-    renewed = renew_slopes(LEAKING, run, target(), 0, spoilt)
+    renewed = renew_slopes(LEAKING, run, target(), target(), 0, spoilt)
     assert renewed.slopes == pytest.approx(SLOPES)
-    assert renewed.simulations == spoilt.simulations + 3
-    further = renew_slopes(LEAKING, run, target(), 20, spoilt)
+    assert renewed.simulations == spoilt.simulations + 1 + 3
+    further = renew_slopes(LEAKING, run, target(), target(), 20, spoilt)
     assert further.estimate == pytest.approx(fits[1].estimate, abs=0.1)
+
+
+def test_the_final_posterior_is_that_of_all_samples_whatever_half_was_fitted() -> None:
+    every = target()
+    half = Target({"lv_volume": every.samples["lv_volume"].part(np.arange(12) % 2 == 0)}, NOISE[:6, :6])
+    fit = renew_slopes(LEAKING, run, half, every, 20, refit(LEAKING, run, half, 20))
+    assert fit.complete_slopes == pytest.approx(SLOPES)
+    final = complete_posterior(LEAKING, fit, every, SLOPES @ fit.estimate)
+    mean, covariance, _ = posterior(3, every.values())
+    assert final is not None
+    assert final.mean == pytest.approx(mean)
+    assert final.covariance == pytest.approx(covariance)
+    assert (final.sd < fit.posterior.sd).all()
+    negative = replace(every.samples["lv_volume"], values=SLOPES @ (TRUTH * [1.0, 1.0, -1.0]))
+    bounded = complete_posterior(LEAKING, fit, Target({"lv_volume": negative}, NOISE), SLOPES @ fit.estimate)
+    assert bounded is not None
+    assert bounded.mean[2] == 0.0
+
+
+def test_without_a_slope_of_all_samples_there_is_no_final_posterior(fits: tuple[Refit, Refit]) -> None:
+    assert complete_posterior(LEAKING, fits[1], target(), fits[1].predicted) is None
+    unknown = replace(fits[1], complete_slopes=np.where(np.arange(3) == 1, np.nan, SLOPES))
+    assert complete_posterior(LEAKING, unknown, target(), fits[1].predicted) is None
 
 
 def test_a_coordinate_is_a_standard_deviation_of_the_prior() -> None:

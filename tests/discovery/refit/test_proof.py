@@ -141,7 +141,7 @@ def test_the_noise_of_images_is_that_of_their_phases(case: MeasuredCase) -> None
 
 def test_the_refit_finds_the_leak_and_the_heart_that_has_it(refits: tuple[Refit, Refit]) -> None:
     none, extended = refits
-    (cause,) = causes_of(Extension.from_names(PLAIN, "MitralRegurgitation"), extended, {})
+    (cause,) = causes_of(Extension.from_names(PLAIN, "MitralRegurgitation"), extended.posterior, {})
     assert cause.interval[0] < AREA < cause.interval[1]
     assert cause.amplitude == pytest.approx(AREA, rel=0.25)
     assert extended.objective < none.objective - 10.0
@@ -231,14 +231,14 @@ def test_renewed_slopes_are_differences_at_the_estimate_and_end_no_higher(
 ) -> None:
     extension, fit = Extension.from_names(PLAIN, "MitralRegurgitation"), refits[1]
     spoilt = replace(fit, slopes=0.0 * fit.slopes)
-    kept = renew_slopes(extension, run, target(case), 0, spoilt)
-    assert kept.simulations == fit.simulations + fit.estimate.size
+    kept = renew_slopes(extension, run, target(case), case.complete_target, 0, spoilt)
+    assert kept.simulations == fit.simulations + 1 + fit.estimate.size
     assert kept.estimate == pytest.approx(fit.estimate)
     shifted = fit.estimate + 0.25 * np.eye(3)[1]
     curves = beat_curves(run(extension, extension.parameters(shifted)))
     values = np.concatenate([curves[name](held.times) for name, held in case.split.fitted.items()])
     assert kept.slopes[:, 1] == pytest.approx((values - fit.predicted) / 0.25)
-    further = renew_slopes(extension, run, target(case), 20, spoilt)
+    further = renew_slopes(extension, run, target(case), case.complete_target, 20, spoilt)
     assert further.objective <= fit.objective
     assert further.converged
 
@@ -247,8 +247,17 @@ def test_a_slope_is_kept_where_its_difference_does_not_beat(
     case: MeasuredCase, refits: tuple[Refit, Refit]
 ) -> None:
     extension, fit = Extension.from_names(PLAIN, "MitralRegurgitation"), refits[1]
-    failing = renew_slopes(extension, lambda *_: failed_beat("never", PERIOD, 0.0, {}), target(case), 0, fit)
+    beats = iter([run(extension, fit.parameters)])
+
+    def only_once(*_: object) -> Beat:
+        return next(beats, failed_beat("never", PERIOD, 0.0, {}))
+
+    failing = renew_slopes(extension, only_once, target(case), case.complete_target, 0, fit)
     assert failing.slopes == pytest.approx(fit.slopes)
+    assert failing.complete_slopes is not None
+    assert np.isnan(failing.complete_slopes).all()
+    with pytest.raises(CalibrationError, match="repeated"):
+        renew_slopes(extension, only_once, target(case), case.complete_target, 0, fit)
 
 
 def test_an_absent_effect_ends_at_zero_at_the_optimum_of_the_baseline() -> None:

@@ -8,6 +8,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
+from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.discovery.refit import prove as module
 from heartfit.discovery.refit.model import Extension
@@ -50,6 +51,9 @@ class Trial(ExtensionTrial):
     def at(self, extension: Extension, refit: Refit) -> FittedExtension:
         return FittedExtension(extension, refit, cast("Any", None))
 
+    def final(self, fitted: FittedExtension) -> Gaussian | None:
+        return Gaussian(fitted.refit.names, fitted.refit.estimate, 0.25 * fitted.refit.covariance)
+
     def proof(self, _: FittedExtension, extended: FittedExtension) -> Proof:
         helps = len(extended.extension.added) in self.predicts
         stand_in = SimpleNamespace(helps=lambda: helps, gains=list, traces=tuple)
@@ -59,7 +63,7 @@ class Trial(ExtensionTrial):
 def trial(evidences: dict[int, float], predicts: tuple[int, ...]) -> Trial:
     case = cast("Any", SimpleNamespace(both=False))
     nothing = cast("Any", None)
-    return Trial(case, nothing, nothing, PLAIN, nothing, 5, evidences, predicts)
+    return Trial(case, nothing, nothing, PLAIN, nothing, nothing, 5, evidences, predicts)
 
 
 def proved(diagnosis: Diagnosis, judge: Trial) -> tuple[Diagnosis, Refit]:
@@ -88,6 +92,9 @@ def test_a_name_that_helps_is_kept_with_the_size_and_interval_of_its_refit() -> 
         ((2.0 - 1.96 * SD) * scale, (2.0 + 1.96 * SD) * scale)
     )
     assert shown.log_evidence == 9.0
+    assert diagnosis.refitted is not None
+    (final,) = diagnosis.refitted.from_all_samples
+    assert final.interval == pytest.approx(((2.0 - 0.98 * SD) * scale, (2.0 + 0.98 * SD) * scale))
 
 
 def test_of_two_names_the_second_must_help_beyond_the_first() -> None:

@@ -88,6 +88,9 @@ class Judge:
     def proof(self, _: FittedExtension, extended: FittedExtension) -> SimpleNamespace:
         return SimpleNamespace(helps=lambda: len(extended.extension.added) in self.nearer)
 
+    def final(self, _: FittedExtension) -> None:
+        """Return no size from all samples: the stand-in has no curves."""
+
 
 def climbed(judge: Judge) -> list[tuple[int, bool]]:
     base = cast("FittedExtension", judge.at(Extension(PLAIN), fitted(Extension(PLAIN), 0.0)))
@@ -185,6 +188,7 @@ def test_an_attempt_needs_no_search() -> None:
     assert np.isnan(trial.refitted.extension[0].ln_bayes_factor), "a trial without a search has none"
     assert trial.refitted.ln_bayes_factor == 3.0
     assert trial.refitted.simulations == 9 + 9 + 2
+    assert trial.refitted.from_all_samples == (), "no curve, no size from all samples"
     assert trial.gain[0].curve == "rv_volume"
 
 

@@ -16,8 +16,8 @@ JUDGING_MUTANTS = (
         HALVES,
         (
             "the target holds the held-out samples too",
-            "        fitted = self.split.fitted\n        return Target(",
-            "        fitted = dict(self.recording().curves)\n        return Target(",
+            "return self._target(self.split.fitted)",
+            "return self._target(self.split.complete())",
         ),
     ),
 )

@@ -3,10 +3,18 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
+from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.discovery.refit.model import Extension, Model, ObservedBeat
-from heartfit.discovery.refit.refit import Refit, continue_refit, refit, renew_slopes, restart_refit
-from heartfit.discovery.refit.target import MeasuredCase, Target
+from heartfit.discovery.refit.refit import (
+    Refit,
+    complete_posterior,
+    continue_refit,
+    refit,
+    renew_slopes,
+    restart_refit,
+)
+from heartfit.discovery.refit.target import MeasuredCase, Target, sample, stack
 from heartfit.discovery.refit.verdict import Proof, TriedExtension, apply_proof, propose_extensions
 from heartfit.discovery.sphere_model.cause import Attempt, Diagnosis
 from heartfit.geometry.mesh import Motion
@@ -24,13 +32,17 @@ class FittedExtension:
 
 @dataclass(frozen=True, eq=False)
 class ExtensionTrial:
-    """A measured case with its registered motion, its model, and the largest number of steps of a refit."""
+    """A measured case with its registered motion, its model, and the largest number of steps of a refit.
+
+    target: the fitted half of the samples; complete: both halves.
+    """
 
     case: MeasuredCase
     registered: Motion
     model: Model
     setting: Setting
     target: Target
+    complete: Target
     most_steps: int
 
     @property
@@ -43,7 +55,7 @@ class ExtensionTrial:
         return self._renewed(self.baseline, refit(self.baseline, self.model, self.target, self.most_steps))
 
     def _renewed(self, extension: Extension, fit: Refit) -> Refit:
-        return renew_slopes(extension, self.model, self.target, self.most_steps, fit)
+        return renew_slopes(extension, self.model, self.target, self.complete, self.most_steps, fit)
 
     def extended(self, extension: Extension, base: Refit) -> Refit:
         """Return the better of two refits, from the prior means and from the refit without the extension.
@@ -71,6 +83,11 @@ class ExtensionTrial:
             raise CalibrationError(f"the beat at the estimate: {beat.reason}")
         return FittedExtension(extension, fitted, ObservedBeat.from_beat(beat, extension, fitted.parameters))
 
+    def final(self, fitted: FittedExtension) -> Gaussian | None:
+        """Return the coordinates given both halves of the samples; None where not all their slopes are known."""
+        predicted = stack(sample(fitted.shown.curves, self.complete.samples))
+        return complete_posterior(fitted.extension, fitted.refit, self.complete, predicted)
+
     def proof(self, baseline: FittedExtension, extended: FittedExtension) -> Proof:
         """Return both refits with the measurement."""
         return Proof(self.case, self.model.mesh, self.registered, baseline.shown, extended.shown)
@@ -90,6 +107,7 @@ class ExtensionTrial:
             shown.refit,
             kept[-1].extension.effects if kept else (),
             sum(fit.refit.simulations + 1 for fit in (base, *(fit for fit, _ in steps))),
+            self.final(shown),
         )
         return apply_proof(diagnosis, tried, self.proof(base, shown)), shown.refit
 
@@ -99,7 +117,7 @@ class ExtensionTrial:
         base = self.at(self.baseline, baseline)
         extended = self.at(extension, self.continue_refit(extension, baseline))
         beats = baseline.simulations + extended.refit.simulations + 2
-        tried = TriedExtension(extension, baseline, extended.refit, (), beats)
+        tried = TriedExtension(extension, baseline, extended.refit, (), beats, self.final(extended))
         proof = self.proof(base, extended)
         return Attempt(tried.refitted({}), tuple(proof.gains()), proof.traces())
 

@@ -54,7 +54,8 @@ class Refit:
 
     misfit: r^T R^-1 r of n samples at the estimate; objective: the minimised function; log_evidence: up to a
     constant of the samples; simulations: number of beats; converged: no step was predicted to lower the objective;
-    predicted (n,), slopes (n, d): of the samples at the estimate; first_slopes (n, d): those of the unscented step.
+    predicted (n,), slopes (n, d): of the samples at the estimate; first_slopes (n, d): those of the unscented step;
+    complete_slopes (m, d): of both halves of the samples, where they were last renewed, NaN where a beat failed.
     """
 
     names: tuple[str, ...]
@@ -70,11 +71,12 @@ class Refit:
     predicted: Floats
     slopes: Floats
     first_slopes: Floats
+    complete_slopes: Floats | None = None
 
     @property
-    def sd(self) -> Floats:
-        """Standard deviations (d,) of the coordinates."""
-        return np.sqrt(np.diag(self.covariance))
+    def posterior(self) -> Gaussian:
+        """The coordinates, given the fitted samples."""
+        return Gaussian(self.names, self.estimate, self.covariance)
 
 
 def refit(extension: Extension, run: Run, target: Target, most: int, amplitude: float = 1.0) -> Refit:
@@ -129,24 +131,56 @@ def _extend(
     return _descend(forward, start, predicted, with_added, first, most)
 
 
-def renew_slopes(extension: Extension, run: Run, target: Target, most: int, fit: Refit) -> Refit:
+def renew_slopes(
+    extension: Extension, run: Run, target: Target, complete: Target, most: int, fit: Refit
+) -> Refit:
     """Renew all slopes at the estimate of a refit by differences, and descend from there.
 
-    Their step is long enough for the roughness of a limit cycle. A slope is kept where the beat of its difference
-    fails.
+    complete: both halves of the samples; the same beats give their slopes, which the descent does not use. The step
+    of the differences is long enough for the roughness of a limit cycle. A slope is kept where the beat of its
+    difference fails. Raises CalibrationError if the beat at the estimate fails.
     """
-    forward = _Forward(extension, run, target)
-    columns = [_difference(forward, fit, index) for index in range(fit.estimate.size)]
-    renewed = _descend(forward, fit.estimate, fit.predicted, np.column_stack(columns), fit.first_slopes, most)
-    return replace(renewed, simulations=fit.simulations + renewed.simulations)
+    forward = _Forward(extension, run, complete)
+    predicted = forward(fit.estimate)
+    if predicted is None:
+        raise CalibrationError("refit: the beat at the estimate fails when it is repeated")
+    columns = [_difference(forward, fit.estimate, predicted, i) for i in range(fit.estimate.size)]
+    slopes = np.column_stack(columns)
+    fitted = slopes[complete.rows_of(target.samples)]
+    known = np.where(np.isnan(fitted), fit.slopes, fitted)
+    again = _Forward(extension, run, target)
+    renewed = _descend(again, fit.estimate, fit.predicted, known, fit.first_slopes, most)
+    beats = fit.simulations + forward.simulations + renewed.simulations
+    return replace(renewed, simulations=beats, complete_slopes=slopes)
 
 
-def _difference(forward: "_Forward", fit: Refit, index: int) -> Floats:
-    """Slope (n,) along a coordinate, forwards, so that no amplitude leaves its bound."""
-    shifted = fit.estimate.copy()
+def _difference(forward: "_Forward", estimate: Floats, predicted: Floats, index: int) -> Floats:
+    """Slope (n,) along a coordinate, forwards, so that no amplitude leaves its bound; NaN where the beat fails."""
+    shifted = estimate.copy()
     shifted[index] += RENEWAL_STEP
     prediction = forward(shifted)
-    return fit.slopes[:, index] if prediction is None else (prediction - fit.predicted) / RENEWAL_STEP
+    return np.full(predicted.size, np.nan) if prediction is None else (prediction - predicted) / RENEWAL_STEP
+
+
+def complete_posterior(
+    extension: Extension, fit: Refit, complete: Target, predicted: Floats
+) -> Gaussian | None:
+    """Return the posterior of the coordinates given both halves of the samples, or None without all their slopes.
+
+    One linear step from the estimate of the refit, x + H^-1 g with the prior once and R of all samples; predicted (m,):
+    of all samples at the estimate. It judges nothing, since the half that judged is now fitted, too.
+    """
+    slopes = fit.complete_slopes
+    if slopes is None or np.isnan(slopes).any():
+        return None
+    slope, gram = complete.normal(complete.values() - predicted, slopes)
+    covariance = np.linalg.inv(np.eye(fit.estimate.size) + gram)
+    lower = np.where(extension.one_sided, 0.0, -np.inf)
+    return Gaussian(
+        fit.names,
+        np.maximum(fit.estimate + covariance @ (slope - fit.estimate), lower),
+        0.5 * (covariance + covariance.T),
+    )
 
 
 def _column(forward: "_Forward", start: Floats, predicted: Floats, index: int) -> Floats:

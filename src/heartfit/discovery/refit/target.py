@@ -57,6 +57,10 @@ class Split:
             held["rv_volume"] = right
         return cls(fitted, held)
 
+    def complete(self) -> Sampled:
+        """Both halves of every curve of which one is fitted, in the order of time."""
+        return {name: samples.merged(self.held[name]) for name, samples in self.fitted.items()}
+
 
 def average_bins(curve: Curve) -> Samples:
     """Average times and values over equal bins of about 10 ms; an empty bin is left out."""
@@ -98,6 +102,11 @@ class Target:
 
     samples: Sampled
     covariance: Floats
+
+    def rows_of(self, part: Sampled) -> np.ndarray:
+        """Mask (n,) of the samples of all curves that are in ``part``."""
+        times = {name: part[name].times if name in part else np.empty(0) for name in self.samples}
+        return np.concatenate([np.isin(samples.times, times[name]) for name, samples in self.samples.items()])
 
     def values(self) -> Floats:
         """The samples one after the other (n,)."""
@@ -201,8 +210,15 @@ class MeasuredCase:
     @property
     def target(self) -> Target:
         """The target of a refit."""
-        fitted = self.split.fitted
-        return Target(fitted, covariance(fitted, self.raw, self.models, self.frames))
+        return self._target(self.split.fitted)
+
+    @property
+    def complete_target(self) -> Target:
+        """The fitted samples and their other half, from which the size of a kept mechanism is estimated."""
+        return self._target(self.split.complete())
+
+    def _target(self, samples: Sampled) -> Target:
+        return Target(samples, covariance(samples, self.raw, self.models, self.frames))
 
     def recording(self) -> Recording:
         """All curves as the recording for the search on the sphere."""

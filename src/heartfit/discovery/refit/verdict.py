@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from heartfit.calibration.gaussian import Gaussian
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import Verdict
 from heartfit.discovery.refit.model import Extension, ObservedBeat
@@ -97,23 +98,28 @@ Z_95 = 1.96
 
 @dataclass(frozen=True, eq=False)
 class TriedExtension:
-    """Refits of the baseline and of an extension; kept: effects that helped; simulations: beats of all refits."""
+    """Refits of the baseline and of an extension; kept: effects that helped; simulations: beats of all refits.
+
+    final: coordinates of the extension given both halves of the samples, None where they are not known.
+    """
 
     extension: Extension
     baseline: Refit
     extended: Refit
     kept: tuple[str, ...]
     simulations: int
+    final: Gaussian | None = None
 
     def refitted(self, ranking: Mapping[str, float]) -> Refitted:
         """Return the result in the form of a diagnosis; ranking: evidence of each mechanism in the search."""
         return Refitted(
-            tuple(causes_of(self.extension, self.extended, ranking)),
+            tuple(causes_of(self.extension, self.extended.posterior, ranking)),
             self.extended.log_evidence - self.baseline.log_evidence,
             {name: self.baseline.parameters[name] for name in self.extension.base.estimate},
             {name: self.extended.parameters[name] for name in self.extension.base.estimate},
             self.simulations,
             self.baseline.converged and self.extended.converged,
+            tuple(causes_of(self.extension, self.final, ranking)) if self.final else (),
         )
 
 
@@ -170,13 +176,16 @@ def withdraw_unhelpful(diagnosis: Diagnosis, kept: Sequence[str]) -> Diagnosis:
     )
 
 
-def causes_of(extension: Extension, fitted: Refit, ranking: Mapping[str, float]) -> list[Cause]:
-    """Return the amplitudes of an extension with 95 % intervals and the evidence of each in the search."""
+def causes_of(extension: Extension, posterior: Gaussian, ranking: Mapping[str, float]) -> list[Cause]:
+    """Return the amplitudes of an extension with 95 % intervals and the evidence of each in the search.
+
+    posterior: of the coordinates of the extension.
+    """
     causes = []
     for effect in extension.added:
         switch = effect.unknowns[0]
-        place = fitted.names.index(f"{effect.name}.{switch.name}")
-        x, reach = float(fitted.estimate[place]), Z_95 * float(fitted.sd[place])
+        place = posterior.names.index(f"{effect.name}.{switch.name}")
+        x, reach = float(posterior.mean[place]), Z_95 * float(posterior.sd[place])
         amplitude, low, high = (switch.at(value) for value in (x, x - reach, x + reach))
         causes.append(
             Cause(effect.name, ranking.get(effect.name, np.nan), amplitude, switch.unit, (low, high))

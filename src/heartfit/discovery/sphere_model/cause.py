@@ -59,7 +59,8 @@ class Refitted:
     """The 3-D model without (``none``) and with an extension (``extended``), both fitted to half of the samples.
 
     extension: the added causes with refitted amplitudes; ln_bayes_factor: of the two refits; none, extended: parameters
-    [SI] by name; simulations: number of 3-D beats; converged: both refits converged.
+    [SI] by name; simulations: number of 3-D beats; converged: both refits converged; from_all_samples: the added causes
+    with their amplitudes given both halves of the samples, after the second has judged; empty where not computed.
     """
 
     extension: tuple[Cause, ...]
@@ -68,6 +69,7 @@ class Refitted:
     extended: Mapping[str, float]
     simulations: int
     converged: bool
+    from_all_samples: tuple[Cause, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -60,6 +60,12 @@ class Samples:
         """The samples that the mask (k,) keeps."""
         return Samples(self.times[kept], self.values[kept])
 
+    def merged(self, others: "Samples") -> "Samples":
+        """These samples and others, in the order of time."""
+        times = np.concatenate([self.times, others.times])
+        order = np.argsort(times)
+        return Samples(times[order], np.concatenate([self.values, others.values])[order])
+
 
 @dataclass(frozen=True, eq=False)
 class Recording:
