@@ -130,6 +130,18 @@ def test_playing_moves_the_cursor_of_the_curves(opened: Opened, heart: Locator) 
     heart.locator(".time").fill("0")
 
 
+def test_playing_starts_where_a_frame_is_older_than_the_click(opened: Opened, heart: Locator) -> None:
+    """Frames carry the time at which they began, which may lie before the clock at the click."""
+    ahead = "performance.now = ((now) => () => now() + 500)(performance.now.bind(performance))"
+    opened.page.evaluate(ahead)
+    heart.get_by_role("button", name="Play").click()
+    opened.page.wait_for_timeout(300)
+    heart.get_by_role("button", name="Pause").click()
+    opened.page.evaluate("delete performance.now")
+    assert opened.errors == []
+    heart.locator(".time").fill("0")
+
+
 def test_pictures_out_of_sight_release_their_context_and_are_redrawn(opened: Opened, heart: Locator) -> None:
     opened.page.locator("#provenance").scroll_into_view_if_needed()
     opened.page.wait_for_function("() => !document.querySelector('.heart').classList.contains('drawn')")

@@ -129,7 +129,7 @@ def test_a_parameter_of_zero_needs_a_median() -> None:
 def test_the_study_fits_both_ventricles_of_the_measured_heart_alone(config: dict) -> None:
     study = Study.model_validate(config)
     cases = {case.case: case for case in read_cases(ROOT / study.cases)}
-    assert study.settings_of(cases["patient1"]) == ("paper", "physical", "biventricular")
+    assert study.settings_of(cases["patient1"]) == ("paper", "physical", "paper_twice", "biventricular")
     assert study.settings_of(cases["volunteer1"]) == study.common_settings() == ("paper", "physical")
     assert study.curves_besides(cases["patient1"]) == ("rv_volume",)
     assert study.curves_besides(cases["volunteer1"]) == ()

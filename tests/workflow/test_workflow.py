@@ -6,7 +6,8 @@ import re
 import pytest
 
 VOLUNTEERS, PATIENTS, SEALED, SETTINGS = 7, 2, 2, 2
-POINTS_OF_COHORT = SETTINGS * (VOLUNTEERS * 9 + PATIENTS * 15) + SEALED * 15
+SECOND_ITERATIONS = 1  # of volunteer6; the measured heart has one more
+POINTS_OF_COHORT = SETTINGS * (VOLUNTEERS * 9 + PATIENTS * 15) + SEALED * 15 + SECOND_ITERATIONS * 9
 POINTS_OF_BOTH_VENTRICLES = 15
 """Sigma points of the third setting, which is for the measured heart."""
 
@@ -55,7 +56,7 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     counts = job_counts(planned.stdout)
     assert planned.returncode == 0, planned.stdout
     assert counts["simulate_point"] == POINTS_OF_COHORT
-    assert counts["simulate_calibrated"] == SETTINGS * (VOLUNTEERS + PATIENTS) + SEALED
+    assert counts["simulate_calibrated"] == SETTINGS * (VOLUNTEERS + PATIENTS) + SEALED + SECOND_ITERATIONS
     assert counts["generate_volunteer"] == VOLUNTEERS + PATIENTS + SEALED
     assert counts["record_pressure"] == PATIENTS + SEALED
     assert counts["make_tables"] == 1
@@ -111,8 +112,10 @@ def test_the_measured_heart_is_one_more_case(workflow, measured_heart_folder):
     imaged = len(list((measured_heart_folder / "cine").glob("sax*")))
     assert counts.get("register_cine", 0) == counts.get("compare_cine", 0) == min(imaged, 1)
     assert ("registration of images left out" in run.stdout) == (imaged == 0)
-    assert counts["simulate_point"] == POINTS_OF_COHORT + SETTINGS * 9 + POINTS_OF_BOTH_VENTRICLES
-    assert counts["simulate_calibrated"] == SETTINGS * (VOLUNTEERS + PATIENTS + 1) + 1 + SEALED
+    assert counts["simulate_point"] == POINTS_OF_COHORT + (SETTINGS + 1) * 9 + POINTS_OF_BOTH_VENTRICLES
+    assert counts["simulate_calibrated"] == (
+        SETTINGS * (VOLUNTEERS + PATIENTS + 1) + 1 + SEALED + SECOND_ITERATIONS + 1
+    )
     assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
 
 

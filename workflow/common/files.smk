@@ -53,6 +53,17 @@ def sigma_point_beats(wildcards):
     return list_sigma_point_beats(wildcards.case, wildcards.setting)
 
 
+def first_estimate(wildcards):
+    """Posterior of the first iteration, about which a second one draws its points; empty in a first iteration."""
+    first = STUDY.first_step(wildcards.setting)
+    return [] if first == wildcards.setting else [f"<results>/{{case}}/{first}/calibration/posterior.json"]
+
+
+def beat_at_prior(wildcards):
+    """Beat at the prior's mean, the central sigma point of the first iteration."""
+    return f"<results>/{{case}}/{STUDY.first_step(wildcards.setting)}/calibration/beats/0.json"
+
+
 def list_sigma_point_beats(case, setting):
     return expand(
         "<results>/{case}/{setting}/calibration/beats/{point}.json",

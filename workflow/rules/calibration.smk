@@ -7,6 +7,8 @@ rule compile_kernels:
 
 
 rule draw_sigma_points:
+    input:
+        first_estimate,
     output:
         "<results>/{case}/{setting}/calibration/points.json",
     params:

@@ -41,7 +41,7 @@ rule plot_overlay:
 rule plot_case:
     input:
         measured="<results>/{case}/curves/measured.csv",
-        reference="<results>/{case}/{setting}/calibration/beats/0.json",
+        reference=beat_at_prior,
         calibrated="<results>/{case}/{setting}/verification/beat.json",
         errors="<results>/{case}/{setting}/verification/errors.json",
     output:

@@ -22,7 +22,7 @@ rule compare_case:
         posterior="<results>/{case}/{setting}/calibration/posterior.json",
         observations="<results>/{case}/curves/observations.json",
         measured="<results>/{case}/curves/measured.csv",
-        reference="<results>/{case}/{setting}/calibration/beats/0.json",
+        reference=beat_at_prior,
         calibrated="<results>/{case}/{setting}/verification/beat.json",
     output:
         "<results>/{case}/{setting}/verification/errors.json",

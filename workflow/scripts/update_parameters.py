@@ -11,11 +11,11 @@ from heartfit.personalise.run import estimate
 
 record(snakemake.log[0])
 files, params = snakemake.input, snakemake.params
-prior, points = read_sigma_points(Path(files.points))
+around, points = read_sigma_points(Path(files.points))
 measurement = read_observations(Path(files.observations))
 beats = list(map(read_beat, map(Path, files.beats)))
 measured = read_curves(Path(files.measured))
-arguments = (params.setting, prior, points, beats, measured, measurement, params.operator)
+arguments = (params.setting, around, points, beats, measured, measurement, params.operator)
 slopes = Slopes.from_parts(list(map(read_sensitivity, map(Path, files.sensitivities))))
 noise_free, noise_aware = (
     estimate(*arguments, params.transform),

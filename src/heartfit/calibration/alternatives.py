@@ -41,8 +41,8 @@ import numpy as np
 
 from heartfit.calibration.design import CalibrationError, Design
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.calibration.unscented import STANDARD_DESIGN, Forward, Moments, sigma_points
-from heartfit.calibration.update import Posterior, moments_of, update
+from heartfit.calibration.unscented import STANDARD_DESIGN, Forward, sigma_points
+from heartfit.calibration.update import SHRINK, Posterior, calibrate, narrowed
 from heartfit.core.errors import InputError
 
 
@@ -52,7 +52,7 @@ def iterate(
     observed: Mapping[str, float],
     noise: np.ndarray | None = None,
     design: Design = STANDARD_DESIGN,
-    shrink: float = 0.5,
+    shrink: float = SHRINK,
     start: Gaussian | None = None,
 ) -> Iterator[Posterior]:
     """Yield the posteriors of steps 1, 2, ... without end, each from one simulation per point of the design.
@@ -64,20 +64,10 @@ def iterate(
     spread = 1.0
     while True:
         outcomes = forward([point.parameters for point in sigma_points(around, design)])
-        moments = moments_of(around, outcomes, tuple(observed), design)
-        posterior = update(prior, under_prior(prior, around, moments), observed, noise)
+        posterior = calibrate(prior, outcomes, observed, noise, design, around)
         yield posterior
-        spread *= shrink**2
-        around = Gaussian(prior.names, posterior.estimate.mean, spread * first.covariance)
-
-
-def under_prior(prior: Gaussian, around: Gaussian, moments: Moments) -> Moments:
-    """Return the moments under the prior of the linear model from ``moments``, which are those under ``around``."""
-    slope = np.linalg.solve(around.covariance, moments.cov_xz)
-    bent = moments.cov_zz - slope.T @ around.covariance @ slope
-    cov_xz = prior.covariance @ slope
-    mean = moments.mean + (prior.mean - around.mean) @ slope
-    return Moments(mean, cov_xz, slope.T @ cov_xz + bent, moments.failed)
+        spread *= shrink
+        around = narrowed(first, posterior.estimate.mean, spread)
 
 
 def smooth_ensemble(

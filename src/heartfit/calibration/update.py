@@ -71,9 +71,34 @@ def calibrate(
     observed: Mapping[str, float],
     noise: np.ndarray | None = None,
     design: Design = STANDARD_DESIGN,
+    around: Gaussian | None = None,
 ) -> Posterior:
-    """Return the posterior from the outcome of each sigma point: its observations, or the reason of its failure."""
-    return update(prior, moments_of(prior, outcomes, tuple(observed), design), observed, noise)
+    """Return the posterior from the outcome of each sigma point: its observations, or the reason of its failure.
+
+    around: Gaussian of the points in a later iteration, see :func:`iterate`; by default that of the prior.
+    """
+    if around is None:
+        return update(prior, moments_of(prior, outcomes, tuple(observed), design), observed, noise)
+    moments = moments_of(around, outcomes, tuple(observed), design)
+    return update(prior, under_prior(prior, around, moments), observed, noise, around.mean)
+
+
+SHRINK = 0.5
+"""Factor of the standard deviations of the points from one iteration to the next: slopes near the estimate."""
+
+
+def narrowed(prior: Gaussian, estimate: np.ndarray, factor: float = SHRINK) -> Gaussian:
+    """Return the Gaussian of the points of a later iteration: at an estimate (n,), deviations times ``factor``."""
+    return Gaussian(prior.names, estimate, factor**2 * prior.covariance)
+
+
+def under_prior(prior: Gaussian, around: Gaussian, moments: Moments) -> Moments:
+    """Return the moments under the prior of the linear model from ``moments``, which are those under ``around``."""
+    slope = np.linalg.solve(around.covariance, moments.cov_xz)
+    bent = moments.cov_zz - slope.T @ around.covariance @ slope
+    cov_xz = prior.covariance @ slope
+    mean = moments.mean + (prior.mean - around.mean) @ slope
+    return Moments(mean, cov_xz, slope.T @ cov_xz + bent, moments.failed)
 
 
 def moments_of(
@@ -103,11 +128,16 @@ def _row(outcome: Mapping[str, float] | str, names: Iterable[str]) -> list[float
 
 
 def update(
-    prior: Gaussian, moments: Moments, observed: Mapping[str, float], noise: np.ndarray | None = None
+    prior: Gaussian,
+    moments: Moments,
+    observed: Mapping[str, float],
+    noise: np.ndarray | None = None,
+    start: np.ndarray | None = None,
 ) -> Posterior:
     """Return the posterior given `observed` (by name, in the order of the moments' columns).
 
-    noise: R (m, m) in the observations' units, zero if None (the paper). Raises CalibrationError if an
+    noise: R (m, m) in the observations' units, zero if None (the paper); start (n,): where the points of a later
+    iteration lie, from which the notes count a long step, the prior's mean by default. Raises CalibrationError if an
     observation does not respond to any parameter, if the observations are collinear over the prior, or if a
     scaling with a negative weight makes a covariance negative.
     """
@@ -136,7 +166,7 @@ def update(
         (
             *_failures(moments.failed),
             *_excess(len(prior.names), names, noise),
-            *_long_steps(prior.names, step),
+            *_long_steps(prior.names, step if start is None else (prior.mean + shift - start) / prior.sd),
         ),
     )
 

@@ -83,7 +83,10 @@ def _case(results: Path, study: Study, case: Case) -> CaseRecord:
         registered=read_motion(folder / "registration" / "motion.npz"),
         measured=read_curves(folder / "curves" / "measured.csv"),
         noise=[read_noise_model(model)] if case.virtual else [],
-        fits={name: _fit(folder, name, setting, truth) for name, setting in settings.items()},
+        fits={
+            name: _fit(folder, name, setting, study.first_step(name), truth)
+            for name, setting in settings.items()
+        },
         still=_still(results / "figures" / f"{case.case}_activation.png"),
     )
 
@@ -96,7 +99,8 @@ def _still(path: Path) -> Image.Image | None:
         return picture.convert("RGB")
 
 
-def _fit(folder: Path, name: str, setting: Setting, truth: Mapping[str, float]) -> FittedCase:
+def _fit(folder: Path, name: str, setting: Setting, first: str, truth: Mapping[str, float]) -> FittedCase:
+    """Fit under a setting; the first iteration has the beat at the prior's mean."""
     calibration, verification = folder / name / "calibration", folder / name / "verification"
     discovery = folder / "discovery" / name
     noise_free, noise_aware = (
@@ -107,6 +111,10 @@ def _fit(folder: Path, name: str, setting: Setting, truth: Mapping[str, float]) 
         (noise_free, noise_aware),
         truth,
         _sigma_beats(calibration, setting),
+        beat_curves(
+            read_beat(folder / first / "calibration" / "beats" / "0.json"),
+            setting.sensors(noise_free.prior.physical()),
+        ),
         beat_curves(read_beat(verification / "beat.json"), setting.sensors(noise_free.estimate.physical())),
         read_simulated_motion(verification / "motion.npz"),
         (_diagnosis(discovery / "search"), _diagnosis(discovery)),
@@ -115,12 +123,12 @@ def _fit(folder: Path, name: str, setting: Setting, truth: Mapping[str, float]) 
 
 def _sigma_beats(folder: Path, setting: Setting) -> SigmaBeats:
     """Sigma points, and the curves that the sensors record of their beats."""
-    prior, points = read_sigma_points(folder / "points.json")
+    around, points = read_sigma_points(folder / "points.json")
     beats = [
         beat_curves(read_beat(folder / "beats" / f"{point.index}.json"), setting.sensors(point.parameters))
         for point in points
     ]
-    return SigmaBeats(prior, points, beats)
+    return SigmaBeats(around, points, beats)
 
 
 def _diagnosis(folder: Path) -> Diagnosis | None:

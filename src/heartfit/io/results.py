@@ -107,14 +107,16 @@ def read_fingerprint(path: Path) -> str:
     return _read(path)["fingerprint"]
 
 
-def write_sigma_points(path: Path, prior: Gaussian, points: list[SigmaPoint], fingerprint: str) -> None:
-    """Write the prior and its sigma points."""
-    write_result(path, {"prior": prior, "points": points}, fingerprint, {"parameters": "SI", "z": "ln of SI"})
+def write_sigma_points(path: Path, around: Gaussian, points: list[SigmaPoint], fingerprint: str) -> None:
+    """Write the Gaussian that the sigma points represent, the prior in a first iteration, and the points."""
+    write_result(
+        path, {"around": around, "points": points}, fingerprint, {"parameters": "SI", "z": "ln of SI"}
+    )
 
 
 def read_sigma_points(path: Path) -> tuple[Gaussian, list[SigmaPoint]]:
-    """Read the prior and its sigma points."""
-    return read_record(path, Gaussian, "prior"), read_record(path, list[SigmaPoint], "points")
+    """Read the Gaussian of the sigma points, and the points."""
+    return read_record(path, Gaussian, "around"), read_record(path, list[SigmaPoint], "points")
 
 
 def write_observations(path: Path, measurement: Measurement, fingerprint: str) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.sensitivity import Slopes
 from heartfit.calibration.unscented import Outcome, SigmaPoint
-from heartfit.calibration.update import Posterior, calibrate
+from heartfit.calibration.update import Posterior, calibrate, narrowed
 from heartfit.core.arrays import Floats
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
@@ -99,7 +99,7 @@ def run_beat(
 
 def estimate(
     setting: Setting,
-    prior: Gaussian,
+    around: Gaussian,
     points: Sequence[SigmaPoint],
     beats: Iterable[Beat],
     measured: Mapping[str, Curve],
@@ -110,6 +110,7 @@ def estimate(
 ) -> Posterior:
     """Return the posterior from the beats of all sigma points, in their order, each observed by its sensors.
 
+    ``around`` is the Gaussian of the points: in the first iteration the prior of the setting.
     Only the observations of the setting's curves are used. Without the noise that transform or setting asks for, the
     measured values are fitted exactly, as in the paper; with it, the bias-corrected values with their covariance.
     ``slopes`` add the uncertainty due to parameters that are not estimated.
@@ -122,7 +123,18 @@ def estimate(
         noise = noise + slopes.covariance(setting.estimate, measurement.corrected, transform.fixed_sd)
     observed = measurement.values if noise is None else measurement.corrected
     outcomes = observe_beats(beats, features, sensors)
-    return calibrate(prior, outcomes, observed, noise, transform.scaling())
+    if setting.iterations == 1:
+        return calibrate(around, outcomes, observed, noise, transform.scaling())
+    return calibrate(setting.gaussian(), outcomes, observed, noise, transform.scaling(), around)
+
+
+def gaussian_of_points(setting: Setting, first: Sequence[Posterior]) -> Gaussian:
+    """Return the Gaussian of the sigma points: the prior, or a narrower one at the estimate of the first iteration.
+
+    first: posterior of the first iteration, empty where this is the first.
+    """
+    prior = setting.gaussian()
+    return narrowed(prior, first[0].estimate.mean) if first else prior
 
 
 def observe_plausibility(

@@ -92,7 +92,13 @@ class Prior(Strict):
 class Setting(Strict):
     """A model with its estimated and fixed parameters."""
 
+    like: str | None = Field(None, description="setting whose fields serve where this one states none")
     element: Element
+    iterations: Literal[1, 2] = Field(
+        1,
+        description="steps of the calibration; a second one starts at the estimate of the setting that is otherwise "
+        "the same with one",
+    )
     reference: Literal["unloaded", "end_diastolic"] = Field("unloaded", description="the stress-free state")
     mechanisms: tuple[str, ...] = Field((), description="added to the heart, by name")
     estimate: tuple[str, ...] = Field(min_length=1)
@@ -141,13 +147,14 @@ class Setting(Strict):
     def with_estimated(self, names: Sequence[str]) -> "Setting":
         """Return the setting with these parameters estimated instead; a fixed value becomes the mean of the prior.
 
-        It observes the left ventricle and serves all cases: settings of the same model become equal.
+        It observes the left ventricle, serves all cases and takes one step: settings of the same model become equal.
         """
         freed = {name: Prior(mean=value) for name, value in self.heart.items() if name in names}
         prior = self.prior | {name: mean.over(self.prior.get(name, Prior())) for name, mean in freed.items()}
         fixed = {name: value for name, value in self.heart.items() if name not in names}
         model = {"estimate": tuple(names), "heart": fixed, "prior": prior}
-        changes = model | {"with_pressure": (), "observe": (), "cases": None, "noise": False}
+        rest = {"with_pressure": (), "observe": (), "cases": None, "noise": False, "iterations": 1}
+        changes = model | rest
         return self.model_copy(update=changes)
 
     def with_prior(self, table: Mapping[str, Prior]) -> "Setting":

@@ -57,7 +57,8 @@ class Study(Strict):
     discovery: Discovery = Discovery()
     prior: dict[str, Prior] = Field({}, description="priors that differ from the declared ones")
     settings: dict[Name, Setting] = Field(
-        min_length=1, description="settings by name; null removes a setting of an earlier file"
+        min_length=1,
+        description="settings by name; null removes a setting of an earlier file, and those that are like it",
     )
 
     @field_validator("settings", mode="before")
@@ -65,7 +66,9 @@ class Study(Strict):
     def _drop_removed(cls, settings: Any) -> Any:
         if not isinstance(settings, Mapping):
             return settings
-        return {name: setting for name, setting in settings.items() if setting is not None}
+        removed = {name for name, setting in settings.items() if setting is None}
+        kept = {name: setting for name, setting in settings.items() if name not in removed}
+        return {name: _completed(name, kept) for name in kept if _like(kept[name]) not in removed}
 
     @model_validator(mode="after")
     def _names_are_known(self) -> Self:
@@ -76,6 +79,8 @@ class Study(Strict):
             setting.with_lv_pressure().with_prior(self.prior)
         for name in self.settings:
             self.perturbation_setting(name)
+        for name in self.settings:
+            self.first_step(name)
         if all(setting.cases is not None for setting in self.settings.values()):
             raise ValueError("settings: each names its cases; expected one for all cases: omit its `cases`")
         for name in self.discovery.settings:
@@ -167,6 +172,24 @@ class Study(Strict):
         observed = (curve for name in self.settings_of(case) for curve in self.settings[name].observe)
         return tuple(dict.fromkeys(observed))
 
+    def first_step(self, name: str) -> str:
+        """Return the setting whose step starts at the prior: for two iterations the same setting with one, else itself.
+
+        Raises ValueError where a setting of two iterations has no such partner for all its cases.
+        """
+        setting = self.settings[name]
+        if setting.iterations == 1:
+            return name
+        once = setting.model_copy(update={"iterations": 1, "cases": None})
+        for other, partner in self.settings.items():
+            serves = partner.cases is None or set(setting.cases or ("",)) <= set(partner.cases)
+            if serves and partner.model_copy(update={"cases": None}) == once:
+                return other
+        raise ValueError(
+            f"settings.{name}: a second iteration starts at the estimate of the first; expected the same setting with "
+            f"one iteration for these cases: add it, or state `like: ...` with its name"
+        )
+
     def perturbed_as(self, name: str) -> str:
         """Return the first setting of the same model and prior, whose perturbed beats serve this one too."""
         own = self.perturbation_setting(name)
@@ -246,3 +269,21 @@ class Study(Strict):
             name: self.sphere_study.known_hearts(self.prior, operators, pressure)
             for name, operators in features_by_name.items()
         }
+
+
+def _like(setting: Any) -> Any:
+    return setting.get("like") if isinstance(setting, Mapping) else None
+
+
+def _completed(name: str, settings: Mapping[str, Any]) -> Any:
+    """Return a stated setting with the fields of the one that it is like; that one is like no other."""
+    setting, like = settings[name], _like(settings[name])
+    if like is None:
+        return setting
+    model = settings.get(like) if isinstance(like, str) else None
+    if not isinstance(model, Mapping) or _like(model) is not None:
+        known = ", ".join(other for other in settings if other != name)
+        raise ValueError(
+            f"settings.{name}.like: {like!r}; expected a setting that is like no other, among {known}"
+        )
+    return {**model, **setting, "like": None}

@@ -76,9 +76,9 @@ TABLES_OF_TEXT = ("claims", "table1_as_printed", "table2_as_printed")
 
 @dataclass(frozen=True, eq=False)
 class SigmaBeats:
-    """Sigma points of a prior with the curves of their beats, empty for a failed beat."""
+    """Sigma points and the Gaussian that they represent, with the curves of their beats, empty for a failed beat."""
 
-    prior: Gaussian
+    around: Gaussian
     points: Sequence[SigmaPoint]
     beats: Sequence[Curves]
 
@@ -108,6 +108,7 @@ class FittedCase:
         posteriors: tuple[Posterior, Posterior],
         truth: Mapping[str, float],
         sigma: SigmaBeats,
+        reference: Curves,
         calibrated: Curves,
         motion: Motion | None,
         diagnoses: tuple[Diagnosis | None, Diagnosis | None],
@@ -115,8 +116,8 @@ class FittedCase:
         """Return the fit of these results; posteriors: noise-free and noise-aware; truth: SI by name."""
         noise_free, noise_aware = posteriors
         card = Card(result.case, result.setting, noise_free, noise_aware, comparable_truth(truth))
-        sd = curve_deviation(sigma.prior, sigma.points, sigma.beats, noise_aware.estimate, calibrated)
-        return cls(result, card, sigma.beats[0], calibrated, sd, motion, *diagnoses)
+        sd = curve_deviation(sigma.around, sigma.points, sigma.beats, noise_aware.estimate, calibrated)
+        return cls(result, card, reference, calibrated, sd, motion, *diagnoses)
 
     @property
     def posterior(self) -> Posterior:

@@ -208,7 +208,8 @@ class Heart {
   async play() {
     this.playing = true;
     this.button.textContent = "❚❚ Pause";
-    let [last, time] = [performance.now(), this.times[this.phase]];
+    // the clock of frames from the start: performance.now() may be ahead of the first frame, before which there is no phase
+    let [last, time] = [await new Promise(requestAnimationFrame), this.times[this.phase]];
     while (this.playing) {
       const now = await new Promise(requestAnimationFrame);
       time = (time + (now - last) * Number(this.find("speed").value)) % this.given.period_ms;
