@@ -30,7 +30,7 @@ rule all:
 # Further targets, made only on request:
 #   fetch_measured_heart   download the published heart of patient1 into resources/bivme_patient1
 #   discover               search and refit the cases of `discovery.cases`; config/measured_heart.yaml has the measured heart
-#   check_numbers          compare the numbers of the tables with the stored ones of config/tolerances.tsv
+#   check_numbers          compare the tables with the stored ones of resources/reference
 #   discovery_benchmark    diagnose planted effects in spheres and in ventricles, score the diagnoses, write the pages
 #   check_discovery        compare these scores with the claims of config/discovery_claims.tsv
 #   discovery_ventricles   score the diagnoses of ventricles alone; check_ventricles compares them with their claims

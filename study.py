@@ -39,7 +39,9 @@ OLDEST, NEWEST = (3, 11), (3, 13)
 LOCK = ROOT / "requirements.lock"
 STAMP = ENVIRONMENT / "installed.sha256"
 MEASURED = ROOT / "docs" / "measured" / "study.tsv"
-DISCOVER = ("discover", "--configfile", "config/measured_heart.yaml")
+STUDY = ("all", "check_numbers")
+"""The study, and the comparison of its tables with the stored ones."""
+DISCOVER = ("discover", "check_discovered", "--configfile", "config/measured_heart.yaml")
 """Search and refit of the measured heart, with configuration and results of their own."""
 DISCOVERED = ROOT / "results" / "measured_heart"
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -125,7 +127,7 @@ def run(arguments: list[str]) -> int:
         f"The study takes about {duration()} minutes on two cores; results that are up to date are kept.",
         flush=True,
     )
-    code = snakemake(arguments)
+    code = snakemake(arguments or STUDY)
     if arguments or code:
         return code
     code = snakemake(DISCOVER)

@@ -63,17 +63,6 @@ def test_a_beat_imports_no_library_that_it_does_not_use():
     assert run.stdout == "\n", "each import takes 0.05 to 0.4 s of every job"
 
 
-def test_tolerances_are_renewed(tmp_path, capsys):
-    numbers, table = tmp_path / "numbers.csv", tmp_path / "tolerances.tsv"
-    numbers.write_text("table,setting,case,quantity,value,unit\ntable1,paper,v1,V_min,1.25,%\n")
-    header = "table\tsetting\tcase\tquantity\texpected\ttolerance\twhy\n"
-    table.write_text(f"{header}table1\tpaper\tv1\tV_min\t9\t0.5\tmeshes differ\n")
-    assert cli.main(["tolerances", str(numbers), str(table)]) == 0
-    assert capsys.readouterr().out == f"{header}table1\tpaper\tv1\tV_min\t1.25\t0.5\tmeshes differ\n"
-    assert cli.main(["tolerances", str(tmp_path / "none.csv"), str(table)]) == 2
-    assert "none.csv" in capsys.readouterr().err
-
-
 def test_check_lists_what_is_left_out(tmp_path, capsys):
     (tmp_path / "no_heart.yaml").write_text(f"measured_heart: ['{tmp_path}/nowhere']\n")
     assert cli.main(["check", "--config", "config/config.yaml", str(tmp_path / "no_heart.yaml")]) == 0

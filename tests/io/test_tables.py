@@ -9,10 +9,10 @@ from matplotlib.figure import Figure
 
 from heartfit.core.errors import InputError
 from heartfit.io.tables import (
+    read_claims,
     read_numbers,
     read_published,
     read_shape,
-    read_tolerances,
     write_csv,
     write_figure,
     write_figures,
@@ -82,11 +82,11 @@ def test_tables_and_figures_are_written_by_name_with_their_note(tmp_path: Path) 
     assert "Why" not in (tmp_path / "table1.csv").read_text()
 
 
-def test_numbers_are_text_and_tolerances_are_numbers(tmp_path: Path) -> None:
+def test_numbers_are_text_and_claims_are_numbers(tmp_path: Path) -> None:
     (tmp_path / "numbers.csv").write_text("table,value\ntable1,<4\ntable1,1.50\n")
     assert read_numbers(tmp_path / "numbers.csv")["value"].tolist() == ["<4", "1.50"]
-    (tmp_path / "tolerances.tsv").write_text("# of the study\ncase\texpected\nmean of 7\t1.5\n")
-    assert read_tolerances(tmp_path / "tolerances.tsv")["expected"].tolist() == [1.5]
-    for read in (read_numbers, read_tolerances):
+    (tmp_path / "claims.tsv").write_text("# of the study\ncase\texpected\nmean of 7\t1.5\n")
+    assert read_claims(tmp_path / "claims.tsv")["expected"].tolist() == [1.5]
+    for read in (read_numbers, read_claims):
         with pytest.raises(InputError, match="no such file"):
             read(tmp_path / "none")

@@ -1,64 +1,123 @@
-"""Drifted numbers are listed with advice; missing ones count as drifted."""
+"""Every cell of a table is held: on the same machine to the digit, on another one within what rounding moves."""
+
+from math import inf
 
 import pandas as pd
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from heartfit.core.errors import InputError
-from heartfit.results.provenance import TOLERANCE_COLUMNS, DriftError, renew_tolerances, require_no_drift
-from tests.printed import numbers_in
+from heartfit.results.drift import DriftError, StoredTables, drift_table, find_moves
 
-NUMBERS = pd.DataFrame(
-    [
-        {"table": "table1", "setting": "physical", "case": "mean of 7", "quantity": "V_min", "value": "1.3"},
-        {"table": "table1", "setting": "physical", "case": "v1", "quantity": "V_min", "value": "0.4"},
-        {
-            "table": "table1",
-            "setting": "physical",
-            "case": "v1",
-            "quantity": "failed points",
-            "value": "0 of 9",
-        },
+STORED = {
+    "table1": pd.DataFrame(
+        {"case": ["v1", "mean of 7"], "V_min (%)": ["0.4", "1.73412"], "failed points": ["0 of 9", ""]}
+    ),
+    "discovery": pd.DataFrame({"quantity": ["wrong by"], "text": ["3 kPa too high in ejection: 3.0 sd"]}),
+}
+
+
+def changed(table: str, row: int, column: str, text: str) -> dict[str, pd.DataFrame]:
+    """Return the tables with one other cell."""
+    tables = {name: frame.copy() for name, frame in STORED.items()}
+    tables[table].loc[row, column] = text
+    return tables
+
+
+HERE, THERE = {"compiled for": "this"}, {"compiled for": "another"}
+
+
+def drifted(
+    tables: dict[str, pd.DataFrame], same_machine: bool = False, elsewhere: dict | None = None
+) -> list[str]:
+    stored = StoredTables(STORED, HERE, elsewhere or {})
+    return [str(move) for move in stored.compared(tables, HERE if same_machine else THERE).drifted]
+
+
+def test_equal_tables_do_not_move() -> None:
+    assert find_moves(STORED, STORED) == []
+    assert StoredTables(STORED, HERE, {}).compared(STORED, HERE).cells == 8
+
+
+@pytest.mark.parametrize("size", [0.002, 0.01, 0.25, 1.0])
+def test_any_number_that_moves_by_a_share_of_itself_drifts_on_any_machine(size: float) -> None:
+    for text in ("0.4", "1.73412"):
+        row = [*STORED["table1"]["V_min (%)"]].index(text)
+        # one decimal more than the stored text, whose last digit is the limit of what can be seen
+        tables = changed("table1", row, "V_min (%)", f"{float(text) * (1.0 + size):.6g}")
+        assert drifted(tables, same_machine=True)
+    assert drifted(changed("table1", 1, "V_min (%)", f"{1.73412 * (1.0 + size):.6g}"))
+
+
+def test_the_last_digit_counts_on_the_same_machine_only() -> None:
+    tables = changed("table1", 1, "V_min (%)", "1.73413")
+    assert drifted(tables, same_machine=True) == [
+        "table1, row 2 (mean of 7), V_min (%): 1.73412 before, 1.73413 now"
     ]
-)
+    assert drifted(tables) == []
+    assert drifted(changed("table1", 1, "V_min (%)", "1.7373"))
 
 
-def tolerances(*rows: tuple[str, str, float, float]) -> pd.DataFrame:
-    return pd.DataFrame([("table1", "physical", *row, "mesh") for row in rows], columns=TOLERANCE_COLUMNS)
+def test_a_cell_that_moved_on_another_processor_may_move_three_times_as_far() -> None:
+    cell = ("table1", 1, "V_min (%)")
+    elsewhere = {cell: 0.1}
+    assert drifted(changed(*cell, "1.95"), elsewhere=elsewhere) == []
+    assert drifted(changed(*cell, "2.2"), elsewhere=elsewhere)
+    assert drifted(changed(*cell, "1.95"), same_machine=True, elsewhere=elsewhere)
+    assert drifted(changed("table1", 0, "V_min (%)", "0.7"), elsewhere=elsewhere), "another cell may not"
 
 
-def test_numbers_within_their_tolerance_pass():
-    drift = require_no_drift(
-        NUMBERS, tolerances(("mean of 7", "V_min", 1.5, 0.21), ("v1", "V_min", 0.4, 0.0))
-    )
-    assert drift["measured"].tolist() == [1.3, 0.4]
+def test_numbers_in_words_are_held_and_words_as_such() -> None:
+    cell = ("discovery", 0, "text")
+    assert drifted(changed(*cell, "3 kPa too high in ejection: 4.0 sd"))
+    assert drifted(changed(*cell, "3 kPa too high in ejection: 3.1 sd")) == [], "its last printed digit"
+    assert drifted(changed(*cell, "3 kPa too low in ejection: 3.0 sd"))
+    assert find_moves(STORED, changed(*cell, "3 kPa too low in ejection: 3.0 sd"))[0].change == inf
+    assert drifted(changed("table1", 0, "failed points", "2 of 9"))
 
 
-def test_drifted_and_missing_numbers_are_listed_with_advice():
-    rows = (("mean of 7", "V_min", 1.5, 0.1), ("v1", "V_min", 0.4, 0.1), ("v9", "V_min", 1.0, 9.0))
+def test_a_missing_number_table_or_row_drifts() -> None:
+    assert drifted(changed("table1", 0, "V_min (%)", ""))
+    assert drifted({"table1": STORED["table1"]})
+    assert drifted({**STORED, "table2": STORED["table1"]})
+    shorter = {**STORED, "table1": STORED["table1"].head(1)}
+    assert drifted(shorter) == [
+        "table1: 2 rows of case, V_min (%), failed points before, 1 rows of case, V_min (%), failed points now"
+    ]
+
+
+def test_moves_of_another_processor_are_kept_where_they_exceed_rounding() -> None:
+    small, large = changed("table1", 1, "V_min (%)", "1.73413"), changed("table1", 1, "V_min (%)", "1.8")
+    cell = ("table1", 1, "V_min (%)")
+    assert StoredTables(STORED, HERE, {}).with_processor(small) == {}
+    assert StoredTables(STORED, HERE, {}).with_processor(large) == {cell: pytest.approx(0.06588)}
+    assert StoredTables(STORED, HERE, {cell: 0.5}).with_processor(large) == {cell: 0.5}
+
+
+@given(st.floats(1e-3, 1e6), st.floats(-1.0, 1.0))
+def test_a_number_drifts_elsewhere_beyond_a_thousandth_and_its_last_digit(value: float, share: float) -> None:
+    before, now = f"{value:.6g}", f"{value * (1.0 + 0.01 * share):.6g}"
+    stored = StoredTables({"t": pd.DataFrame({"x": [before]})}, HERE, {})
+    drift = stored.compared({"t": pd.DataFrame({"x": [now]})}, THERE)
+    change = abs(float(now) - float(before))
+    digits, _, exponent = before.partition("e")
+    unit = 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
+    if change > 1.001e-3 * float(before) + 1.001 * unit:
+        assert drift.drifted
+    if change < 1e-3 * float(before):
+        assert not drift.drifted
+
+
+def test_the_message_lists_the_first_cells_with_advice() -> None:
+    before, now = (pd.DataFrame({"x": [str(n + shift) for n in range(30)]}) for shift in (0, 1))
+    drift = StoredTables({"t": before}, HERE, {}).compared({"t": now}, HERE)
+    places = {"tables": "results/tables", "reference": "resources/reference/study"}
     with pytest.raises(DriftError) as error:
-        require_no_drift(NUMBERS, tolerances(*rows))
+        drift_table(drift, places)
     lines = str(error.value).splitlines()
-    assert numbers_in(lines[0]) == [2.0, 3.0]
-    assert [part for part in ("table1", "physical", "mean of 7", "V_min") if part not in lines[1]] == []
-    assert numbers_in(lines[1].replace("mean of 7", "")) == [1.5, 0.1, 1.3]
-    assert [part for part in ("v9", "V_min", "nan") if part not in lines[2]] == []
-    assert numbers_in(lines[2]) == [1.0, 9.0]
-    assert "heartfit tolerances" in lines[3]
-
-
-def test_nan_counts_as_drifted():
-    with pytest.raises(DriftError, match=r"failed points.*nan"):
-        require_no_drift(NUMBERS, tolerances(("v1", "failed points", 0.0, 1.0)))
-
-
-def test_renewing_keeps_rows_tolerances_and_what_is_not_there():
-    renewed = renew_tolerances(NUMBERS, tolerances(("v1", "V_min", 9.0, 0.1), ("v9", "V_min", 1.0, 0.2)))
-    assert list(renewed.columns) == TOLERANCE_COLUMNS
-    assert renewed["expected"].tolist() == [0.4, 1.0]
-    assert renewed["tolerance"].tolist() == [0.1, 0.2]
-
-
-@pytest.mark.parametrize("table", [tolerances(), tolerances(("v1", "V_min", 1.0, 0.1)).drop(columns="why")])
-def test_an_empty_table_is_refused(table):
-    with pytest.raises(InputError, match=f"{len(table)} rows.*{', '.join(TOLERANCE_COLUMNS)}"):
-        require_no_drift(NUMBERS, table)
+    assert lines[0] == "30 of 30 cells drifted:"
+    assert lines[-2] == "  and 10 more"
+    assert "heartfit drift results/tables resources/reference/study --renew" in lines[-1]
+    assert len(lines) == 23
+    left_out = drift_table(drift, places, "the measured heart is left out")
+    assert left_out.to_dict("list") == {"not compared": ["the measured heart is left out"]}

@@ -187,6 +187,11 @@ def calibrated_beats(kind):
     return list_files
 
 
+def stored_tables(_):
+    """Stored tables that the study is held to, so that a renewed one is compared anew."""
+    return sorted(map(str, Path(STUDY.reference).glob("*.*")))
+
+
 def page_template(name):
     """Template of a generated page, so that an edit of its sentences regenerates the page."""
     return str(Path(workflow.basedir, "docs", "templates", f"{name}.md.j2"))

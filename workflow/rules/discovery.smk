@@ -170,6 +170,7 @@ rule discover:
     input:
         [f"<results>/{case}/discovery/{setting}/cause.md" for case, setting in REFITTED],
         [f"<results>/tables/{case}_{setting}_extension.md" for case, setting in REFITTED],
+        ["<results>/tables/discovery.md"] if REFITTED else [],
         [
             f"<results>/{case}/discovery/{setting}/readings/{reading}/cause.json"
             for case, setting in REFITTED

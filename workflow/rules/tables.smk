@@ -122,11 +122,32 @@ rule exchange_results:
         "../scripts/exchange_results.py"
 
 
+CHECK_PARAMS = {
+    "tables": f"{STUDY.results}/tables",
+    "reference": STUDY.reference,
+    "left_out": PLAN.left_out,
+}
+
+
+# reads all tables; the results of the study as input have the same effect
 rule check_numbers:
     input:
-        numbers="<results>/tables/numbers.csv",
-        tolerances=STUDY.tolerances,
+        study_results(),
+        stored_tables,
     output:
         "<results>/tables/drift.csv",
+    resources:
+        mem_mb=500,
+        runtime=2,
+    params:
+        **CHECK_PARAMS,
     script:
         "../scripts/check_numbers.py"
+
+
+# the same check of the tables that `discover` makes
+use rule check_numbers as check_discovered with:
+    input:
+        [f"<results>/tables/{case}_{setting}_extension.csv" for case, setting in REFITTED],
+        ["<results>/tables/discovery.csv"] if REFITTED else [],
+        stored_tables,

@@ -1,14 +1,15 @@
-"""Compare the study's numbers with their tolerances; fails and lists every number outside."""
+"""Compare the tables of the study with the stored ones; fails and lists the cells that drifted."""
 
 from pathlib import Path
 
+from heartfit.io.reference import machine, read_held_tables, read_reference
 from heartfit.io.run import record
-from heartfit.io.tables import read_numbers, read_tolerances, write_csv
-from heartfit.results.provenance import require_no_drift
+from heartfit.io.tables import write_csv
+from heartfit.results.drift import drift_table
 
 record(snakemake.log[0])
-numbers, tolerances = (
-    read_numbers(Path(snakemake.input.numbers)),
-    read_tolerances(Path(snakemake.input.tolerances)),
-)
-write_csv(Path(snakemake.output[0]), require_no_drift(numbers, tolerances))
+params = snakemake.params
+stored, tables = read_reference(Path(params.reference)), read_held_tables(Path(params.tables))
+places = {"tables": params.tables, "reference": params.reference}
+table = drift_table(stored.compared(tables, machine()), places, params.left_out)
+write_csv(Path(snakemake.output[0]), table)

@@ -42,24 +42,44 @@ def detection_limits(_: argparse.Namespace) -> int:
     return 0
 
 
-def tolerances_arguments(command: argparse.ArgumentParser) -> None:
-    """Add the arguments of `tolerances`."""
-    command.add_argument("numbers", type=Path, help="numbers.csv of a study")
+def drift_arguments(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of `drift`."""
+    command.add_argument("tables", type=Path, help="folder of the tables of a study, such as results/tables")
     command.add_argument(
-        "table",
-        type=Path,
-        help="table of tolerances, whose expected numbers are replaced by those of the study",
+        "reference", type=Path, help="folder of the stored tables, such as resources/reference/study"
+    )
+    change = command.add_mutually_exclusive_group()
+    change.add_argument(
+        "--renew", action="store_true", help="store these tables instead, after a deliberate change"
+    )
+    change.add_argument(
+        "--processor",
+        action="store_true",
+        help="store that another processor moves what differs, beyond 0.1 %%",
     )
 
 
-def tolerances(arguments: argparse.Namespace) -> int:
-    """Print a table of tolerances with the numbers of a study as the expected ones."""
-    from heartfit.io.tables import read_numbers, read_tolerances  # imported here: needs pandas
-    from heartfit.results.provenance import renew_tolerances
+def drift(arguments: argparse.Namespace) -> int:
+    """Print every cell in which the tables of a study differ from the stored ones; 1 if one drifted."""
+    from heartfit.io import reference as stored_tables  # imported here: needs pandas
 
-    table = renew_tolerances(read_numbers(arguments.numbers), read_tolerances(arguments.table))
-    print(table.to_csv(sep="\t", index=False, float_format="%.4g"), end="")
-    return 0
+    tables, folder = stored_tables.read_held_tables(arguments.tables), arguments.reference
+    if arguments.renew and not folder.exists():
+        stored_tables.write_reference(folder, arguments.tables)
+        print(f"{folder}: {len(tables)} tables stored for the first time")
+        return 0
+    stored = stored_tables.read_reference(folder)
+    outcome = stored.compared(tables, stored_tables.machine())
+    where = "this machine" if outcome.same_machine else "another machine"
+    print(
+        f"{len(outcome.moves)} of {outcome.cells} cells differ, {len(outcome.drifted)} drifted; stored on {where}"
+    )
+    print("".join(f"  {move}\n" for move in outcome.moves), end="")
+    if arguments.renew:
+        stored_tables.write_reference(folder, arguments.tables)
+    elif arguments.processor:
+        stored_tables.write_processors(folder, stored.with_processor(tables).items())
+    return int(bool(outcome.drifted) and not (arguments.renew or arguments.processor))
 
 
 MOVED_COMMANDS = {
@@ -94,8 +114,8 @@ COMMANDS: tuple[Command, ...] = (
         "print the smallest detectable size of each effect, within some minutes",
     ),
     (
-        tolerances,
-        tolerances_arguments,
-        "print a table of tolerances with the numbers of a study as the expected ones",
+        drift,
+        drift_arguments,
+        "compare the tables of a study with stored ones, or store them",
     ),
 )

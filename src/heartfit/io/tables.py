@@ -68,10 +68,10 @@ def read_shards(results: Sequence[Path]) -> dict[str, pd.DataFrame]:
     return {str(folder): read_numbers(folder / "tables" / "numbers.csv") for folder in results}
 
 
-def read_tolerances(path: Path) -> pd.DataFrame:
-    """Read a tab-separated table of tolerances; lines that begin with # are comments."""
+def read_claims(path: Path) -> pd.DataFrame:
+    """Read a tab-separated table of claims; lines that begin with # are comments."""
     if not Path(path).is_file():
-        raise InputError(f"{path}: no such file; expected a table of tolerances")
+        raise InputError(f"{path}: no such file; expected a table of claims")
     return pd.read_csv(path, sep="\t", comment="#")
 
 

@@ -1,7 +1,7 @@
-"""Provenance of the numbers of the tables: origin of each number, drift against tolerances, and merged shards."""
+"""Provenance of the numbers of the tables: origin of each number, and merged shards."""
 
 import re
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -9,68 +9,6 @@ import pandas as pd
 from heartfit.core.errors import InputError
 from heartfit.results.case import CaseResult, Origin, require_one_fingerprint
 from heartfit.results.errors import PAPER
-
-TOLERANCE_KEY = ["table", "setting", "case", "quantity"]
-TOLERANCE_COLUMNS = [*TOLERANCE_KEY, "expected", "tolerance", "why"]
-ADVICE = (
-    "find the change that caused the drift; if the new numbers are correct, update the expected ones with "
-    "`heartfit tolerances`, see docs/what_the_numbers_mean.md"
-)
-
-
-class DriftError(InputError):
-    """Numbers of a study outside their tolerances."""
-
-
-def require_no_drift(numbers: pd.DataFrame, tolerances: pd.DataFrame) -> pd.DataFrame:
-    """Return the tolerances with the measured numbers; raises DriftError with each number that is off or missing.
-
-    numbers: see numbers_table; tolerances: table, setting, case, quantity, expected and tolerance in the unit of the
-    table, why. Raises InputError for a table of tolerances with other columns or without rows.
-    """
-    compared = with_measured(numbers, tolerances)
-    off = compared[
-        ~((compared["measured"] - compared["expected"]).abs() <= compared["tolerance"])
-    ]  # the negation includes NaN
-    if not off.empty:
-        raise DriftError(
-            "\n".join(
-                [
-                    f"{len(off)} of {len(compared)} numbers drifted:",
-                    *map(_drift_line, off.to_dict("records")),
-                    ADVICE,
-                ]
-            )
-        )
-    return compared
-
-
-def _drift_line(row: Mapping[Hashable, Any]) -> str:
-    where = ", ".join(row[key] for key in TOLERANCE_KEY)
-    return (
-        f"  {where}: expected {row['expected']:g} within {row['tolerance']:g}, measured {row['measured']:g}"
-    )
-
-
-def with_measured(numbers: pd.DataFrame, tolerances: pd.DataFrame) -> pd.DataFrame:
-    """Return the tolerances with a column "measured", NaN for numbers that the study does not have."""
-    if list(tolerances.columns) != TOLERANCE_COLUMNS or tolerances.empty:
-        raise InputError(
-            f"tolerances: {len(tolerances)} rows of {', '.join(tolerances.columns)}; "
-            f"expected one or more of {', '.join(TOLERANCE_COLUMNS)}"
-        )
-    measured = numbers[[*TOLERANCE_KEY, "value"]].rename(columns={"value": "measured"})
-    merged = tolerances.merge(measured, "left", on=TOLERANCE_KEY, validate="one_to_one")
-    return merged.assign(measured=pd.to_numeric(merged["measured"], errors="coerce"))[
-        [*TOLERANCE_KEY, "measured", *TOLERANCE_COLUMNS[4:]]
-    ]
-
-
-def renew_tolerances(numbers: pd.DataFrame, tolerances: pd.DataFrame) -> pd.DataFrame:
-    """Return the tolerances around the numbers of this study; a missing number keeps its expected value."""
-    compared = with_measured(numbers, tolerances)
-    return compared.assign(expected=compared["measured"].fillna(compared["expected"]))[TOLERANCE_COLUMNS]
-
 
 ROW_KEY = ["table", "setting", "case", "quantity"]
 ROW_VALUE = ["value", "unit", "fingerprint"]

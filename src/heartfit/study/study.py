@@ -33,7 +33,7 @@ class Study(Strict):
         "results", description="folder of all results, within the working directory"
     )
     cases: str = Field(description="table of the cases")
-    tolerances: str = Field(description="table of expected numbers and their tolerances")
+    reference: str = Field(description="folder of the stored tables to which `check_numbers` holds the study")
     measured_heart: tuple[str, ...] = Field(
         description="folders, of which the first existing one serves measured cases without sources"
     )

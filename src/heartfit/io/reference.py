@@ -1,0 +1,90 @@
+"""Stored tables of a study, to which later runs are held, and the machine that made them.
+
+A folder of resources/reference holds the tables as CSV, ``machine.json`` with the processor and the software behind
+them, and ``processors.csv`` with the cells that moved on another processor.
+"""
+
+import json
+import os
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from llvmlite import binding
+from threadpoolctl import threadpool_info
+
+from heartfit.core.errors import InputError
+from heartfit.io.files import write_text
+from heartfit.io.fingerprint import versions
+from heartfit.results.drift import Cell, StoredTables
+
+FREE = ("costs", "posteriors", "curves", "drift")
+"""Tables that are not held: times, and the values behind the other tables."""
+FREE_COLUMNS = ("run", "parameters", "fingerprint")
+"""Columns of `numbers` that name files and code, or repeat other rows."""
+TIME = "min"
+"""Unit of a claim about computing time."""
+MACHINE, PROCESSORS = "machine.json", "processors.csv"
+
+
+def machine() -> dict[str, str]:
+    """Return what decides the last digits: software, and the processor as compiled code and libraries see it."""
+    simd = np.show_config(mode="dicts")["SIMD Extensions"]
+    blas = sorted({str(library.get("architecture", "")) for library in threadpool_info()} - {""})
+    return {
+        "software": versions(),
+        "compiled for": os.environ.get("NUMBA_CPU_NAME") or str(binding.get_host_cpu_name()),
+        "linear algebra for": ", ".join(blas),
+        "numpy": " ".join((*simd["baseline"], *simd["found"])),
+    }
+
+
+def read_held_tables(folder: Path) -> dict[str, pd.DataFrame]:
+    """Read the held tables of a folder as text, without the cells that name code or measure time.
+
+    Raises InputError for a folder without tables.
+    """
+    files = [file for file in sorted(Path(folder).glob("*.csv")) if file.name != PROCESSORS]
+    if not files:
+        raise InputError(f"{folder}: no table; expected the CSV tables of a study: run `snakemake --cores 2`")
+    return {file.stem: _held_part(file) for file in files if file.stem not in FREE}
+
+
+def _held_part(file: Path) -> pd.DataFrame:
+    table = pd.read_csv(file, dtype=str, keep_default_na=False, comment="#")
+    kept = table.drop(columns=[column for column in FREE_COLUMNS if column in table])
+    claims_of_time = kept["unit"] == TIME if {"paper", "unit"} <= {*kept} else pd.Series(False, kept.index)
+    return kept[~claims_of_time].reset_index(drop=True)
+
+
+def read_reference(folder: Path) -> StoredTables:
+    """Read stored tables; raises InputError for a folder without them."""
+    stated, processors = Path(folder, MACHINE), Path(folder, PROCESSORS)
+    if not stated.is_file():
+        raise InputError(
+            f"{folder}: no stored tables; expected {MACHINE} beside them: store those of a study, "
+            "`heartfit drift TABLES FOLDER --renew`"
+        )
+    rows = pd.read_csv(processors).to_dict("records") if processors.is_file() else []
+    elsewhere: dict[Cell, float] = {
+        (row["table"], int(row["row"]), str(row["column"])): float(row["change"]) for row in rows
+    }
+    return StoredTables(read_held_tables(folder), json.loads(stated.read_text(encoding="utf-8")), elsewhere)
+
+
+def write_reference(folder: Path, tables: Path) -> None:
+    """Store the tables of a study with the machine that made them; changes on other processors are forgotten."""
+    held = read_held_tables(tables)
+    shutil.rmtree(folder, ignore_errors=True)
+    for name, table in held.items():
+        write_text(Path(folder, f"{name}.csv"), table.to_csv(index=False, lineterminator="\n"))
+    write_text(Path(folder, MACHINE), json.dumps(machine(), indent=1) + "\n")
+
+
+def write_processors(folder: Path, changes: Iterable[tuple[Cell, float]]) -> None:
+    """Store the changes of cells on other processors."""
+    rows = [(*cell, change) for cell, change in changes]
+    frame = pd.DataFrame(rows, columns=["table", "row", "column", "change"])
+    write_text(Path(folder, PROCESSORS), frame.to_csv(index=False, float_format="%.3g", lineterminator="\n"))

@@ -1,0 +1,193 @@
+r"""Drift of a study's tables from stored ones: every number and every word, cell by cell.
+
+Where the same processor and the same software made both, each cell must be the same. Elsewhere libraries round
+otherwise, and a number may move by
+
+.. math:: |v - v_0| \le 10^{-3} |v_0| + u + 3 m ,
+
+where u is one unit of the last printed digit and m what this cell moved on another processor. A cell of text counts as
+its words and the numbers in it; its words may change only where they did on another processor.
+"""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import inf
+
+import pandas as pd
+
+from heartfit.core.errors import InputError
+
+RELATIVE = 1e-3
+"""Share by which a number may move on another processor."""
+MARGIN = 3.0
+"""Allowance for a third processor, in moves of the cell on a second one."""
+NUMBER = re.compile(r"(?<![\w.])[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
+LISTED = 20
+"""Most cells that a message lists."""
+
+Tables = Mapping[str, pd.DataFrame]
+"""Tables of a study by name, every cell as text."""
+Cell = tuple[str, int, str]
+"""Table, number of the row, column."""
+
+
+class DriftError(InputError):
+    """Tables of a study that differ from the stored ones."""
+
+
+@dataclass(frozen=True)
+class Move:
+    """A cell that differs: its row in words, both texts, and the change of its numbers, infinite if words changed.
+
+    unit: one unit of the last printed digit; size: magnitude of the stored number that changed most.
+    """
+
+    cell: Cell
+    row: str
+    before: str
+    now: str
+    change: float = inf
+    unit: float = 0.0
+    size: float = 0.0
+
+    def allowed(self, elsewhere: float = 0.0) -> float:
+        """Return the largest change on another processor; elsewhere: change of the cell on a second one."""
+        return RELATIVE * self.size + self.unit + MARGIN * elsewhere
+
+    def __str__(self) -> str:
+        table, number, column = self.cell
+        where = f"{table}, row {number + 1} ({self.row}), {column}" if column else table
+        return f"{where}: {self.before or 'nothing'} before, {self.now or 'nothing'} now"
+
+
+@dataclass(frozen=True, eq=False)
+class StoredTables:
+    """Tables that a study is held to, the machine that made them, and changes of cells on other processors.
+
+    machine: software and processor, by what they are; elsewhere: only changes beyond the general allowance.
+    """
+
+    tables: Tables
+    machine: Mapping[str, str]
+    elsewhere: Mapping[Cell, float]
+
+    def compared(self, tables: Tables, machine: Mapping[str, str]) -> "Drift":
+        """Return the comparison of a study's tables, which this machine made, with the stored ones."""
+        moves = find_moves(self.tables, tables)
+        same = machine == self.machine
+        drifted = [
+            move
+            for move in moves
+            if same or not move.change <= move.allowed(self.elsewhere.get(move.cell, 0.0))
+        ]
+        return Drift(moves, drifted, sum(table.size for table in self.tables.values()), same)
+
+    def with_processor(self, tables: Tables) -> dict[Cell, float]:
+        """Return the changes on other processors and in these tables of one more: the larger of each cell."""
+        new = {
+            move.cell: move.change
+            for move in find_moves(self.tables, tables)
+            if not move.change <= move.allowed()
+        }
+        cells = sorted({*self.elsewhere, *new})
+        return {cell: max(self.elsewhere.get(cell, 0.0), new.get(cell, 0.0)) for cell in cells}
+
+
+@dataclass(frozen=True, eq=False)
+class Drift:
+    """Cells that differ from the stored ones, those that drifted among them, and the number of compared cells."""
+
+    moves: Sequence[Move]
+    drifted: Sequence[Move]
+    cells: int
+    same_machine: bool
+
+    def require_none(self, advice: str) -> None:
+        """Raise DriftError with the number of drifted cells, the first ones, and advice."""
+        if self.drifted:
+            lines = [f"  {move}" for move in self.drifted[:LISTED]]
+            more = len(self.drifted) - len(lines)
+            further = [f"  and {more} more"] if more else []
+            head = f"{len(self.drifted)} of {self.cells} cells drifted:"
+            raise DriftError("\n".join([head, *lines, *further, advice]))
+
+    def table(self) -> pd.DataFrame:
+        """Return one row for each cell that differs: its place, both texts, change, and whether it drifted."""
+        columns = ["table", "row", "column", "before", "now", "change", "drifted"]
+        rows = [
+            (*move.cell, move.before, move.now, move.change, "yes" if move in self.drifted else "no")
+            for move in self.moves
+        ]
+        return pd.DataFrame(rows, columns=columns)
+
+
+ADVICE = (
+    "find the change that caused the drift; if the new tables are right, store them: "
+    "`heartfit drift {tables} {reference} --renew`, see docs/what_the_numbers_mean.md"
+)
+
+
+def drift_table(drift: Drift, places: Mapping[str, str], left_out: str = "") -> pd.DataFrame:
+    """Return the table of a drift; raises DriftError where a cell drifted.
+
+    places: folders of the tables and of the reference; left_out: why cases of the study are missing. Its tables are
+    then not those of the whole study, and the one row says that they were not compared.
+    """
+    if left_out:
+        return pd.DataFrame({"not compared": [left_out]})
+    drift.require_none(ADVICE.format(**places))
+    return drift.table()
+
+
+def find_moves(stored: Tables, tables: Tables) -> list[Move]:
+    """Return every cell that differs; a table, column or row on one side only is one move without a column."""
+    moves: list[Move] = []
+    for name in sorted({*stored, *tables}):
+        if name in stored and name in tables:
+            moves.extend(_moves_of(name, stored[name], tables[name]))
+        else:
+            before, now = ("a table" if name in side else "" for side in (stored, tables))
+            moves.append(Move((name, 0, ""), "", before, now))
+    return moves
+
+
+def _moves_of(name: str, before: pd.DataFrame, now: pd.DataFrame) -> Iterator[Move]:
+    shapes = [f"{len(table)} rows of {', '.join(map(str, table.columns))}" for table in (before, now)]
+    if shapes[0] != shapes[1]:
+        yield Move((name, 0, ""), "", shapes[0], shapes[1])
+        return
+    words = [column for column in before if not before[column].map(_is_number).any()]
+    for number in range(len(before)):
+        row = ", ".join(text for text in before[words].iloc[number] if text)[:60]
+        for column in before:
+            texts = str(before[column].iloc[number]), str(now[column].iloc[number])
+            if texts[0] != texts[1]:
+                yield _move((name, number, str(column)), row, *texts)
+
+
+def _move(cell: Cell, row: str, before: str, now: str) -> Move:
+    if NUMBER.sub("#", before) != NUMBER.sub("#", now):
+        return Move(cell, row, before, now)
+    pairs = list(zip(NUMBER.findall(before), NUMBER.findall(now), strict=True))
+    worst = max(pairs, key=lambda pair: _change(*pair) / (RELATIVE * abs(_value(pair[0])) + _unit(pair[0])))
+    return Move(cell, row, before, now, _change(*worst), _unit(worst[0]), abs(_value(worst[0])))
+
+
+def _is_number(text: str) -> bool:
+    return NUMBER.fullmatch(text) is not None
+
+
+def _change(before: str, now: str) -> float:
+    return abs(_value(before) - _value(now))
+
+
+def _value(printed: str) -> float:
+    return float(printed.replace("−", "-"))
+
+
+def _unit(printed: str) -> float:
+    """One unit of the last printed digit."""
+    digits, _, exponent = printed.partition("e")
+    decimals = len(digits.partition(".")[2])
+    return float(10.0 ** (int(exponent or 0) - decimals))
