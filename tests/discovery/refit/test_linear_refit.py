@@ -127,6 +127,7 @@ def test_the_final_posterior_is_that_of_all_samples_whatever_half_was_fitted() -
     half = Target({"lv_volume": every.samples["lv_volume"].part(np.arange(12) % 2 == 0)}, NOISE[:6, :6])
     fit = renew_slopes(LEAKING, run, half, every, 20, refit(LEAKING, run, half, 20))
     assert fit.complete_slopes == pytest.approx(SLOPES)
+    assert fit.slopes == pytest.approx(SLOPES[::2]), "of the fitted samples"
     final = complete_posterior(LEAKING, fit, every, SLOPES @ fit.estimate)
     mean, covariance, _ = posterior(3, every.values())
     assert final is not None
