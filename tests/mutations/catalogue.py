@@ -13,6 +13,7 @@ from tests.mutations.mutants.planting import PLANTING_MUTANTS
 from tests.mutations.mutants.proof import PROOF_MUTANTS
 from tests.mutations.mutants.recentring import RECENTRING_MUTANTS
 from tests.mutations.mutants.refit import REFIT_MUTANTS
+from tests.mutations.mutants.scoring import SCORING_MUTANTS
 from tests.mutations.mutants.search import SEARCH_MUTANTS
 from tests.mutations.mutants.sphere import SPHERE_MUTANTS
 from tests.mutations.mutants.withdrawal import WITHDRAWAL_MUTANTS
@@ -34,4 +35,5 @@ MUTANTS = (
     *PROOF_MUTANTS,
     *OBSERVATION_MUTANTS,
     *PLANTING_MUTANTS,
+    *SCORING_MUTANTS,
 )

@@ -1,4 +1,4 @@
-"""What a planted case records is the heart with its effects, at rest and with raised legs; hearts are stand-ins."""
+"""A planted case records the heart with its effects, at rest and with raised legs; hearts are stand-ins."""
 
 from dataclasses import dataclass, replace
 from types import SimpleNamespace

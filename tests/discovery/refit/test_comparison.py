@@ -21,11 +21,11 @@ TIMES = {"lv_volume": np.arange(24) * PERIOD / 24, "lv_pressure": (np.arange(80)
 HELD = {"lv_volume": np.arange(24) % 2 == 1, "lv_pressure": np.arange(80) // 4 % 2 == 1}
 ML, PA = 1e-6, 1.0
 PLAIN = Setting.model_validate({"element": "sphere", "estimate": ("sigma_0", "R_p")}).with_prior({})
-NONE, ONE, TWO = (
+NONE, LEAKING, BOTH = (
     Extension.from_names(PLAIN, *("MitralRegurgitation", "AorticStenosis")[:count]) for count in range(3)
 )
 Errors = tuple[float, float]
-"""Of a model's volume [mL] and pressure [Pa]."""
+"""Errors of a model's volume [mL] and pressure [Pa]."""
 
 
 def wave(name: str) -> Floats:
@@ -84,7 +84,7 @@ def test_each_extension_must_come_nearer_to_held_out_samples_than_the_model_befo
     """At the fitted samples the order of the models is the reverse."""
     steps = trial(*(beat((error, 0.0), (4.0 - error, 0.0)) for error in errors))
     base = steps.at(NONE, fitted(NONE))
-    assert [nearer for _, nearer in steps.climb(base, [ONE, TWO])] == helps
+    assert [nearer for _, nearer in steps.climb(base, [LEAKING, BOTH])] == helps
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,8 @@ def test_volume_and_pressure_count_in_units_of_their_noise(
     """A correct model misses a volume by 0.6 mL and a pressure by 150 Pa."""
     steps = trial(beat(baseline), beat(extended))
     before, after = (
-        steps.at(extension, fitted(extension, evidence)) for extension, evidence in ((NONE, 0.0), (ONE, 10.0))
+        steps.at(extension, fitted(extension, evidence))
+        for extension, evidence in ((NONE, 0.0), (LEAKING, 10.0))
     )
     assert steps.proof(before, after).helps() is helps
     if helps:
