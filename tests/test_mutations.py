@@ -1,5 +1,6 @@
 """The list of mutants fits the sources; the page shows every mutant caught; the check distinguishes survivors."""
 
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,6 +18,21 @@ KERNELS = {
     "heart/finite_elements/unloading.py", "heart/muscle/bcs.py", "heart/muscle/guccione.py", "heart/muscle/passive.py",
     "heart/sphere/body.py", "roles/laws.py",
 }  # fmt: skip
+SUBJECTS = {
+    "search": ("discovery/inference/search.py", "discovery/inference/evidence.py"),
+    "decision": ("discovery/inference/decide.py",),
+    "held-out data": ("discovery/sphere_model/held_out.py",),
+    "withdrawal": ("discovery/sphere_model/diagnose.py",),
+    "recentring": ("discovery/sphere_model/recentred.py",),
+    "refit": ("discovery/refit/refit.py",),
+    "halves": ("discovery/refit/target.py",),
+    "proof": ("discovery/refit/verdict.py", "discovery/refit/prove.py"),
+    "planting": ("synthetic/hidden.py", "synthetic/campaign.py", "synthetic/case.py", "synthetic/sealed.py"),
+    "scores": ("synthetic/scoring.py",),
+    "update": ("calibration/update.py", "calibration/unscented.py"),
+    "observation": ("observation/operator.py", "observation/curve.py"),
+}
+"""Files that choose, judge, plant or observe, by subject."""
 
 
 def faults_of(mutant: Mutant) -> list[str]:
@@ -45,6 +61,12 @@ def test_every_kernel_has_mutants_and_every_mutant_a_name():
     assert len(MUTANTS) >= 25
     assert len({mutant.what for mutant in MUTANTS}) == len(MUTANTS)
     assert not KERNELS - {mutant.file for mutant in MUTANTS}
+
+
+@pytest.mark.parametrize("subject", SUBJECTS)
+def test_what_chooses_judges_plants_and_observes_has_two_mutants_in_every_file(subject):
+    counts = Counter(mutant.file for mutant in MUTANTS)
+    assert all(counts[file] >= 2 for file in SUBJECTS[subject]), counts
 
 
 def test_every_mutant_has_a_stored_verdict_and_all_were_caught():

@@ -8,9 +8,15 @@ from tests.mutations.mutants.geometry import GEOMETRY_MUTANTS
 from tests.mutations.mutants.judging import JUDGING_MUTANTS
 from tests.mutations.mutants.mechanisms import MECHANISM_MUTANTS
 from tests.mutations.mutants.muscle import MUSCLE_MUTANTS
+from tests.mutations.mutants.observation import OBSERVATION_MUTANTS
+from tests.mutations.mutants.planting import PLANTING_MUTANTS
 from tests.mutations.mutants.proof import PROOF_MUTANTS
+from tests.mutations.mutants.recentring import RECENTRING_MUTANTS
+from tests.mutations.mutants.refit import REFIT_MUTANTS
+from tests.mutations.mutants.scoring import SCORING_MUTANTS
 from tests.mutations.mutants.search import SEARCH_MUTANTS
 from tests.mutations.mutants.sphere import SPHERE_MUTANTS
+from tests.mutations.mutants.withdrawal import WITHDRAWAL_MUTANTS
 
 MUTANTS = (
     *MUSCLE_MUTANTS,
@@ -23,5 +29,11 @@ MUTANTS = (
     *SEARCH_MUTANTS,
     *DECISION_MUTANTS,
     *JUDGING_MUTANTS,
+    *WITHDRAWAL_MUTANTS,
+    *RECENTRING_MUTANTS,
+    *REFIT_MUTANTS,
     *PROOF_MUTANTS,
+    *OBSERVATION_MUTANTS,
+    *PLANTING_MUTANTS,
+    *SCORING_MUTANTS,
 )

@@ -7,7 +7,7 @@ from heartfit.core.errors import InputError
 from heartfit.observation.curve import Curve
 
 TIMES = np.arange(25) * 0.033
-VOLUME = 120e-6 + 50e-6 * np.cos(2 * np.pi * TIMES / 0.825)
+VOLUME = 120e-6 + 50e-6 * np.cos(2 * np.pi * TIMES / 0.825) + 10e-6 * np.sin(4 * np.pi * TIMES / 0.825)
 
 
 def test_is_periodic_and_shifts_its_zero() -> None:

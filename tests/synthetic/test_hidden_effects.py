@@ -2,6 +2,7 @@
 
 import pytest
 
+from heartfit.discovery.inference.decide import CENTRED_RULES
 from heartfit.io.seals import open_effects, seal
 from heartfit.roles import Sensor, registered
 from heartfit.synthetic import sealed
@@ -31,6 +32,18 @@ def test_an_effect_is_drawn_again_until_it_can_be_seen(monkeypatch):
     drawn = draw_visible_effect(1)
     assert len(shown) == 4
     assert mechanism_of(drawn) == shown[-1]
+
+
+@pytest.mark.parametrize(
+    ("size", "visible"), [(1.05 * MARGIN, True), (0.95 * MARGIN, False), (-1.05 * MARGIN, False)]
+)
+def test_an_effect_is_visible_if_half_of_it_with_its_sign_reaches_the_threshold(monkeypatch, size, visible):
+    """A delay of one scale reaches the threshold; an advance, which the heart would absorb, shows nothing."""
+    monkeypatch.setattr(
+        sealed, "expected_evidence", lambda _, scales: CENTRED_RULES.detected * max(scales, 0.0) ** 2
+    )
+    (delay,) = hidden_effects("ImageTriggerDelay", size, 0)
+    assert is_visible(mechanism_of(delay), abs(size)) is visible
 
 
 def test_a_stenosis_is_visible_and_a_stiffening_is_not_at_any_size():

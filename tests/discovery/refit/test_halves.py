@@ -94,3 +94,17 @@ def test_a_correct_model_is_expected_to_miss_the_target_by_its_roughness() -> No
         rough = SIMULATION_ROUGHNESS[kind] ** 2 * np.exp(-np.minimum(lags, PERIOD - lags) / 0.05)
         assert target.covariance[rows[kind], rows[kind]] == pytest.approx(rough, rel=1e-6), name
     assert not target.covariance[rows["volume"], rows["pressure"]].any()
+
+
+def test_a_correct_model_misses_a_curve_that_was_read_twice_by_the_noise_of_its_readings_too() -> None:
+    """Both readings have white errors of 2 mL, their mean of 2 / sqrt(2) mL."""
+    rng, once = np.random.default_rng(2), case()
+    volume, sd = once.raw["lv_volume"], 2e-6
+    variances = []
+    for _ in range(40):
+        first, second = (
+            Curve(volume.times, volume.values + sd * rng.standard_normal(FRAMES), PERIOD) for _ in range(2)
+        )
+        twice = MeasuredCase.from_curves({"lv_volume": first}, [], second)
+        variances.append(np.diag(twice.target.covariance).mean())
+    assert np.mean(variances) == pytest.approx(0.5 * sd**2 + SIMULATION_ROUGHNESS["volume"] ** 2, rel=0.1)

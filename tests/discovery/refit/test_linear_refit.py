@@ -123,17 +123,18 @@ def test_renewed_slopes_cost_a_beat_each_and_lead_on(fits: tuple[Refit, Refit]) 
 
 
 def test_the_final_posterior_is_that_of_all_samples_whatever_half_was_fitted() -> None:
-    both = target()
-    half = Target({"lv_volume": both.samples["lv_volume"].part(np.arange(12) % 2 == 0)}, NOISE[:6, :6])
-    fit = renew_slopes(LEAKING, run, half, both, 20, refit(LEAKING, run, half, 20))
+    complete = target()
+    half = Target({"lv_volume": complete.samples["lv_volume"].part(np.arange(12) % 2 == 0)}, NOISE[:6, :6])
+    fit = renew_slopes(LEAKING, run, half, complete, 20, refit(LEAKING, run, half, 20))
     assert fit.complete_slopes == pytest.approx(SLOPES)
-    final = complete_posterior(LEAKING, fit, both, SLOPES @ fit.estimate)
-    mean, covariance, _ = posterior(3, both.values())
+    assert fit.slopes == pytest.approx(SLOPES[::2]), "of the fitted samples"
+    final = complete_posterior(LEAKING, fit, complete, SLOPES @ fit.estimate)
+    mean, covariance, _ = posterior(3, complete.values())
     assert final is not None
     assert final.mean == pytest.approx(mean)
     assert final.covariance == pytest.approx(covariance)
     assert (final.sd < fit.posterior.sd).all()
-    negative = replace(both.samples["lv_volume"], values=SLOPES @ (TRUTH * [1.0, 1.0, -1.0]))
+    negative = replace(complete.samples["lv_volume"], values=SLOPES @ (TRUTH * [1.0, 1.0, -1.0]))
     bounded = complete_posterior(LEAKING, fit, Target({"lv_volume": negative}, NOISE), SLOPES @ fit.estimate)
     assert bounded is not None
     assert bounded.mean[2] == 0.0

@@ -10,6 +10,18 @@ CALIBRATION_MUTANTS = (
         "calibration/unscented.py",
         UNSCENTED,
         ("deviations from the centre, not the mean", "deviation = z - mean", "deviation = z - z[0]"),
+        ("a mean by weights of the covariance", "mean = mean_weight @ z", "mean = weight @ z"),
+        (
+            "points along the axes",
+            "np.linalg.cholesky(prior.covariance).T",
+            "np.diag(np.sqrt(np.diag(prior.covariance)))",
+        ),
+        (
+            "a failed point counts as zero",
+            "z = design.filled(z, complete, labels)",
+            "z = np.where(complete[:, None], z, 0.0)",
+        ),
+        ("cross-covariance without weights", "(weight[:, None] * (x - x[0])).T", "(x - x[0]).T"),
     ),
     *changes(
         "calibration/design.py",
@@ -51,6 +63,18 @@ CALIBRATION_MUTANTS = (
             "nothing is learnt",
             "covariance = prior.covariance - (gain",
             "covariance = prior.covariance - 0.0 * (gain",
+        ),
+        (
+            "the noise of the observations is ignored",
+            "total = cov_zz if noise is None else cov_zz + noise",
+            "total = cov_zz",
+        ),
+        ("noise counts as a deviation", "else cov_zz + noise", "else cov_zz + np.sqrt(noise)"),
+        ("a step in units of its variance", "step = shift / prior.sd", "step = shift / prior.sd**2"),
+        (
+            "the gain forgets the units of the observations",
+            "(moments.cov_xz / scale).T).T / scale",
+            "(moments.cov_xz / scale).T).T",
         ),
     ),
 )

@@ -1,23 +1,86 @@
-"""Mutants of what judges a name: the halves of a recording, and the likelihood of held-out data."""
+"""Mutants of what judges a name: the halves of a recording, and predictions of held-out data."""
 
 from tests.mutations.mutant import changes
 
 HALVES = "tests/discovery/refit/test_halves.py"
 HELD_OUT = "tests/discovery/sphere_model/test_held_out.py"
+PREDICTION = "tests/discovery/sphere_model/test_prediction.py"
 
-JUDGING_MUTANTS = (
+HELD_OUT_MUTANTS = (
     *changes(
         "discovery/sphere_model/held_out.py",
         HELD_OUT,
         ("every cause helps on held-out data", "return self.log_likelihood_gain() > 0.0", "return True"),
+        ("a cause gains where it predicts worse", "return extended - baseline", "return baseline - extended"),
+        ("the error ratio upside down", "sums[1].sum() / sums[0].sum()", "sums[0].sum() / sums[1].sum()"),
     ),
     *changes(
-        "discovery/refit/target.py",
-        HALVES,
+        "discovery/sphere_model/held_out.py",
+        PREDICTION,
+        ("the half that judges is the fitted one", "for side in (True, False))", "for side in (True, True))"),
+        ("the half that is fitted judges", "for side in (True, False))", "for side in (False, True))"),
         (
-            "the target holds the held-out samples too",
-            "return self._target(self.split.fitted)",
-            "return self._target(self.split.complete())",
+            "the half that judges is fitted",
+            "FitContext(kept).explain(hypothesis(_forward_model(nominal, kept), effects), start)",
+            "FitContext(held).explain(hypothesis(_forward_model(nominal, held), effects), start)",
+        ),
+        (
+            "neighbouring samples of pressure judge",
+            "return np.floor(times / BLOCK).astype(int) % 2 == 0",
+            "return np.arange(times.size) % 2 == 0",
+        ),
+        (
+            "unseen samples are predicted without the cause",
+            "(((), baseline), (effects, extended))]",
+            "(((), baseline), ((), baseline))]",
+        ),
+        (
+            "another condition keeps the loading",
+            "exp(sd * z) for (path, sd), z",
+            "exp(0.0 * z) for (path, sd), z",
+        ),
+        (
+            "another condition keeps the heart rate",
+            "paced = nominal.at_period(data.blocks[0].period)",
+            "paced = nominal",
         ),
     ),
 )
+
+HALF_MUTANTS = changes(
+    "discovery/refit/target.py",
+    HALVES,
+    (
+        "the target holds the held-out samples too",
+        "return self._target(self.split.fitted)",
+        "return self._target(self.split.complete())",
+    ),
+    (
+        "the final size forgets the half that judged",
+        "return self._target(self.split.complete())",
+        "return self._target(self.split.fitted)",
+    ),
+    (
+        "the search of a study sees all samples",
+        "return self._recording(fitted | right), self._recording(held)",
+        "return self.recording(), self._recording(held)",
+    ),
+    (
+        "the half that chose a name judges it",
+        "return self._recording(fitted | right), self._recording(held)",
+        "return self._recording(fitted | right), self._recording(fitted)",
+    ),
+    (
+        "fitted and held-out half swapped",
+        "return samples.part(first), samples.part(~first)",
+        "return samples.part(~first), samples.part(first)",
+    ),
+    (
+        "a model without roughness",
+        "return rough + frame_noise(curve) ** 2 * np.eye(times.size)",
+        "return frame_noise(curve) ** 2 * np.eye(times.size)",
+    ),
+    ("a second reading adds no noise", "return rough + read_twice.covariance(times)", "return rough"),
+)
+
+JUDGING_MUTANTS = (*HELD_OUT_MUTANTS, *HALF_MUTANTS)

@@ -1,0 +1,70 @@
+"""Mutants of the refit in 3-D: starts, slopes, evidence, and the size from all samples."""
+
+from tests.mutations.mutant import changes
+
+REFIT_MUTANTS = (
+    *changes(
+        "discovery/refit/refit.py",
+        "tests/discovery/refit/test_linear_refit.py",
+        (
+            "the evidence of a refit ignores the prior",
+            "float(-descent.objective + volume + kept)",
+            "float(-descent.objective + kept)",
+        ),
+        (
+            "half the prior of an amplitude is lost",
+            "float(-descent.objective + volume + kept)",
+            "float(-descent.objective + volume)",
+        ),
+        (
+            "renewed slopes are thrown away",
+            "known = np.where(np.isnan(fitted), fit.slopes, fitted)",
+            "known = fit.slopes",
+        ),
+        (
+            "renewed slopes of the other half",
+            "fitted = slopes[complete.rows_of(target.samples)]",
+            "fitted = slopes[~complete.rows_of(target.samples)]",
+        ),
+        (
+            "differences without their step",
+            "else (prediction - predicted) / RENEWAL_STEP",
+            "else prediction - predicted",
+        ),
+        (
+            "an extension starts without the base",
+            "start = np.concatenate([kept, extension.start(amplitude)[kept.size :]])",
+            "start = extension.start(amplitude)",
+        ),
+        (
+            "an amplitude may turn negative",
+            "problem = InverseProblem(forward, target.values(), target, lower)",
+            "problem = InverseProblem(forward, target.values(), target, lower - np.inf)",
+        ),
+        (
+            "the final size ignores the prior",
+            "covariance @ (slope - fit.estimate)",
+            "covariance @ slope",
+        ),
+        (
+            "the final interval ignores the prior",
+            "covariance = np.linalg.inv(np.eye(fit.estimate.size) + gram)",
+            "covariance = np.linalg.inv(gram)",
+        ),
+        (
+            "the final size leaves its bound",
+            "covariance @ (slope - fit.estimate), lower),",
+            "covariance @ (slope - fit.estimate), -np.inf),",
+        ),
+    ),
+    *changes(
+        "discovery/refit/target.py",
+        "tests/discovery/refit/test_linear_refit.py",
+        (
+            "samples weigh without their noise",
+            "weighted = np.linalg.solve(self.covariance, jacobian)",
+            "weighted = jacobian",
+        ),
+        ("a misfit counts twice", "return -0.5 * float(residual @", "return -1.0 * float(residual @"),
+    ),
+)
