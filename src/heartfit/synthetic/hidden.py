@@ -87,10 +87,7 @@ def _volume(true: Curve, protocol: RecordingProtocol, rng: np.random.Generator) 
 
 
 def record_pressure(true: Curve, rng: np.random.Generator, noise: float = 1.0) -> Curve:
-    """Record a true pressure with a catheter: averages over 10 ms, sample noise and discrepancy.
-
-    noise: of a sample over PRESSURE_NOISE.
-    """
+    """Record with a catheter: averages over 10 ms, discrepancy, and ``noise`` of a sample over PRESSURE_NOISE."""
     count = int(true.period * RATE) // AVERAGED
     times = np.arange(count * AVERAGED) / RATE
     samples = true(times) + noise * PRESSURE_NOISE * rng.standard_normal(len(times))
@@ -175,14 +172,6 @@ class HiddenHeart:
         """Return the same heart with the resting pressure of the left atrium multiplied by ``factor``."""
         pressure = factor * self.heart.circulation.left_atrium
         return replace(self, heart=self.heart.with_parameters({"circulation.left_atrium": pressure}))
-
-    def with_earlier_trigger(self, lead: float) -> "HiddenHeart":
-        """Return the same heart with its R wave, time zero of a recording, earlier by ``lead`` [s].
-
-        Raises InputError for an R wave before the earliest activation.
-        """
-        delay = self.heart.tissue.control.trigger_delay - lead
-        return replace(self, heart=self.heart.with_parameters({"trigger_delay": delay}))
 
     def beat(self) -> Beat:
         """Simulate the beat on the limit cycle, with a right ventricle if a leak leads to it."""

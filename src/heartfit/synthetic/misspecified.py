@@ -74,9 +74,10 @@ class Misspecification:
         Raises Inadmissible for an R wave before the earliest activation.
         """
         hidden = draw_hidden(rng, self.centres)
-        if hidden.heart.tissue.control.trigger_delay < self.trigger_lead:
+        delay = hidden.heart.tissue.control.trigger_delay - self.trigger_lead
+        if delay < 0.0:
             raise Inadmissible("R wave before the activation")
-        return hidden.with_earlier_trigger(self.trigger_lead)
+        return replace(hidden, heart=hidden.heart.with_parameters({"trigger_delay": delay}))
 
     def draw_protocol(self, rng: np.random.Generator) -> RecordingProtocol:
         """Draw a protocol with these errors."""
