@@ -33,6 +33,14 @@ def test_recording_and_answer_are_read_back(tmp_path):
     assert open_seal(tmp_path / "sealed" / "5.answer", Answer) == CASE.answer
 
 
+def test_a_seal_keeps_the_departure_of_a_misspecified_heart(tmp_path):
+    case = plant(PlantedPlan(5, "none", population="misspecified"))
+    write_planted(case, tmp_path / "measured", tmp_path / "sealed")
+    assert open_seal(tmp_path / "sealed" / "5.answer", Answer) == case.answer
+    recorded = (tmp_path / "measured" / "5" / MEASURED).read_text()
+    assert "misspecified" not in recorded
+
+
 def test_the_seal_is_not_read_in_passing(tmp_path):
     write_planted(CASE, tmp_path / "measured", tmp_path)
     for file in (tmp_path / "measured" / "5" / MEASURED, tmp_path / "5.answer"):
@@ -86,7 +94,8 @@ def test_the_diagnosing_job_imports_no_code_that_plants_or_opens_a_seal():
         path.relative_to(PACKAGE).as_posix() for path in modules_below(SCRIPTS / "diagnose_planted.py")
     }
     assert "synthetic/trial.py" in diagnosing
-    answers = {f"synthetic/{name}.py" for name in ("case", "hidden", "campaign", "out_of_library", "scoring")}
+    planting = ("case", "hidden", "misspecified", "campaign", "out_of_library", "scoring")
+    answers = {f"synthetic/{name}.py" for name in planting}
     assert all((PACKAGE / name).exists() for name in answers)
     assert not diagnosing & (answers | {"io/seals.py", "io/planting.py", "io/scores.py"})
     planting = {path.relative_to(PACKAGE).as_posix() for path in modules_below(SCRIPTS / "plant_effects.py")}

@@ -8,12 +8,19 @@ import pytest
 from heartfit.discovery.sphere_model.cause import Cause
 from heartfit.io.tables import write_figure
 from heartfit.results.planted_figures import plot_confusion, plot_power, plot_rates
-from heartfit.results.planted_page import compare_data, data_table, planted_page
+from heartfit.results.planted_page import (
+    compare_data,
+    compare_populations,
+    data_table,
+    planted_page,
+    planted_tables,
+)
 from heartfit.results.planted_table import (
     COLUMNS,
     ClaimError,
     cases_table,
     mechanisms_table,
+    populations_table,
     rates_table,
     require_claims,
 )
@@ -49,6 +56,10 @@ CASES = [
     scored(5, "single", ("Scar",), "none"),
     scored(6, "outside", ("Whip",), "unknown"),
     scored(7, "two", ("Leak", "Scar"), "two", ("Leak", "Scar")),
+]
+MISSPECIFIED = [
+    replace(case, answer=replace(case.answer, seed=600 + case.answer.seed, population="misspecified"))
+    for case in (CASES[0], CASES[0], CASES[1], CASES[0], CASES[2], CASES[2], CASES[4])
 ]
 LEAST = DetectableSizes({("Leak", 1.0): 1.5, ("Scar", 1.0): float("inf")})
 
@@ -134,6 +145,47 @@ def test_undetectable_effects_are_not_counted_as_missed():
     assert table.loc["singles detected at 2 scales", "count"] == "2 of 3"
     assert table.loc["singles above their limit, detected", "count"] == "2 of 2"
     assert table.loc["singles above their limit, named right", "count"] == "1 of 2"
+
+
+def test_both_populations_stand_beside_each_other_with_the_targets_of_the_misspecified_one():
+    table = populations_table([*CASES, *MISSPECIFIED]).set_index("rate")
+    alarms, _, right, _ = table.to_dict("records")
+    assert (alarms["as searched"], alarms["misspecified"]) == ("1 of 2", "1 of 4")
+    assert numbers_in(alarms["misspecified (%)"])[0] == 25.0
+    assert (alarms["target (%)"], alarms["met"]) == ("<= 5", "no")
+    assert (right["misspecified"], right["target (%)"], right["met"]) == ("2 of 2", ">= 90", "yes")
+    assert table["as searched"].tolist() == ["1 of 2", "2 of 3", "1 of 1", "1 of 1"]
+    assert table["misspecified"].tolist() == ["1 of 4", "2 of 3", "2 of 2", "2 of 2"]
+    alone = populations_table(CASES)
+    assert alone["as searched"].tolist() == table["as searched"].tolist()
+    assert set(alone["misspecified"]) == set(alone["met"]) == {""}
+
+
+def test_tables_of_the_hearts_as_searched_do_not_count_misspecified_ones():
+    alone, both = (planted_tables(cases, LEAST) for cases in (CASES, [*CASES, *MISSPECIFIED]))
+    for name in ("rates", "mechanisms", "data"):
+        pd.testing.assert_frame_equal(alone[name], both[name])
+    assert both["cases"]["population"].tolist() == ["as searched"] * 7 + ["misspecified"] * 7
+
+
+def test_the_page_has_the_section_on_misspecified_hearts_only_with_such_hearts():
+    alone, both = (planted_page(cases, 7, "abc", LEAST) for cases in (CASES, [*CASES, *MISSPECIFIED]))
+    title = "## Misspecified hearts"
+    assert title not in alone
+    assert compare_populations(CASES) is None
+    before, after = both.split(title)
+    assert alone.startswith(before.rstrip())
+    numbers = numbers_in(outside_tables(after))
+    assert {7.0, 601.0, 605.0, 4.0, 3.0, 14.0} <= set(numbers)
+    assert "1 of 4" in after
+    nulls = planted_page([*CASES, *MISSPECIFIED[:4]], 7, "abc", LEAST).split(title)[1]
+    assert "one mechanism" not in nulls
+
+
+def test_a_rate_of_misspecified_hearts_may_be_claimed():
+    alarms = ("misspecified: false alarms of nulls", 0.05, "at most")
+    assert require_claims([*CASES, *MISSPECIFIED], claims(alarms))["counted"].tolist() == ["1 of 4"]
+    assert require_claims(CASES, claims(alarms)).empty
 
 
 @pytest.mark.parametrize("plot", [plot_rates, plot_confusion, plot_power])

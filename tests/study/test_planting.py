@@ -9,6 +9,7 @@ from heartfit.core.errors import InputError
 from heartfit.core.validation import validate
 from heartfit.io.configuration import read_configuration, read_study
 from heartfit.study.discovery import SCORING, DiscoveryBenchmark, VentricularBenchmark
+from heartfit.synthetic.campaign import plantable
 
 CONFIG = Path(__file__).parents[2] / "config"
 
@@ -19,7 +20,7 @@ def plans(*files):
 
 
 def test_the_benchmark_plants_enough_cases_of_every_kind():
-    kinds = Counter(plan.kind for plan in plans("config.yaml"))
+    kinds = Counter(plan.kind for plan in plans("config.yaml") if plan.population == "as searched")
     assert sum(kinds.values()) >= 300
     assert kinds["none"] >= 100
     assert kinds["single"] >= 120
@@ -33,10 +34,41 @@ def test_continuous_integration_plants_forty_on_seeds_of_its_own():
     assert not {plan.seed for plan in few} & {plan.seed for plan in many}
 
 
+def test_the_benchmark_plants_a_misspecified_heart_for_each_mechanism_beside_forty_without():
+    planted = plans("config.yaml")
+    others = [plan for plan in planted if plan.population == "misspecified"]
+    assert len(others) >= 60
+    assert [plan.kind for plan in others].count("none") == 40
+    assert sorted(plan.names for plan in others if plan.names) == sorted((name,) for name in plantable())
+    assert {plan.scales for plan in others if plan.names} == {2.5}
+    assert len({plan.seed for plan in planted}) == len(planted)
+
+
+def test_misspecified_cases_change_no_batch_of_the_others():
+    content = read_configuration([CONFIG / "config.yaml"])["discovery_benchmark"]
+    without = content | {"misspecified": content["misspecified"] | {"nulls": 0, "singles": 0}}
+    many, few = (validate(DiscoveryBenchmark, table, "here") for table in (content, without))
+    assert many.batches()[: len(few.batches())] == few.batches()
+    assert {plan.population for batch in few.batches() for plan in batch} == {"as searched"}
+    assert many.planned() == few.planned() == sum(map(len, few.batches()))
+
+
+@pytest.mark.parametrize(("beyond", "expected"), [(-3, 0), (0, 0), (5, 5), (1000, 66)])
+def test_a_limit_of_cases_leaves_misspecified_ones_for_the_end(beyond, expected):
+    content = read_configuration([CONFIG / "config.yaml"])["discovery_benchmark"]
+    planned = validate(DiscoveryBenchmark, content, "here").planned()
+    limited = validate(DiscoveryBenchmark, content | {"cases": planned + beyond}, "here")
+    kinds = Counter(plan.population for batch in limited.batches() for plan in batch)
+    assert kinds["as searched"] == planned + min(0, beyond)
+    assert kinds["misspecified"] == expected
+
+
 def test_seeds_of_tuning_are_refused():
     content = read_configuration([CONFIG / "config.yaml"])["discovery_benchmark"]
-    with pytest.raises(InputError, match="first_seed"):
-        validate(DiscoveryBenchmark, content | {"first_seed": SCORING - 1}, "here")
+    tuned = content["misspecified"] | {"first_seed": SCORING - 1}
+    for change in ({"first_seed": SCORING - 1}, {"misspecified": tuned}):
+        with pytest.raises(InputError, match="first_seed"):
+            validate(DiscoveryBenchmark, content | change, "here")
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """The scorer counts correctly for every diagnoser."""
 
+from dataclasses import replace
 from math import comb
 
 import pytest
@@ -8,7 +9,15 @@ from heartfit.discovery.sphere_model.cause import Cause
 from heartfit.observation.noise_model import Share
 from heartfit.synthetic.campaign import Effect
 from heartfit.synthetic.case import Answer
-from heartfit.synthetic.scoring import RATES, DetectableSizes, Scored, binomial_p_value
+from heartfit.synthetic.scoring import (
+    COMPARED_RATES,
+    MISSPECIFIED_RATES,
+    RATES,
+    DetectableSizes,
+    Scored,
+    binomial_p_value,
+    of_population,
+)
 from heartfit.synthetic.trial import ScoredDiagnosis
 
 
@@ -69,7 +78,60 @@ def test_every_rate_counts_its_cases():
 
 
 def test_a_rate_without_cases_is_undefined():
-    assert {rate.share_of([]) for rate in RATES} == {None}
+    assert {rate.share_of([]) for rate in (*RATES, *MISSPECIFIED_RATES)} == {None}
+
+
+def misspecified(scored):
+    """The same case in the other population."""
+    return replace(scored, answer=replace(scored.answer, population="misspecified"))
+
+
+def counts_of(rates, cases):
+    shares = {rate.name: rate.share_of(cases) for rate in rates}
+    return {
+        name: share and (round(share.covered * share.sequences), share.sequences)
+        for name, share in shares.items()
+    }
+
+
+def test_misspecified_cases_count_in_no_rate_of_the_others_and_the_others_in_none_of_theirs():
+    others = [misspecified(case) for case in CASES[:8]]
+    assert counts_of(RATES, [*CASES, *others, *others]) == COUNTS
+    assert counts_of(RATES, others) == dict.fromkeys(COUNTS)
+    assert set(counts_of(MISSPECIFIED_RATES, CASES).values()) == {None}
+    sizes = DetectableSizes({("Leak", 1.0): 1.5, ("Scar", 1.0): 1.5})
+    assert counts_of(sizes.rates(), [*CASES, *others]) == counts_of(sizes.rates(), CASES)
+    assert of_population([*CASES, *others], "misspecified") == others
+
+
+def test_the_rates_of_misspecified_cases_are_those_of_the_others_with_the_targets():
+    small = case("single", ("Leak",), "named", "Leak", scales=1.0)
+    others = [misspecified(case) for case in [*CASES, small, small]]
+    expected = {
+        "false alarms of nulls": (2, 4),
+        "singles from 2 scales on, detected": (5, 6),
+        "singles from 2 scales on, named right, of the named": (1, 3),
+        "amplitude in its interval, of those named right": (1, 1),
+    }
+    assert counts_of(COMPARED_RATES, [*CASES, small]) == expected
+    assert counts_of(MISSPECIFIED_RATES, others) == {
+        f"misspecified: {name}": count for name, count in expected.items()
+    }
+    targets = {
+        rate.name: (rate.target, rate.at_most) for rate in MISSPECIFIED_RATES if rate.target is not None
+    }
+    assert targets == {
+        "misspecified: false alarms of nulls": (0.05, True),
+        "misspecified: singles from 2 scales on, named right, of the named": (0.90, False),
+    }
+
+
+def test_an_interval_that_misses_the_planted_amplitude_is_not_counted_as_one_that_holds_it():
+    beyond = Scored(
+        Answer(0, "single", (Effect("Leak", 3.0, 1.0, "m^2", 2.0),), {}, {}, 0.02), diagnosis("named", "Leak")
+    )
+    coverage = COMPARED_RATES[-1].share_of([CASES[4], beyond])
+    assert (coverage.covered, coverage.sequences) == (0.5, 2)
 
 
 def test_targets_are_met_or_missed_by_the_share_itself():

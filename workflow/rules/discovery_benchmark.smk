@@ -113,7 +113,8 @@ rule discovery_benchmark:
         template=page_template("discovery_benchmark"),
     output:
         tables=expand(
-            "<results>/discovery_benchmark/{name}.csv", name=("rates", "mechanisms", "data", "cases")
+            "<results>/discovery_benchmark/{name}.csv",
+            name=("rates", "populations", "mechanisms", "data", "cases"),
         ),
         page=f"{STUDY.discovery_benchmark.page}/discovery_benchmark.md",
         figures=expand(

@@ -11,7 +11,7 @@ from heartfit.io.tables import write_figure, write_tables
 from heartfit.results.planted_figures import plot_confusion, plot_power, plot_rates
 from heartfit.results.planted_page import planted_page, planted_tables
 from heartfit.results.text import render_tables
-from heartfit.synthetic.scoring import DetectableSizes
+from heartfit.synthetic.scoring import DetectableSizes, of_population
 
 record(snakemake.log[0])
 out = snakemake.output
@@ -20,5 +20,6 @@ least = DetectableSizes.of(scored, DEFAULT_RULES.detected)
 write_tables(Path(out.tables[0]).parent, render_tables(planted_tables(scored, least)))
 code = read_fingerprint(Path(snakemake.input.findings[0]))
 write_text(Path(out.page), planted_page(scored, snakemake.params.planned, code, least))
-figures = plot_rates(scored, least.rates()), plot_confusion(scored), plot_power(scored)
+cases = of_population(scored, "as searched")
+figures = plot_rates(cases, least.rates()), plot_confusion(cases), plot_power(cases)
 list(map(write_figure, map(Path, out.figures), figures))

@@ -9,9 +9,15 @@ import pandas as pd
 from heartfit.core.pages import render_page
 from heartfit.discovery.inference.decide import CENTRED_RULES, DEFAULT_RULES
 from heartfit.discovery.sphere_model.limits import FRAMES, SIZES, DetectionLimit
-from heartfit.results.planted_table import UNITS, cases_table, mechanisms_table, rates_table
+from heartfit.results.planted_table import (
+    UNITS,
+    cases_table,
+    mechanisms_table,
+    populations_table,
+    rates_table,
+)
 from heartfit.results.text import to_markdown
-from heartfit.synthetic.scoring import DetectableSizes, Scored
+from heartfit.synthetic.scoring import DetectableSizes, Scored, of_population
 from heartfit.synthetic.trial import CONDITION, VOLUME
 
 
@@ -71,7 +77,8 @@ def planted_tables(scored: Sequence[Scored], least: DetectableSizes) -> dict[str
     """Return the tables of the benchmark by name; least: detection limits."""
     return {
         "rates": rates_table(scored, least.rates()),
-        "mechanisms": mechanisms_table(scored),
+        "populations": populations_table(scored),
+        "mechanisms": mechanisms_table(of_population(scored, "as searched")),
         "data": data_table(scored),
         "cases": cases_table(scored),
     }
@@ -80,26 +87,46 @@ def planted_tables(scored: Sequence[Scored], least: DetectableSizes) -> dict[str
 def planted_page(scored: Sequence[Scored], planned: int, fingerprint: str, least: DetectableSizes) -> str:
     """Return the page in Markdown; its figures are those of heartfit.results.planted_figures.
 
-    planned: number of cases of the whole benchmark, the first of which are scored; fingerprint: of the diagnosing
-    code; least: detection limits.
+    planned: number of cases as searched of the whole benchmark, the first of which are scored; fingerprint: of the
+    diagnosing code; least: detection limits.
     """
-    seeds = [case.answer.seed for case in scored]
-    refused = sum(sum(case.answer.rejected.values()) for case in scored)
+    cases = of_population(scored, "as searched")
     return render_page(
         "discovery_benchmark",
-        cases=len(scored),
+        **_extent(cases),
         planned=planned,
         fingerprint=fingerprint,
-        seeds=f"{min(seeds)} to {max(seeds)}",
-        refused=refused,
-        drawn=refused + len(scored),
-        rates=to_markdown(rates_table(scored, least.rates())),
-        gain=_pressure_gain([case for case in scored if case.right]),
-        mechanisms=to_markdown(mechanisms_table(scored)),
-        less=compare_data(scored),
-        simulations=np.median([case.finding.simulations for case in scored]),
-        seconds=np.median([case.finding.seconds for case in scored]),
+        rates=to_markdown(rates_table(cases, least.rates())),
+        gain=_pressure_gain([case for case in cases if case.right]),
+        mechanisms=to_markdown(mechanisms_table(cases)),
+        less=compare_data(cases),
+        misspecified=compare_populations(scored),
+        simulations=np.median([case.finding.simulations for case in cases]),
+        seconds=np.median([case.finding.seconds for case in cases]),
     )
+
+
+def compare_populations(scored: Sequence[Scored]) -> dict[str, Any] | None:
+    """Return numbers and table of the section on misspecified hearts; None without one."""
+    cases = of_population(scored, "misspecified")
+    if not cases:
+        return None
+    kinds = [case.answer.kind for case in cases]
+    return {
+        **_extent(cases),
+        "nulls": kinds.count("none"),
+        "singles": kinds.count("single"),
+        "scales": max(case.scales for case in cases),
+        "table": to_markdown(populations_table(scored)),
+    }
+
+
+def _extent(scored: Sequence[Scored]) -> dict[str, Any]:
+    """Return number and seeds of the cases, and numbers of refused and of all draws."""
+    seeds = [case.answer.seed for case in scored]
+    refused = sum(sum(case.answer.rejected.values()) for case in scored)
+    extent = f"{min(seeds)} to {max(seeds)}"
+    return {"cases": len(scored), "seeds": extent, "refused": refused, "drawn": refused + len(scored)}
 
 
 def _pressure_gain(correct: Sequence[Scored]) -> dict[str, float] | None:
@@ -121,16 +148,11 @@ def ventricles_rates(scored: Sequence[Scored], least: DetectableSizes) -> pd.Dat
 
 def ventricles_page(scored: Sequence[Scored], planned: int, least: DetectableSizes) -> str:
     """Return the page in Markdown; its figure is plot_ventricles'; planned: number of all cases."""
-    seeds = [case.answer.seed for case in scored]
     errors = [case.answer.volume_noise for case in scored]
-    refused = sum(sum(case.answer.rejected.values()) for case in scored)
     return render_page(
         "discovery_benchmark_3d",
-        cases=len(scored),
+        **_extent(scored),
         planned=planned,
-        seeds=f"{min(seeds)} to {max(seeds)}",
-        refused=refused,
-        drawn=refused + len(scored),
         detected=CENTRED_RULES.detected,
         error=100.0 * np.median(errors),
         worst=100.0 * max(errors),

@@ -7,8 +7,16 @@ import numpy as np
 import pandas as pd
 
 from heartfit.core.errors import InputError
+from heartfit.observation.noise_model import Share
 from heartfit.synthetic.campaign import Effect
-from heartfit.synthetic.scoring import RATES, Rate, Scored, binomial_p_value
+from heartfit.synthetic.scoring import (
+    COMPARED_RATES,
+    MISSPECIFIED_RATES,
+    RATES,
+    Rate,
+    Scored,
+    binomial_p_value,
+)
 
 UNITS = {"m^2": ("cm^2", 1e-4), "s": ("ms", 1e-3), "Pa": ("kPa", 1e3), "1": ("", 1.0), "Pa.s": ("kPa.s", 1e3)}
 """Printed unit of an amplitude and its SI value, by SI unit."""
@@ -20,17 +28,57 @@ def rates_table(scored: Sequence[Scored], rates: Sequence[Rate] = RATES) -> pd.D
     return pd.DataFrame([_rate_row(rate, share) for rate, share in shares if share is not None])
 
 
-def _rate_row(rate: Rate, share: Any) -> dict[str, Any]:
-    met = rate.meets_target(share)
-    bound = "" if rate.target is None else f"{'<=' if rate.at_most else '>='} {100 * rate.target:g}"
+def _rate_row(rate: Rate, share: Share) -> dict[str, Any]:
     return {
         "rate": rate.name,
-        "count": f"{round(share.covered * share.sequences)} of {share.sequences}",
+        "count": _printed_count(share),
         "share (%)": 100.0 * share.covered,
         "low (%)": 100.0 * share.low,
         "high (%)": 100.0 * share.high,
-        "target (%)": bound,
-        "met": "" if met is None else "yes" if met else "no",
+        "target (%)": _printed_target(rate),
+        "met": _verdict_on_target(rate, share),
+    }
+
+
+def _printed_count(share: Share) -> str:
+    return f"{round(share.covered * share.sequences)} of {share.sequences}"
+
+
+def _printed_target(rate: Rate) -> str:
+    return "" if rate.target is None else f"{'<=' if rate.at_most else '>='} {100 * rate.target:g}"
+
+
+def _verdict_on_target(rate: Rate, share: Share) -> str:
+    met = rate.meets_target(share)
+    return "" if met is None else "yes" if met else "no"
+
+
+def populations_table(scored: Sequence[Scored]) -> pd.DataFrame:
+    """Return one row per rate with the cases as searched beside the misspecified ones, which have the target."""
+    rows = zip(COMPARED_RATES, MISSPECIFIED_RATES, strict=True)
+    return pd.DataFrame([_compared_row(scored, *rates) for rates in rows])
+
+
+def _compared_row(scored: Sequence[Scored], rate: Rate, misspecified: Rate) -> dict[str, Any]:
+    other = misspecified.share_of(scored)
+    met = "" if other is None else _verdict_on_target(misspecified, other)
+    return {
+        "rate": rate.name,
+        **_share_cells("as searched", rate.share_of(scored)),
+        **_share_cells("misspecified", other),
+        "target (%)": _printed_target(misspecified),
+        "met": met,
+    }
+
+
+def _share_cells(population: str, share: Share | None) -> dict[str, str]:
+    """Return the count of a population, and its share with the exact 95 % interval; empty without a case."""
+    if share is None:
+        return {population: "", f"{population} (%)": ""}
+    low, covered, high = (100.0 * part for part in (share.low, share.covered, share.high))
+    return {
+        population: _printed_count(share),
+        f"{population} (%)": f"{covered:.1f} ({low:.1f} to {high:.1f})",
     }
 
 
@@ -72,6 +120,7 @@ def _case_row(case: Scored) -> dict[str, Any]:
     best = max((named.ln_bayes_factor for named in case.finding.mechanisms), default=np.nan)
     return {
         "seed": case.answer.seed,
+        "population": case.answer.population,
         "kind": case.answer.kind,
         "planted": case.planted,
         "scales": case.scales,
@@ -98,7 +147,7 @@ def printed_size(effect: Effect) -> tuple[float, str]:
 
 COLUMNS = ["rate", "claim", "bound", "why"]
 BOUNDS = ("at most", "at least")
-BY_NAME = {rate.name: rate for rate in RATES}
+BY_NAME = {rate.name: rate for rate in (*RATES, *MISSPECIFIED_RATES)}
 REFUTATION_PROBABILITY = 0.01
 """Least p-value of a count that does not refute a claim."""
 
@@ -134,8 +183,10 @@ def _count(scored: Sequence[Scored], row: Mapping[Hashable, Any]) -> dict[Hashab
     share = BY_NAME[row["rate"]].share_of(scored)
     if share is None:
         return {"counted": "", "doubt": 1.0}
-    count = f"{round(share.covered * share.sequences)} of {share.sequences}"
-    return {"counted": count, "doubt": binomial_p_value(share, row["claim"], row["bound"] == BOUNDS[0])}
+    return {
+        "counted": _printed_count(share),
+        "doubt": binomial_p_value(share, row["claim"], row["bound"] == BOUNDS[0]),
+    }
 
 
 def _refuted_line(row: Mapping[Hashable, Any]) -> str:

@@ -9,7 +9,15 @@ from pydantic import Field, PositiveFloat, field_validator, model_validator
 from heartfit.core.validation import LARGEST_COUNT, Count, RelativeFolder, Seed, Strict
 from heartfit.personalise.numerics import Generator
 from heartfit.personalise.setting import Element, compose_heart
-from heartfit.synthetic.campaign import Kind, PlantedPlan, PlantingCampaign, Reloaded, plantable
+from heartfit.synthetic.campaign import (
+    Kind,
+    PlantedPlan,
+    PlantingCampaign,
+    Reloaded,
+    in_batches,
+    misspecified_plans,
+    plantable,
+)
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 
 
@@ -132,6 +140,21 @@ class ReloadedBenchmark(Strict):
     scales: PositiveFloat = Field(description="size of these singles, in scales of the mechanism")
 
 
+class MisspecifiedBenchmark(Strict):
+    """Hearts about other centres than those of the search, recorded with other errors and an earlier R wave."""
+
+    first_seed: int = Field(
+        ge=SCORING, lt=1 << 63, description="seed of the first case; it grows by one from case to case"
+    )
+    nulls: int = Field(ge=0, le=LARGEST_COUNT)
+    singles: int = Field(ge=0, le=LARGEST_COUNT, description="number of cases per mechanism")
+    scales: PositiveFloat = Field(description="size of the effects, in scales of the mechanism")
+
+    def plans(self) -> list[PlantedPlan]:
+        """Return the planted cases: nulls, then singles."""
+        return misspecified_plans(self.first_seed, self.nulls, self.singles, self.scales, plantable())
+
+
 def _require_known(names: Iterable[str], known: Collection[str]) -> None:
     for name in names:
         if name not in known:
@@ -151,7 +174,11 @@ class DiscoveryBenchmark(Strict):
     pairs: Count
     pair_scales: PositiveFloat
     reloaded: ReloadedBenchmark
-    cases: Count | None = Field(None, description="number of cases to run, a random sample of all")
+    misspecified: MisspecifiedBenchmark
+    cases: Count | None = Field(
+        None,
+        description="number of cases to run, a random sample of all; misspecified cases only follow after all others",
+    )
     batch: Count = Field(description="number of cases per job")
     page: RelativeFolder = Field(
         description="folder of the page, with its figures in the subfolder `figures`"
@@ -160,11 +187,13 @@ class DiscoveryBenchmark(Strict):
     ventricles: VentricularBenchmark
 
     def batches(self) -> list[list[PlantedPlan]]:
-        """Return the planted cases of each job."""
-        return self._campaign().batches(self.batch, self.cases)
+        """Return the planted cases of each job: those as searched, then the misspecified ones."""
+        as_searched = self._campaign().batches(self.batch, self.cases)
+        left = None if self.cases is None else self.cases - sum(map(len, as_searched))
+        return [*as_searched, *in_batches(self.misspecified.plans()[:left], self.batch)]
 
     def planned(self) -> int:
-        """Return the number of all cases, before a limit to the first ones."""
+        """Return the number of all cases as searched, before a limit to the first ones."""
         return sum(map(len, self._campaign().batches(self.batch)))
 
     def _campaign(self) -> PlantingCampaign:

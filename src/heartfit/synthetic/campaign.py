@@ -85,13 +85,16 @@ def mechanism_of(effect: Effect) -> Mechanism:
 
 
 Kind = Literal["none", "single", "two", "outside"]
+Population = Literal["as searched", "misspecified"]
+"""Hearts that scatter as the search assumes, and hearts about other centres, recorded with other errors."""
 
 
 @dataclass(frozen=True)
 class PlantedPlan:
     """Plan of a planted case: no effect, one or two registered mechanisms, or one out-of-library effect, by name.
 
-    scales: size of each effect in scales of its mechanism; reloaded: the heart is also measured with raised legs.
+    scales: size of each effect in scales of its mechanism; reloaded: the heart is also measured with raised legs;
+    population: of the hidden heart and of the errors of its recording.
     """
 
     seed: int
@@ -99,6 +102,24 @@ class PlantedPlan:
     names: tuple[str, ...] = ()
     scales: float = 0.0
     reloaded: bool = False
+    population: Population = "as searched"
+
+
+def misspecified_plans(
+    first_seed: int, nulls: int, singles: int, scales: float, library: Iterable[str]
+) -> list[PlantedPlan]:
+    """Return plans of the misspecified population: nulls, then ``singles`` cases of every mechanism of the library.
+
+    ``first_seed`` is the seed of the first case and grows by one from case to case.
+    """
+    sound: list[PlantedPlan] = [PlantedPlan(0, "none", population="misspecified")] * nulls
+    ill = [PlantedPlan(0, "single", (name,), scales, population="misspecified") for name in library] * singles
+    return [replace(plan, seed=seed) for seed, plan in enumerate(sound + ill, first_seed)]
+
+
+def in_batches(plans: Sequence[PlantedPlan], size: int) -> list[list[PlantedPlan]]:
+    """Return the plans in batches of ``size``; the last one may be smaller."""
+    return [list(plans[start : start + size]) for start in range(0, len(plans), size)]
 
 
 @dataclass(frozen=True)
@@ -136,8 +157,8 @@ class PlantingCampaign:
 
     def batches(self, size: int, first: int | None = None) -> list[list[PlantedPlan]]:
         """Return the plans, or only the ``first`` ones, in batches of ``size``, for the effects of this version."""
-        plans = self.plans(list(plantable()), [cls.__name__ for cls in OUT_OF_LIBRARY])[:first]
-        return [plans[start : start + size] for start in range(0, len(plans), size)]
+        plans = self.plans(list(plantable()), [cls.__name__ for cls in OUT_OF_LIBRARY])
+        return in_batches(plans[:first], size)
 
     def plans(self, library: Sequence[str], outside: Sequence[str]) -> list[PlantedPlan]:
         """Return all plans in random order, for mechanisms of the library and effects outside it, by name."""

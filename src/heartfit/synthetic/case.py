@@ -15,11 +15,13 @@ from heartfit.synthetic.campaign import (
     Inadmissible,
     Kind,
     PlantedPlan,
+    Population,
     draw_effect,
     effects_of,
     plantable,
 )
-from heartfit.synthetic.hidden import NUMERICS, HiddenHeart, RecordingProtocol, draw_hidden, measure_beat
+from heartfit.synthetic.hidden import NUMERICS, HiddenHeart, RecordingProtocol, measure_beat
+from heartfit.synthetic.misspecified import AS_SEARCHED, Misspecification
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 
 EDV, EJECTION_FRACTION, PEAK = (80e-6, 300e-6), (0.15, 0.80), (8e3, 30e3)
@@ -34,7 +36,10 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Answer:
-    """Planted effects, rejected draws by reason, and the truth: standard deviates of the parameters, volume noise."""
+    """Planted effects, rejected draws by reason, and the truth: standard deviates of the parameters, volume noise.
+
+    population: of the heart; misspecification: its departure from the assumptions of the search.
+    """
 
     seed: int
     kind: Kind
@@ -42,6 +47,8 @@ class Answer:
     rejected: Mapping[str, int]
     truth: Mapping[str, float]
     volume_noise: float
+    population: Population = "as searched"
+    misspecification: Misspecification = AS_SEARCHED
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +84,8 @@ def draw_admissible(seed: int, draw: Callable[[np.random.Generator, Mapping[str,
 
 
 def _draw_case(plan: PlantedPlan, rng: np.random.Generator, rejected: Mapping[str, int]) -> PlantedCase:
-    healthy, protocol = draw_hidden(rng), RecordingProtocol.draw(rng)
+    departure = Misspecification.draw(rng) if plan.population == "misspecified" else AS_SEARCHED
+    healthy, protocol = departure.draw_heart(rng), departure.draw_protocol(rng)
     planted = draw_effects(plan, rng)
     hidden = healthy.with_effects(planted)
     curves = {REST: _record(hidden, protocol, rng)}
@@ -91,6 +99,8 @@ def _draw_case(plan: PlantedPlan, rng: np.random.Generator, rejected: Mapping[st
         dict(rejected),
         healthy.deviates,
         protocol.noise,
+        plan.population,
+        departure,
     )
     return PlantedCase(curves, answer)
 

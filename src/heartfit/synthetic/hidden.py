@@ -19,6 +19,7 @@ where the bar is the mean over 10 ms of samples at 1 kHz, and the smooth, period
 that no model explains.
 """
 
+from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
@@ -50,10 +51,15 @@ VOLUME_ROUGHNESS, PRESSURE_ROUGHNESS, ROUGHNESS_LENGTH = 0.6e-6, 150.0, 0.05
 
 @dataclass(frozen=True)
 class RecordingProtocol:
-    """Number of frames, and noise of the volume over the end-diastolic volume."""
+    """Number of frames, and noise of the volume over the end-diastolic volume.
+
+    memory: correlation of the errors of successive frames; catheter: noise of a catheter's sample over PRESSURE_NOISE.
+    """
 
     frames: int
     noise: float
+    memory: float = MEMORY
+    catheter: float = 1.0
 
     @classmethod
     def draw(cls, rng: np.random.Generator) -> "RecordingProtocol":
@@ -68,22 +74,23 @@ def measure_beat(
     true: Mapping[str, Curve] = beat_curves(beat, sensors)
     return {
         "lv_volume": _volume(true["lv_volume"], protocol, rng),
-        "lv_pressure": record_pressure(true["lv_pressure"], rng),
+        "lv_pressure": record_pressure(true["lv_pressure"], rng, protocol.catheter),
     }
 
 
 def _volume(true: Curve, protocol: RecordingProtocol, rng: np.random.Generator) -> Curve:
     frames = true.resampled(protocol.frames)
-    error = protocol.noise * float(true.values.max()) * autoregressive_error(protocol.frames, MEMORY, rng)
+    errors = autoregressive_error(protocol.frames, protocol.memory, rng)
+    error = protocol.noise * float(true.values.max()) * errors
     discrepancy = VOLUME_ROUGHNESS * smooth_process(frames.times, true.period, ROUGHNESS_LENGTH, rng)
     return Curve(frames.times, frames.values + discrepancy + error, true.period)
 
 
-def record_pressure(true: Curve, rng: np.random.Generator) -> Curve:
-    """Record a true pressure with a catheter: averages over 10 ms, sample noise and discrepancy."""
+def record_pressure(true: Curve, rng: np.random.Generator, noise: float = 1.0) -> Curve:
+    """Record with a catheter: averages over 10 ms, discrepancy, and ``noise`` of a sample over PRESSURE_NOISE."""
     count = int(true.period * RATE) // AVERAGED
     times = np.arange(count * AVERAGED) / RATE
-    samples = true(times) + PRESSURE_NOISE * rng.standard_normal(len(times))
+    samples = true(times) + noise * PRESSURE_NOISE * rng.standard_normal(len(times))
     middles, means = (array.reshape(count, AVERAGED).mean(axis=1) for array in (times, samples))
     discrepancy = PRESSURE_ROUGHNESS * smooth_process(middles, true.period, ROUGHNESS_LENGTH, rng)
     return Curve(middles, means + discrepancy, true.period)
@@ -138,6 +145,8 @@ DENSITY = 1060.0
 """Density of the wall [kg/m^3]."""
 INERTANCES = {"mitral": 3e4, "aortic": 4e4}
 """Inertances [Pa s^2/m^3] of a blood column of about 15 mm length in each valve."""
+WALL_AMOUNT = "wall"
+"""Name of density and volume of the wall where their centres are shifted as one."""
 TRUNCATION = 2.5
 """Truncation of a draw [standard deviations]."""
 
@@ -172,18 +181,23 @@ class HiddenHeart:
         return simulate_spheres(self.heart, spheres, NUMERICS, self.activation, self.inertia)
 
 
-def draw_hidden(rng: np.random.Generator) -> HiddenHeart:
-    """Draw a heart without any planted effect."""
-    normal = Normal(rng)
-    deviates = {name: normal() for name in (*RELATIVE, *TIMES, "cavity", "mitral resistance")}
+def draw_hidden(rng: np.random.Generator, centres: Mapping[str, float] | None = None) -> HiddenHeart:
+    """Draw a heart without any planted effect.
+
+    centres: shifts of the centres of parameters, of the valves "mitral inertance" and "aortic inertance", and of
+    "wall", its density and its volume [standard deviations].
+    """
+    normal, shift = Normal(rng), defaultdict(float, centres or {})
+    deviates = {name: normal() + shift[name] for name in (*RELATIVE, *TIMES, "cavity", "mitral resistance")}
     size, period = normal.factor(SIZE), PERIOD[0] + PERIOD[1] * normal()
     heart = scatter_parameters(_average_heart(size, period), deviates, normal)
     cavity = size * CAVITY * np.exp(FILLED * deviates["cavity"])
-    sphere = Sphere.from_volumes(cavity, size * WALL * normal.factor(AMOUNT))
+    sphere = Sphere.from_volumes(cavity, size * WALL * normal.factor(AMOUNT, shift[WALL_AMOUNT]))
     inertances = tuple(
-        (name, inertance / size * normal.factor(INERTANCE)) for name, inertance in INERTANCES.items()
+        (name, inertance / size * normal.factor(INERTANCE, shift[f"{name} inertance"]))
+        for name, inertance in INERTANCES.items()
     )
-    inertia = Inertia(DENSITY * normal.factor(MASS), inertances)
+    inertia = Inertia(DENSITY * normal.factor(MASS, shift[WALL_AMOUNT]), inertances)
     return HiddenHeart(heart, sphere, HEALTHY_ACTIVATION * normal.factor(SPREAD), inertia, deviates)
 
 
@@ -196,9 +210,9 @@ class Normal:
     def __call__(self) -> float:
         return float(np.clip(self._rng.standard_normal(), -TRUNCATION, TRUNCATION))
 
-    def factor(self, sd: float) -> float:
-        """Draw a log-normal factor of median 1."""
-        return float(np.exp(sd * self()))
+    def factor(self, sd: float, centre: float = 0.0) -> float:
+        """Draw a log-normal factor whose median lies ``centre`` standard deviations from 1."""
+        return float(np.exp(sd * (self() + centre)))
 
 
 def _average_heart(size: float, period: float) -> Heart:

@@ -9,7 +9,7 @@ from scipy.stats import binomtest
 from heartfit.discovery.sphere_model.cause import Cause
 from heartfit.discovery.sphere_model.limits import detection_limits
 from heartfit.observation.noise_model import Share
-from heartfit.synthetic.campaign import Effect
+from heartfit.synthetic.campaign import Effect, Population
 from heartfit.synthetic.case import Answer
 from heartfit.synthetic.trial import REFUSED, ScoredDiagnosis
 
@@ -81,23 +81,33 @@ class Scored:
         return next(cause for cause in self.finding.mechanisms if cause.name == effect.name)
 
 
+def of_population(scored: Iterable[Scored], population: Population) -> list[Scored]:
+    """Return the cases of a population."""
+    return [case for case in scored if case.answer.population == population]
+
+
 Holds = Callable[[Scored], bool]
 """Property of a scored case."""
 
 
 @dataclass(frozen=True)
 class Rate:
-    """Share of the cases ``among`` for which ``holds`` is true, with an optional target (lower or upper bound)."""
+    """Share of the cases ``among`` for which ``holds`` is true, with an optional target (lower or upper bound).
+
+    Only cases of the ``population`` are counted.
+    """
 
     name: str
     among: Holds
     holds: Holds
     target: float | None = None
     at_most: bool = False
+    population: Population = "as searched"
 
     def share_of(self, scored: Iterable[Scored]) -> Share | None:
         """Return the share with its exact 95 % interval, None if there is no such case."""
-        outcomes = [self.holds(case) for case in scored if self.among(case)]
+        cases = of_population(scored, self.population)
+        outcomes = [self.holds(case) for case in cases if self.among(case)]
         return Share.from_count(float(sum(outcomes)), len(outcomes)) if outcomes else None
 
     def meets_target(self, share: Share) -> bool | None:
@@ -149,6 +159,28 @@ RATES = (
     ),
     Rate("pairs with one name, and right", _pair, lambda case: case.named and case.finding.names < case.truth),
 )  # fmt: skip
+
+
+def _strong(case: Scored) -> bool:
+    return _single(case) and case.scales >= 2.0
+
+
+COMPARED_RATES = (
+    Rate("false alarms of nulls", _null, lambda case: case.detected, 0.05, at_most=True),
+    Rate("singles from 2 scales on, detected", _strong, lambda case: case.detected),
+    Rate(
+        "singles from 2 scales on, named right, of the named", lambda case: _strong(case) and case.named,
+        lambda case: case.right, 0.90,
+    ),
+    Rate(
+        "amplitude in its interval, of those named right", lambda case: _strong(case) and case.right,
+        lambda case: case.covered(case.answer.effects[0]),
+    ),
+)  # fmt: skip
+"""Rates that are compared between the populations; their targets are those of the misspecified one."""
+MISSPECIFIED_RATES = tuple(
+    replace(rate, name=f"misspecified: {rate.name}", population="misspecified") for rate in COMPARED_RATES
+)
 
 
 def binomial_p_value(share: Share, claim: float, at_most: bool) -> float:
