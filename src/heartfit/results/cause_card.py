@@ -1,7 +1,7 @@
 """Cause card: the sentences in which a diagnosis is read."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from heartfit.discovery.sphere_model.cause import Cause, Departure, Diagnosis, Gain, Refitted, departures
 from heartfit.results.text import printed_curve_unit
@@ -63,6 +63,7 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
         "## Alternative explanations\n\n" + alternatives_text(diagnosis),
         "## Next measurement\n\n" + next_measurement_text(diagnosis),
         f"## Held-out error with {gain_subject(diagnosis)}\n\n" + gains_text(diagnosis.gain),
+        *([_final_sizes(diagnosis.from_all_samples)] if diagnosis.from_all_samples else []),
         *([f"## Refit in three dimensions\n\n{refit_section(diagnosis.refitted)}"] if diagnosis.refitted else []),
         *([self_test_sentence(diagnosis)] if diagnosis.self_test is not None else []),
         f"Simulated beats: {diagnosis.simulations}.",
@@ -150,15 +151,15 @@ def refit_section(refitted: Refitted) -> str:
     return (
         f"Extension of the model: {added}. Its ln Bayes factor is {refitted.ln_bayes_factor:.1f} over the model "
         f"without it; both were fitted to half of the samples in {refitted.simulations} beats. {convergence}."
-        f"{_final_sizes(refitted)}\n\n"
+        f"{' ' if refitted.from_all_samples else ''}{_final_sizes(refitted.from_all_samples)}\n\n"
         "| parameter (SI) | without | with | change (%) |\n|---|---|---|---|\n" + "\n".join(changes)
     )
 
 
-def _final_sizes(refitted: Refitted) -> str:
+def _final_sizes(causes: Sequence[Cause]) -> str:
     """Return the sentence on the sizes from both halves of the samples, empty where they were not computed."""
-    sizes = "; ".join(map(mechanism_with_size, refitted.from_all_samples))
-    return f" From all samples, after the other half has judged: {sizes}." if sizes else ""
+    sizes = "; ".join(map(mechanism_with_size, causes))
+    return f"From all samples, after the other half has judged: {sizes}." if sizes else ""
 
 
 def gain_subject(diagnosis: Diagnosis) -> str:
@@ -170,10 +171,16 @@ def gain_subject(diagnosis: Diagnosis) -> str:
 
 
 def gains_text(gains: Iterable[Gain]) -> str:
-    """Return the ratios of the held-out errors with and without the mechanism as a list."""
+    """Return the ratios of the held-out errors with and without the mechanism as a list.
+
+    A recording too short for two halves names mechanisms that nothing judges.
+    """
     lines = [
         f"- {CURVES.get(gain.curve, gain.curve)} ({gain.on}): error ratio {gain.ratio:.2f} "
         f"(95 % CI {gain.interval[0]:.2f} to {gain.interval[1]:.2f})"
         for gain in gains
     ]
-    return "\n".join(lines) or "No mechanism is named."
+    return (
+        "\n".join(lines)
+        or "None: no mechanism is named, or the recording is too short for a half that judges."
+    )

@@ -3,11 +3,10 @@
 import time as clock
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
-from heartfit.discovery.sphere_model.diagnose import SearchedRecording, conclude, diagnose
+from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.recording import Recording
 
 REFUSED = "refused"
@@ -18,7 +17,7 @@ VOLUME, CONDITION = "volume alone", "volume, pressure and raised legs"
 
 @dataclass(frozen=True)
 class ScoredDiagnosis:
-    """Diagnosis of a case in the form that is scored.
+    """Diagnosis of a case in the form that is scored, with sizes from all samples where the search saw half of them.
 
     ``ranking``: ln Bayes factors of all single mechanisms; ``gain``: error ratios by curve on held-out samples;
     ``seconds``: CPU time [s]; ``other``: diagnoses of the smaller and the larger data set, by its name.
@@ -40,7 +39,9 @@ class ScoredDiagnosis:
     def of(cls, diagnosis: Diagnosis, seconds: float) -> "ScoredDiagnosis":
         """Extract the scored part of a diagnosis that took ``seconds`` of CPU time."""
         gains = {gain.curve: gain.ratio for gain in diagnosis.gain}
-        conclusion = diagnosis.verdict, diagnosis.mechanisms, dict(diagnosis.ranking), gains
+        final = {cause.name: cause for cause in diagnosis.from_all_samples}
+        sizes = tuple(final.get(cause.name, cause) for cause in diagnosis.mechanisms)
+        conclusion = diagnosis.verdict, sizes, dict(diagnosis.ranking), gains
         return cls(*conclusion, diagnosis.simulations, seconds)
 
 
@@ -60,8 +61,6 @@ def diagnose_by_data(rest: Recording, conditions: Mapping[str, Recording]) -> Sc
     """Diagnose the recording at rest and, if there are other conditions, also the smaller and the larger data set."""
     if not conditions:
         return diagnose_recording(rest)
-    searched = cache(SearchedRecording.search)  # conditions are not fitted, so one search serves both
     volume = replace(rest, curves={"lv_volume": rest.curves["lv_volume"]})
-    at_rest = diagnose_recording(rest, lambda recording: conclude(searched(recording), {}))
-    more = diagnose_recording(rest, lambda recording: conclude(searched(recording), conditions))
-    return replace(at_rest, other={VOLUME: diagnose_recording(volume), CONDITION: more})
+    more = diagnose_recording(rest, lambda recording: diagnose(recording, conditions))
+    return replace(diagnose_recording(rest), other={VOLUME: diagnose_recording(volume), CONDITION: more})

@@ -12,7 +12,7 @@ from heartfit.discovery.inference.data import Block, Data, Noise
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.sphere_model import held_out as module
 from heartfit.discovery.sphere_model.forward_model import Candidate, SphereForwardModel
-from heartfit.discovery.sphere_model.held_out import predict_condition, predict_half, predict_unseen
+from heartfit.discovery.sphere_model.held_out import predict_condition, predict_unseen
 from heartfit.discovery.sphere_model.nominal_heart import ADULT
 
 PERIOD = 0.8
@@ -56,36 +56,7 @@ def measured(times: dict[str, Floats], nominal: object, x: Floats, period: float
 
 RESTING = ADULT.at_period(PERIOD)
 ONE_BEAT = {"lv_volume": np.arange(24) * PERIOD / 24, "lv_pressure": (np.arange(80) + 0.5) * PERIOD / 80}
-TWO_BEATS = {"lv_volume": np.arange(48) * PERIOD / 24}
 TRUTH = np.array([0.2, 0.3])
-
-
-@pytest.mark.parametrize(
-    ("times", "held"),
-    [
-        (
-            ONE_BEAT,
-            {"lv_volume": np.arange(24) % 2 == 1, "lv_pressure": np.arange(80) // 5 % 2 == 1},
-        ),
-        (TWO_BEATS, {"lv_volume": np.arange(48) >= 24}),
-    ],
-    ids=["frames-and-50-ms", "every-other-beat"],
-)
-def test_one_half_is_fitted_and_predicts_the_other(
-    times: dict[str, Floats], held: dict[str, np.ndarray]
-) -> None:
-    """The other half is spoilt, which changes no prediction of it."""
-    data, mask = measured(times, RESTING, TRUTH), np.concatenate(list(held.values()))
-    spoilt = replace(data, values=np.where(mask, 2.0 * data.values, data.values))
-    prediction = predict_half(RESTING, spoilt, EFFECT, np.zeros(1), np.zeros(2))
-    assert prediction is not None
-    for block in prediction.data.blocks:
-        assert block.times == pytest.approx(times[block.curve][held[block.curve]])
-    assert prediction.data.values == pytest.approx(spoilt.values[mask])
-    assert prediction.extended == pytest.approx(
-        data.values[mask], rel=1e-3, abs=1e-3 * np.abs(data.values).max()
-    )
-    assert predict_half(RESTING, data, EFFECT, np.zeros(1), np.zeros(2)).helps()  # type: ignore[union-attr]
 
 
 def test_unseen_samples_are_predicted_as_the_models_were_fitted() -> None:

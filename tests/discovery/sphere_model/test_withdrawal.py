@@ -1,7 +1,7 @@
 """Names that do not help on held-out data are withdrawn; what chose a name does not judge it."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import cast
 
@@ -71,6 +71,11 @@ class Searched:
             survey=SimpleNamespace(baseline=baseline, singles=list(at.values())),
         )
 
+    def sizes_from_all_samples(self, named: Sequence[Effects]) -> tuple[Cause, ...]:
+        return tuple(
+            replace(self.cause(effects, name), amplitude=2.0) for effects in named for name in effects
+        )
+
     def cause(self, effects: Effects, name: str) -> Cause:
         return Cause(name, self.factors[effects], 1.0, "1", (0.5, 1.5))
 
@@ -114,6 +119,8 @@ def test_a_name_that_makes_held_out_data_less_likely_is_withdrawn(
 def test_a_name_that_helps_in_every_test_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     diagnosis = concluded(monkeypatch, Searched("named", {LEAK: 12.0}), {LEAK: (2.0, 0.1)})
     assert (diagnosis.verdict, names(diagnosis), diagnosis.withdrawn) == ("named", LEAK, ())
+    assert [cause.amplitude for cause in diagnosis.from_all_samples] == [2.0]
+    assert [cause.amplitude for cause in diagnosis.mechanisms] == [1.0]
 
 
 @pytest.mark.parametrize(("gain", "kept"), [(3.9, DELAY), (2.5, DELAY + LEAK), (0.5, LEAK + DELAY)])
@@ -127,6 +134,15 @@ def test_another_condition_adds_its_evidence_to_that_of_each_member_of_a_group(
     assert diagnosis.verdict == ("named" if len(kept) == 1 else "group")
 
 
+def test_a_name_whose_beat_fails_on_held_out_data_is_withdrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "traces", lambda *_: ())
+    monkeypatch.setattr(module, "next_measurement", lambda *_: "the flow")
+    monkeypatch.setattr(module, "predict_explanation", lambda *_: [Gained(2.0), None])
+    case = Searched("named", {LEAK: 12.0})
+    diagnosis = conclude(cast("SearchedRecording", case), RAISED)
+    assert (diagnosis.verdict, diagnosis.withdrawn) == ("unknown", LEAK)
+
+
 def test_half_of_a_recording_withdraws_a_group_with_its_best_member(monkeypatch: pytest.MonkeyPatch) -> None:
     group = Searched("group", {LEAK: 12.0, DELAY: 11.0})
     diagnosis = concluded(monkeypatch, group, {LEAK: (-1.0,)}, {})
@@ -137,13 +153,12 @@ def test_half_of_a_recording_withdraws_a_group_with_its_best_member(monkeypatch:
 def judges(monkeypatch: pytest.MonkeyPatch) -> None:
     """Predictions that return their kind and the data that they judge by."""
     monkeypatch.setattr(module, "search_data", lambda recording: f"data of {recording}")
-    monkeypatch.setattr(module, "predict_half", lambda _, data, *fits: ("half", data, fits))
     monkeypatch.setattr(module, "predict_unseen", lambda _, data, *fits: ("unseen", data, fits))
     monkeypatch.setattr(module, "predict_condition", lambda name, _, data, *fits: (name, data, fits))
 
 
 @pytest.mark.usefixtures("judges")
-def test_samples_that_the_search_has_not_seen_judge_in_place_of_half_of_the_recording() -> None:
+def test_samples_that_the_search_has_not_seen_judge_and_other_conditions_do() -> None:
     fits = (("leak",), "fit of none", "fit of ('Leak',)")
     case = Searched("named", {LEAK: 12.0})
     raised = cast("Mapping[str, Recording]", {"legs raised": "raised legs"})
@@ -151,7 +166,7 @@ def test_samples_that_the_search_has_not_seen_judge_in_place_of_half_of_the_reco
     def judged(conditions: Mapping[str, Recording]) -> list[object]:
         return list(predict_explanation(cast("SearchedRecording", case), LEAK, conditions))
 
-    assert judged({}) == [("half", case.data, fits)]
+    assert judged({}) == [], "a recording too short for two halves judges nothing"
     assert judged(raised) == [("legs raised", "data of raised legs", fits)]
     case.unseen = cast("Recording", "the other half")
     assert judged({}) == [("unseen", "data of the other half", fits)]

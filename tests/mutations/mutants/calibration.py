@@ -45,10 +45,20 @@ CALIBRATION_MUTANTS = (
         ("a lost corner is the centre", "filled[index] = corners * z[0] - ", "filled[index] = z[0] - 0.0 * "),
     ),
     *changes(
+        "calibration/update.py",
+        "tests/calibration/test_iterated.py tests/study/test_iterations.py",
+        ("the prior moves along", "(prior.mean - around.mean) @ slope", "0.0 * prior.mean @ slope"),
+        ("points of a second iteration do not shrink", "factor**2 * prior.covariance", "prior.covariance"),
+        (
+            "a second iteration starts at the prior",
+            "Gaussian(prior.names, estimate, factor",
+            "Gaussian(prior.names, prior.mean, factor",
+        ),
+    ),
+    *changes(
         "calibration/alternatives.py",
         "tests/calibration/test_iterated.py",
-        ("the prior moves along", "(prior.mean - around.mean) @ slope", "0.0 * prior.mean @ slope"),
-        ("points never shrink", "spread *= shrink**2", "spread *= 1.0"),
+        ("points never shrink", "spread *= shrink", "spread *= 1.0"),
     ),
     *changes(
         "calibration/alternatives.py",

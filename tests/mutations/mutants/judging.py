@@ -5,6 +5,7 @@ from tests.mutations.mutant import changes
 HALVES = "tests/discovery/refit/test_halves.py"
 HELD_OUT = "tests/discovery/sphere_model/test_held_out.py"
 PREDICTION = "tests/discovery/sphere_model/test_prediction.py"
+RECORDING_HALVES = "tests/discovery/sphere_model/test_halves_of_a_recording.py"
 
 HELD_OUT_MUTANTS = (
     *changes(
@@ -17,18 +18,6 @@ HELD_OUT_MUTANTS = (
     *changes(
         "discovery/sphere_model/held_out.py",
         PREDICTION,
-        ("the half that judges is the fitted one", "for side in (True, False))", "for side in (True, True))"),
-        ("the half that is fitted judges", "for side in (True, False))", "for side in (False, True))"),
-        (
-            "the half that judges is fitted",
-            "FitContext(kept).explain(hypothesis(_forward_model(nominal, kept), effects), start)",
-            "FitContext(held).explain(hypothesis(_forward_model(nominal, held), effects), start)",
-        ),
-        (
-            "neighbouring samples of pressure judge",
-            "return np.floor(times / BLOCK).astype(int) % 2 == 0",
-            "return np.arange(times.size) % 2 == 0",
-        ),
         (
             "unseen samples are predicted without the cause",
             "(((), baseline), (effects, extended))]",
@@ -45,6 +34,38 @@ HELD_OUT_MUTANTS = (
             "paced = nominal",
         ),
     ),
+)
+
+RECORDING_MUTANTS = changes(
+    "discovery/sphere_model/recording.py",
+    RECORDING_HALVES,
+    (
+        "the half that is searched judges",
+        "held = {name: self.curves[name].part(~mask)",
+        "held = {name: self.curves[name].part(mask)",
+    ),
+    (
+        "the search sees all samples",
+        "fitted = {name: self.curves[name].part(mask)",
+        "fitted = {name: self.curves[name]",
+    ),
+    (
+        "neighbouring samples of pressure judge",
+        "return np.floor(samples.times / BLOCK).astype(int) % 2 == 0",
+        "return np.arange(samples.times.size) % 2 == 0",
+    ),
+    ("a short recording is judged by itself", "return self, None", "return self, self"),
+)
+
+DIAGNOSIS_MUTANTS = changes(
+    "discovery/sphere_model/diagnose.py",
+    RECORDING_HALVES,
+    (
+        "the whole recording is searched",
+        "recording, unseen = recording.halves()",
+        "unseen = recording.halves()[1]",
+    ),
+    ("the size of all samples is that of one half", "self.recording.merged(self.unseen)", "self.recording"),
 )
 
 HALF_MUTANTS = changes(
@@ -83,4 +104,4 @@ HALF_MUTANTS = changes(
     ("a second reading adds no noise", "return rough + read_twice.covariance(times)", "return rough"),
 )
 
-JUDGING_MUTANTS = (*HELD_OUT_MUTANTS, *HALF_MUTANTS)
+JUDGING_MUTANTS = (*HELD_OUT_MUTANTS, *RECORDING_MUTANTS, *DIAGNOSIS_MUTANTS, *HALF_MUTANTS)

@@ -17,8 +17,8 @@ PLANTING_MUTANTS = (
         ),
         (
             "half the noise of a planted pressure",
-            "samples = true(times) + PRESSURE_NOISE *",
-            "samples = true(times) + 0.5 * PRESSURE_NOISE *",
+            "samples = true(times) + noise * PRESSURE_NOISE *",
+            "samples = true(times) + 0.5 * noise * PRESSURE_NOISE *",
         ),
         (
             "errors of frames shrink with their memory",

@@ -9,7 +9,11 @@ WITHDRAWAL_MUTANTS = (
     *changes(
         "discovery/sphere_model/diagnose.py",
         WITHDRAWAL,
-        ("one test in which a name helps suffices", "if all(test.helps() for", "if any(test.helps() for"),
+        (
+            "one test in which a name helps suffices",
+            "if all(test and test.helps()",
+            "if any(test and test.helps()",
+        ),
         ("the verdict names what was withdrawn", '        return "unknown"', "        return case.verdict"),
         (
             "a withdrawn name stays among the mechanisms",
@@ -23,7 +27,7 @@ WITHDRAWAL_MUTANTS = (
         ),
         (
             "another condition adds no evidence",
-            "sum(test.log_likelihood_gain() for test in tests) if conditions else 0.0",
+            "sum(test.log_likelihood_gain() for test in tests if test) if conditions else 0.0",
             "0.0",
         ),
         ("unseen samples do not judge", "if case.unseen is not None:", "if False:"),

@@ -83,7 +83,7 @@ class Attempt:
 
 @dataclass(frozen=True)
 class FittedModel:
-    """A model of these effects after its fit to all samples.
+    """A model of these effects after its fit to the searched samples.
 
     negative_ln_likelihood: at its most probable coordinates; unknowns: number of coordinates.
     """
@@ -110,6 +110,8 @@ class Diagnosis:
       sphere was centred or no such beats exist.
     - tried: every fitted model, without effects, with one and with two; samples: number of data that they were fitted
       to.
+    - from_all_samples: the mechanisms with their amplitudes given both halves of the recording, after the second has
+      judged; empty where there is one half only.
     """
 
     verdict: Verdict
@@ -129,6 +131,7 @@ class Diagnosis:
     self_test: float | None = None
     tried: tuple[FittedModel, ...] = ()
     samples: int = 0
+    from_all_samples: tuple[Cause, ...] = ()
 
 
 CLEAR_DEVIATIONS = 2.0

@@ -1,11 +1,12 @@
 """The diagnosis of a recording: search on the sphere, held-out tests, and the next measurement."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.data import Data, Whitening
 from heartfit.discovery.inference.decide import DEFAULT_RULES, Effects, Rules, Verdict
 from heartfit.discovery.inference.evidence import Explanation
@@ -20,7 +21,6 @@ from heartfit.discovery.sphere_model.forward_model import (
 from heartfit.discovery.sphere_model.held_out import (
     HeldOutPrediction,
     predict_condition,
-    predict_half,
     predict_unseen,
 )
 from heartfit.discovery.sphere_model.limits import RECORD_PRESSURE, next_measurement
@@ -108,11 +108,31 @@ class SearchedRecording:
 
     def cause(self, effects: Effects, name: str) -> Cause:
         """A mechanism with its amplitude in the explanation by these effects."""
-        explained = self.findings.explanation(effects)
+        return self._cause(self.findings.explanation(effects), effects, name)
+
+    def _cause(self, explained: Explanation, effects: Effects, name: str) -> Cause:
         switch = self.library[name].unknowns[0]
         amplitude, low, high = map(switch.at, explained.interval(f"{name}.{switch.name}"))
         factor = self.findings.log_bayes_factor(effects)
         return Cause(name, factor, amplitude, switch.unit, (low, high))
+
+    def sizes_from_all_samples(self, named: Sequence[Effects]) -> tuple[Cause, ...]:
+        """Return the named mechanisms refitted to both halves; empty without a second half, or where a fit fails.
+
+        It judges nothing, since the half that judged is now fitted, too.
+        """
+        if self.unseen is None:
+            return ()
+        data = search_data(self.recording.merged(self.unseen))
+        return tuple(cause for effects in named for cause in self._refitted(data, effects))
+
+    def _refitted(self, data: Data, effects: Effects) -> Iterator[Cause]:
+        model = SphereForwardModel(self.model.nominal, {block.curve: block.times for block in data.blocks})
+        added = tuple(self.library[name] for name in effects)
+        start = self.findings.explanation(effects).fit.x
+        explained = FitContext(data).explain(hypothesis(model, added), start)
+        if explained is not None:
+            yield from (self._cause(explained, effects, name) for name in effects)
 
     def ranking(self) -> dict[str, float]:
         """ln Bayes factors over the baseline, in descending order."""
@@ -156,16 +176,18 @@ def diagnose(
 
     conditions: recordings of the same heart under other loading, by name; only the loading is fitted to them. nominal:
     a sphere that was fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None. unseen:
-    samples of the same beat, which judge a name and do not choose it; without them and without conditions half of the
-    recording judges. Raises InputError where the nominal heart does not beat.
+    samples of the same beat, which judge a name and do not choose it. Without them and without conditions the search
+    sees half of the recording, and the other half judges. Raises InputError where the nominal heart does not beat.
     """
+    if unseen is None and not conditions:
+        recording, unseen = recording.halves()
     return conclude(SearchedRecording.search(recording, nominal, rules, unseen), conditions or {})
 
 
 def conclude(case: SearchedRecording, conditions: Mapping[str, Recording]) -> Diagnosis:
-    """The diagnosis with the names that help on held-out data."""
+    """The diagnosis with the names that help on held-out data; a name whose beat fails there does not."""
     tried = predict_held_out(case, conditions)
-    helping = [effects for effects, tests in tried.items() if all(test.helps() for test in tests)]
+    helping = [effects for effects, tests in tried.items() if all(test and test.helps() for test in tests)]
     scores = {
         effects: case.findings.log_bayes_factor(effects) + _condition_gain(tried[effects], conditions)
         for effects in helping
@@ -178,7 +200,7 @@ def conclude(case: SearchedRecording, conditions: Mapping[str, Recording]) -> Di
         tuple(case.cause(effects, name) for effects in kept for name in effects),
         tuple(kept[1:]) if case.verdict == "group" else case.findings.decision.alternatives,
         _next_measurement(case, verdict, kept),
-        tuple(gain for test in tried.get(best, ()) for gain in test.gains()),
+        tuple(gain for test in tried.get(best, ()) if test for gain in test.gains()),
         case.model.simulations,
         case.recording.period,
         case.rules.detected,
@@ -189,17 +211,17 @@ def conclude(case: SearchedRecording, conditions: Mapping[str, Recording]) -> Di
         phases=case.phases(),
         tried=case.tried(),
         samples=case.data.values.size,
+        from_all_samples=case.sizes_from_all_samples(kept),
     )
 
 
 def predict_held_out(
     case: SearchedRecording, conditions: Mapping[str, Recording]
-) -> dict[Effects, list[HeldOutPrediction]]:
+) -> dict[Effects, list[HeldOutPrediction | None]]:
     """Predictions of other conditions by each explanation.
 
-    Without conditions half of the recording is held out, and the best explanation stands for its group: half of
-    the data
-    cannot tell effects apart that all data cannot.
+    Without conditions the other half of the recording judges, and the best explanation stands for its group: half of
+    the data cannot tell effects apart that the first half cannot.
     """
     if conditions:
         return {effects: predict_explanation(case, effects, conditions) for effects in case.explanations}
@@ -209,24 +231,26 @@ def predict_held_out(
 
 def predict_explanation(
     case: SearchedRecording, effects: Effects, conditions: Mapping[str, Recording]
-) -> list[HeldOutPrediction]:
-    """Predictions without and with the effects: of conditions and unseen samples, else of half of the recording."""
+) -> list[HeldOutPrediction | None]:
+    """Predictions of conditions and unseen samples without and with the effects; None where a beat fails.
+
+    Empty for a recording too short for two halves, without another condition: then nothing judges.
+    """
     added = tuple(case.library[name] for name in effects)
     fits = case.findings.survey.baseline.fit.x, case.findings.explanation(effects).fit.x
     nominal = case.model.nominal
-    tests = [
+    tests: list[HeldOutPrediction | None] = [
         predict_condition(name, nominal, search_data(condition), added, *fits)
         for name, condition in conditions.items()
     ]
     if case.unseen is not None:
         tests.append(predict_unseen(nominal, search_data(case.unseen), added, *fits))
-    tests = tests or [predict_half(nominal, case.data, added, *fits)]
-    return [test for test in tests if test is not None]
+    return tests
 
 
-def _condition_gain(tests: Sequence[HeldOutPrediction], conditions: Mapping[str, Recording]) -> float:
-    """ln likelihood that other conditions add; half of the recording adds nothing, since the search has used it."""
-    return sum(test.log_likelihood_gain() for test in tests) if conditions else 0.0
+def _condition_gain(tests: Sequence[HeldOutPrediction | None], conditions: Mapping[str, Recording]) -> float:
+    """ln likelihood that other conditions add; the other half of the same recording judges and does not choose."""
+    return sum(test.log_likelihood_gain() for test in tests if test) if conditions else 0.0
 
 
 def near_best(score: Mapping[Effects, float], within: float) -> list[Effects]:

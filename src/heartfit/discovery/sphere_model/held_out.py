@@ -1,9 +1,8 @@
-"""Gains of a cause on held-out data: samples apart, half of the recording, or the same heart under another condition.
+"""Gains of a cause on held-out data: the other half of the recording, or the same heart under another condition.
 
-Samples apart were kept from the search, and the models that it fitted predict them. Half of the recording: every other
-beat or, of a single beat, every other frame and every other 50 ms of pressure. Without and with the cause the model is
-fitted to one half and predicts the other. Another condition: the fitted model beats at the rate of that condition, and
-only its loading, the atrial pressure and the peripheral resistance, is refitted.
+The other half was kept from the search, and the models that it fitted predict it. Another condition: the fitted model
+beats at the rate of that condition, and only its loading, the atrial pressure and the peripheral resistance, is
+refitted.
 
 The interval of the error ratio comes from a bootstrap over eighths of the beat: errors of neighbouring samples are not
 independent.
@@ -22,8 +21,6 @@ from heartfit.discovery.sphere_model.cause import Gain
 from heartfit.discovery.sphere_model.forward_model import Candidate, SphereForwardModel, hypothesis
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
 
-BLOCK = 0.05
-"""Length of a block of pressure samples that are fitted or held out together [s]."""
 LOADING = {"circulation.left_atrium": 0.3, "circulation.systemic.R_p": 0.3}
 """Parameters that another condition may change, with the standard deviations of the logarithm of the change."""
 PHASE_PARTS, BOOTSTRAP_DRAWS = 8, 2000
@@ -74,22 +71,6 @@ def error_ratio(phase: Floats, baseline: Floats, extended: Floats) -> tuple[floa
     return float(np.sqrt(sums[1].sum() / sums[0].sum())), (low, high)
 
 
-def predict_half(
-    nominal: NominalHeart, data: Data, effects: tuple[Candidate, ...], baseline: Floats, extended: Floats
-) -> HeldOutPrediction | None:
-    """Prediction of one half of the data by both models fitted to the other half; None where a fit fails.
-
-    baseline, extended: coordinates of the fits to all data, at which the fits to the half start.
-    """
-    masks = [_fitted_mask(block.times, block.period, block.curve) for block in data.blocks]
-    kept, held = (_select(data, [mask == side for mask in masks]) for side in (True, False))
-    models = (((), baseline), (effects, extended))
-    predictions = [_fit_and_predict(nominal, kept, held, added, start) for added, start in models]
-    if predictions[0] is None or predictions[1] is None:
-        return None
-    return HeldOutPrediction("half of the recording", held, predictions[0], predictions[1])
-
-
 def predict_unseen(
     nominal: NominalHeart, unseen: Data, effects: tuple[Candidate, ...], baseline: Floats, extended: Floats
 ) -> HeldOutPrediction | None:
@@ -99,31 +80,6 @@ def predict_unseen(
     if predictions[0] is None or predictions[1] is None:
         return None
     return HeldOutPrediction("samples that the search has not seen", unseen, predictions[0], predictions[1])
-
-
-def _fitted_mask(times: Floats, period: float, curve: str) -> np.ndarray:
-    """Mask (k,) of the fitted samples."""
-    if np.ptp(times) > 1.5 * period:
-        return np.floor(times / period).astype(int) % 2 == 0
-    if curve.endswith("_volume"):
-        return np.arange(times.size) % 2 == 0
-    return np.floor(times / BLOCK).astype(int) % 2 == 0
-
-
-def _select(data: Data, masks: list[np.ndarray]) -> Data:
-    blocks = tuple(
-        replace(block, times=block.times[mask]) for block, mask in zip(data.blocks, masks, strict=True)
-    )
-    return Data(data.values[np.concatenate(masks)], blocks)
-
-
-def _fit_and_predict(
-    nominal: NominalHeart, kept: Data, held: Data, effects: tuple[Candidate, ...], start: Floats
-) -> Floats | None:
-    explanation = FitContext(kept).explain(hypothesis(_forward_model(nominal, kept), effects), start)
-    if explanation is None:
-        return None
-    return hypothesis(_forward_model(nominal, held), effects).forward(explanation.fit.x)
 
 
 def _forward_model(nominal: NominalHeart, data: Data) -> SphereForwardModel:

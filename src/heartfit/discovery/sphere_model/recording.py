@@ -7,7 +7,7 @@ catheter's samples by 0.3 kPa each. Roughness is the residual of any model, disc
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -114,6 +114,27 @@ class Recording:
                 "beats: check the column"
             )
 
+    def halves(self) -> "tuple[Recording, Recording | None]":
+        """Return the half that a search fits and the half that judges what it names.
+
+        Both hold the searched curves: every other beat or, of a single beat, every other frame and every other 50 ms of
+        pressure; the first also holds the curves that are not searched. A recording too short for two halves is
+        returned whole, without a second one.
+        """
+        first = {name: _first_half(name, self.curves[name], self.period) for name in self.searched}
+        whole = {name: samples for name, samples in self.curves.items() if name not in first}
+        fitted = {name: self.curves[name].part(mask) for name, mask in first.items()}
+        held = {name: self.curves[name].part(~mask) for name, mask in first.items()}
+        try:
+            return replace(self, curves=fitted | whole), replace(self, curves=held)
+        except InputError:
+            return self, None
+
+    def merged(self, other: "Recording") -> "Recording":
+        """Return the recording with the samples of another one of the same beat."""
+        merged = {name: self.curves[name].merged(samples) for name, samples in other.curves.items()}
+        return replace(self, curves={**self.curves, **merged})
+
     @property
     def searched(self) -> tuple[str, ...]:
         """The curves that a left ventricle alone explains."""
@@ -123,6 +144,19 @@ class Recording:
         """End-diastolic volume of the left ventricle [m^3]: mean of the largest tenth of its volumes."""
         values = np.sort(self.curves["lv_volume"].values)
         return float(values[-max(1, values.size // 10) :].mean())
+
+
+BLOCK = 0.05
+"""Length of a block of pressure samples that belong to the same half [s]."""
+
+
+def _first_half(name: str, samples: Samples, period: float) -> np.ndarray:
+    """Mask (k,) of the samples in the first half of a recording."""
+    if np.ptp(samples.times) > 1.5 * period:
+        return np.floor(samples.times / period).astype(int) % 2 == 0
+    if name.endswith("_volume"):
+        return np.arange(samples.times.size) % 2 == 0
+    return np.floor(samples.times / BLOCK).astype(int) % 2 == 0
 
 
 BIN = 0.010
