@@ -62,7 +62,7 @@ def _all(study: TinyStudy, expected: dict[str, str], quick: bool) -> Iterator[Ou
 
 def _faults(chance: Random, quick: bool) -> list[Callable[[TinyStudy, dict[str, str]], list[Outcome]]]:
     drawn = [
-        partial(kills, times=4 if quick else 20, short=quick),
+        partial(kills, times=2 if quick else 20, short=quick),
         orphans,
         job_killed,
         partial(damaged, ways=1 if quick else 4),

@@ -177,7 +177,7 @@ class DiscoveryBenchmark(Strict):
     misspecified: MisspecifiedBenchmark
     cases: Count | None = Field(
         None,
-        description="number of cases to run, a random sample of all; misspecified cases only follow after all others",
+        description="number of cases as searched to run, a random sample of all",
     )
     batch: Count = Field(description="number of cases per job")
     page: RelativeFolder = Field(
@@ -189,8 +189,7 @@ class DiscoveryBenchmark(Strict):
     def batches(self) -> list[list[PlantedPlan]]:
         """Return the planted cases of each job: those as searched, then the misspecified ones."""
         as_searched = self._campaign().batches(self.batch, self.cases)
-        left = None if self.cases is None else self.cases - sum(map(len, as_searched))
-        return [*as_searched, *in_batches(self.misspecified.plans()[:left], self.batch)]
+        return [*as_searched, *in_batches(self.misspecified.plans(), self.batch)]
 
     def planned(self) -> int:
         """Return the number of all cases as searched, before a limit to the first ones."""
