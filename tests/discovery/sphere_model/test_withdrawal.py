@@ -45,12 +45,15 @@ class Searched:
     factors: Mapping[Effects, float]
     rules: Rules = DEFAULT_RULES
     unseen: Recording | None = None
+    discrepancy: float = 6.0
     library: Mapping[str, str] = field(default_factory=lambda: {"Leak": "leak", "Delay": "delay"})
     data: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(values=np.zeros(3)))
     model: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(simulations=7, nominal="nominal"))
     recording: SimpleNamespace = field(
         default_factory=lambda: SimpleNamespace(
-            period=0.8, curves={"lv_volume": VOLUME, "lv_pressure": PRESSURE}
+            period=0.8,
+            curves={"lv_volume": VOLUME, "lv_pressure": PRESSURE},
+            searched=("lv_volume", "lv_pressure"),
         )
     )
 
@@ -69,6 +72,7 @@ class Searched:
             log_bayes_factor=self.factors.__getitem__,
             explanation=at.get,
             survey=SimpleNamespace(baseline=baseline, singles=list(at.values())),
+            evidences=SimpleNamespace(baseline=0.0, discrepancy=self.discrepancy),
         )
 
     def sizes_from_all_samples(self, named: Sequence[Effects]) -> tuple[Cause, ...]:
@@ -78,6 +82,10 @@ class Searched:
 
     def cause(self, effects: Effects, name: str) -> Cause:
         return Cause(name, self.factors[effects], 1.0, "1", (0.5, 1.5))
+
+    @property
+    def verdict_without_name(self) -> Verdict:
+        return SearchedRecording.verdict_without_name.fget(self)  # type: ignore[attr-defined]
 
     def ranking(self) -> dict[str, float]:
         return {}
@@ -114,6 +122,23 @@ def test_a_name_that_makes_held_out_data_less_likely_is_withdrawn(
 ) -> None:
     diagnosis = concluded(monkeypatch, Searched("named", {LEAK: 12.0}), {LEAK: gains})
     assert (diagnosis.verdict, names(diagnosis), diagnosis.withdrawn) == ("unknown", (), LEAK)
+
+
+@pytest.mark.parametrize(
+    ("discrepancy", "searched", "verdict"),
+    [
+        (5.1, ("lv_volume", "lv_pressure"), "unknown"),
+        (4.9, ("lv_volume", "lv_pressure"), "none"),
+        (4.9, ("lv_volume",), "insufficient"),
+    ],
+)
+def test_a_withdrawn_name_leaves_what_a_discrepancy_shows(
+    monkeypatch: pytest.MonkeyPatch, discrepancy: float, searched: tuple[str, ...], verdict: Verdict
+) -> None:
+    case = Searched("named", {LEAK: 12.0}, discrepancy=discrepancy)
+    case.recording.searched = searched
+    diagnosis = concluded(monkeypatch, case, {LEAK: (-0.1,)})
+    assert (diagnosis.verdict, names(diagnosis), diagnosis.withdrawn) == (verdict, (), LEAK)
 
 
 def test_a_name_that_helps_in_every_test_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:

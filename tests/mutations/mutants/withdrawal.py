@@ -14,7 +14,16 @@ WITHDRAWAL_MUTANTS = (
             "if all(test and test.helps()",
             "if any(test and test.helps()",
         ),
-        ("the verdict names what was withdrawn", '        return "unknown"', "        return case.verdict"),
+        (
+            "the verdict names what was withdrawn",
+            "        return case.verdict_without_name",
+            "        return case.verdict",
+        ),
+        (
+            "a refuted name always leaves something unknown",
+            "if evidences.discrepancy - evidences.baseline >= self.rules.detected:",
+            "if evidences.baseline < np.inf:",
+        ),
         (
             "a withdrawn name stays among the mechanisms",
             "tuple(case.cause(effects, name) for effects in kept for",

@@ -100,6 +100,14 @@ class SearchedRecording:
         return "insufficient" if alone and verdict not in NAMING_VERDICTS else verdict
 
     @property
+    def verdict_without_name(self) -> Verdict:
+        """The verdict where no mechanism is named: by the evidence for a GP discrepancy alone."""
+        evidences = self.findings.evidences
+        if evidences.discrepancy - evidences.baseline >= self.rules.detected:
+            return "unknown"
+        return "insufficient" if self.recording.searched == ("lv_volume",) else "none"
+
+    @property
     def explanations(self) -> tuple[Effects, ...]:
         """Named effects: the best ones, and in a group all that the data do not distinguish from them."""
         decision = self.findings.decision
@@ -262,10 +270,14 @@ def near_best(score: Mapping[Effects, float], within: float) -> list[Effects]:
 
 
 def _verdict(case: SearchedRecording, kept: Sequence[Effects]) -> Verdict:
+    """The verdict after the judgement; without a kept name an effect is missing only where a discrepancy shows it.
+
+    A name that the held-out data refute has shown nothing but a chance of the half that chose it.
+    """
     if not case.explanations:
         return case.verdict
     if not kept:
-        return "unknown"
+        return case.verdict_without_name
     return "named" if case.verdict == "group" and len(kept) == 1 else case.verdict
 
 
