@@ -43,7 +43,12 @@ PAGES = {
 }
 """Templates by name, and what is written from them."""
 STUDY = RESULTS / "study.tsv"
-PRINTED = {"study_table1": "table1_as_printed", "study_table2": "table2_as_printed", "study_claims": "claims"}
+PRINTED = {
+    "study_table1": "table1_as_printed",
+    "study_table2": "table2_as_printed",
+    "study_claims": "claims",
+    "study_discovery": "discovery",
+}
 """Stored tables that a study prints, and their names in its folder of tables."""
 COLUMNS = ["quantity", "value", "unit", "number", "commit"]
 """number: table/setting/case/quantity in the study's numbers.csv, empty where a value is in another result."""
@@ -134,8 +139,18 @@ def take(numbers: Path) -> None:
 def printed(table: Path) -> Rows:
     """The rows of a table of text of a study, its head first, as its Markdown shows them."""
     frame = pd.read_csv(table, dtype=str, keep_default_na=False, comment="#")
+    if {"case", "setting", "text"} <= {*frame}:
+        frame = findings_by_case(frame)
     shown = without_repeats(frame, STATED_ONCE.get(table.stem, ()))
     return [list(shown.columns), *shown.to_numpy().tolist()]
+
+
+def findings_by_case(frame: pd.DataFrame) -> pd.DataFrame:
+    """The findings as text, one row for each and one column for each case, as the study prints them."""
+    cases = frame["case"] + ", " + frame["setting"]
+    order = list(dict.fromkeys(frame["quantity"]))
+    wide = frame.assign(case=cases).pivot(index="quantity", columns="case", values="text").reindex(order)
+    return wide[list(dict.fromkeys(cases))].fillna("").rename_axis("finding").reset_index()
 
 
 def main(arguments: list[str]) -> int:

@@ -88,6 +88,19 @@ def test_printed_tables_of_a_study_are_stored_with_each_quote_once(pages, tmp_pa
     ]
 
 
+def test_findings_are_stored_with_the_cases_as_columns(pages, tmp_path):
+    found = tmp_path / "discovery.csv"
+    found.write_text(
+        "# made by heartfit\ncase,setting,quantity,text,value\nhidden1,physical,hidden,a leak,\n"
+        "hidden1,physical,size,0.32,0.32\nsound1,physical,hidden,nothing,\n"
+    )
+    assert pages.printed(found) == [
+        ["finding", "hidden1, physical", "sound1, physical"],
+        ["hidden", "a leak", "nothing"],
+        ["size", "0.32", ""],
+    ]
+
+
 def test_a_quantity_that_is_not_stored_is_named(pages):
     values = pages.Values(Path("study.tsv"), {"V_min": "1.25"})
     assert (values("V_min", 1), values("V_min", 2, plus=True), values("V_min")) == ("1.2", "+1.25", "1.25")

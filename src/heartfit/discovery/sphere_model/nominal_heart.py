@@ -163,8 +163,10 @@ HEART_PARAMETERS = (
     FreeParameter(("tissue.passive.eta",), 0.30),
     FreeParameter(("tissue.control.duration",), 0.015, additive=True),
     FreeParameter(("tissue.control.onset",), 0.008, additive=True),
-    FreeParameter(("tissue.control.trigger_delay",), 0.008, additive=True),
+    FreeParameter(("tissue.control.trigger_delay",), 0.020, additive=True),
 )
+"""The trigger, which the leads and the detection of the R wave decide, varies by tens of milliseconds between
+recordings; it shifts both curves and is no disease."""
 FREE_PARAMETERS = (*SPHERE_PARAMETERS, *HEART_PARAMETERS)
 TIME_SHIFT_INDEX = FREE_PARAMETERS.index(HEART_PARAMETERS[-1])
 """The coordinate that does not change the beat but shifts the time zero of the recording."""

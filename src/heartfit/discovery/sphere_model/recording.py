@@ -2,7 +2,7 @@
 
 Samples of a catheter are averaged over 10 ms of the phase, over all beats. The noise level of every curve is
 unknown: it
-is one of some levels, equally likely. Volumes err by 1 to 3 % of the end-diastolic volume, neighbours alike; a
+is one of some levels, equally likely. Volumes err by 1 to 6 % of the end-diastolic volume, neighbours alike; a
 catheter's samples by 0.3 kPa each. Roughness is the residual of any model, discrepancy that of a wrong one.
 """
 
@@ -163,7 +163,7 @@ BIN = 0.010
 """Length of the bins over which pressure is averaged [s]."""
 ROUNDING = 1e-6
 """Rounding of times, over the bin: a sample on the edge belongs to the later bin."""
-VOLUME_LEVELS, VOLUME_MEMORY = (0.008, 0.0133, 0.02, 0.028), 0.065
+VOLUME_LEVELS, VOLUME_MEMORY = (0.008, 0.0133, 0.02, 0.028, 0.04, 0.056), 0.065
 """Noise levels of a frame over the end-diastolic volume, and their memory [s]."""
 PRESSURE_LEVELS = (50.0, 100.0, 200.0)
 """Noise levels of a mean over 10 ms of one beat [Pa]."""
