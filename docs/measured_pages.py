@@ -112,9 +112,9 @@ def renewed(rows: Rows, numbers: Path, commit: str) -> Rows:
     """Stored values with those of a study's numbers.csv; a value whose number the study does not have is kept."""
     with numbers.open(encoding="utf-8") as lines:
         table = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-    measured = {"/".join(row[key] for key in KEY): float(row["value"]) for row in table}
+    measured = {"/".join(row[key] for key in KEY): row["value"] for row in table}
     return [
-        [quantity, f"{measured[number]:.4g}", unit, number, commit]
+        [quantity, f"{float(measured[number]):.4g}", unit, number, commit]
         if number in measured
         else [quantity, value, unit, number, old]
         for quantity, value, unit, number, old in rows
