@@ -186,6 +186,11 @@ def ventricle_case_of(wildcards):
     return VENTRICLE_CASES[int(wildcards.number)]
 
 
+def tables_folder(_):
+    """Folder of all tables; a function, for the same reason as the next one."""
+    return f"{STUDY.results}/tables"
+
+
 def results_folder(_):
     """Folder of all results; a function, since Snakemake's lint takes the text for a hard-coded prefix of outputs."""
     return STUDY.results

@@ -123,7 +123,7 @@ rule exchange_results:
 
 
 CHECK_PARAMS = {
-    "tables": f"{STUDY.results}/tables",
+    "tables": tables_folder,
     "reference": STUDY.reference,
     "left_out": PLAN.left_out,
 }
