@@ -68,9 +68,9 @@ def test_the_lock_names_no_address():
 @pytest.mark.parametrize(
     ("arguments", "codes", "expected"),
     [
-        ([], [0, 0], [[], ["discover"]]),
-        ([], [1], [[]]),
-        (["--configfile", "config/smoke.yaml"], [0], [["--configfile"]]),
+        ([], [0, 0], [["all", "check_numbers"], ["discover", "check_discovered"]]),
+        ([], [1], [["all", "check_numbers"]]),
+        (["--configfile", "config/smoke.yaml"], [0], [["--configfile", "config/smoke.yaml"]]),
     ],
     ids=["the whole study", "a failed one", "with arguments"],
 )
@@ -81,7 +81,7 @@ def test_the_measured_heart_follows_the_study_and_its_card_is_printed(
     monkeypatch.setattr(study, "DISCOVERED", tmp_path)
     calls, outcomes = [], iter(codes)
     monkeypatch.setattr(
-        study, "snakemake", lambda arguments: calls.append([*arguments][:1]) or next(outcomes)
+        study, "snakemake", lambda arguments: calls.append([*arguments][:2]) or next(outcomes)
     )
     monkeypatch.setattr(study, "duration", lambda: "29")
     for file in ("patient1/discovery/physical/cause.md", "tables/patient1_physical_extension.md"):

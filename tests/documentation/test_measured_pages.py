@@ -91,12 +91,12 @@ def test_printed_tables_of_a_study_are_stored_with_each_quote_once(pages, tmp_pa
 
 
 def test_findings_are_stored_with_the_cases_as_columns(pages, tmp_path):
-    found = tmp_path / "discovery.csv"
-    found.write_text(
+    findings = tmp_path / "discovery.csv"
+    findings.write_text(
         "# made by heartfit\ncase,setting,quantity,text,value\nhidden1,physical,hidden,a leak,\n"
         "hidden1,physical,size,0.32,0.32\nsound1,physical,hidden,nothing,\n"
     )
-    assert pages.printed(found) == [
+    assert pages.printed(findings) == [
         ["finding", "hidden1, physical", "sound1, physical"],
         ["hidden", "a leak", "nothing"],
         ["size", "0.32", ""],

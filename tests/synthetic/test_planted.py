@@ -10,6 +10,7 @@ from heartfit.observation.curve import Curve
 from heartfit.synthetic import case as module
 from heartfit.synthetic.campaign import PlantedPlan, mechanism_of
 from heartfit.synthetic.case import PRELOAD, plant
+from heartfit.synthetic.misspecified import Misspecification
 
 TIMES = np.arange(25) * 0.8 / 25
 WAVE = np.cos(2.0 * np.pi * TIMES / 0.8)
@@ -47,7 +48,7 @@ def measured(heart, *_):
 
 @pytest.fixture(autouse=True)
 def _hearts(monkeypatch):
-    monkeypatch.setattr(module, "draw_hidden", lambda _: StandIn())
+    monkeypatch.setattr(Misspecification, "draw_heart", lambda *_: StandIn())
     monkeypatch.setattr(module, "measure_beat", measured)
     monkeypatch.setattr(module, "require_plausible", lambda beat, _: beat)
 

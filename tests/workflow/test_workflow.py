@@ -242,10 +242,14 @@ def test_a_proof_reads_the_search_and_none_of_its_beats(workflow):
 
 def test_answers_are_read_by_the_scorer_only(workflow):
     targets = "discovery_benchmark", "check_discovery"
-    run = workflow.snakemake("-n", *targets, "--config", "discovery_benchmark={cases: 8}")
+    run = workflow.snakemake(
+        "-n", *targets, "--config", "discovery_benchmark={cases: 8, misspecified: {nulls: 4}}"
+    )
     counts = job_counts(run.stdout)
     assert run.returncode == 0, run.stdout
     assert readers(run.stdout, "/sealed/") == {*targets, "discovery_ventricles", "check_ventricles"}
     assert readers(run.stdout, "/measured/") == {"diagnose_planted", "diagnose_ventricles"}
-    assert counts["plant_effects"] == counts["diagnose_planted"] == 2
+    assert counts["plant_effects"] == counts["diagnose_planted"] == 2 + 8, (
+        "batches of four, of both populations"
+    )
     assert counts["plant_ventricles"] == counts["diagnose_ventricles"] == 35
