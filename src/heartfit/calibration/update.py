@@ -75,7 +75,8 @@ def calibrate(
 ) -> Posterior:
     """Return the posterior from the outcome of each sigma point: its observations, or the reason of its failure.
 
-    around: Gaussian of the points in a later iteration, see :func:`iterate`; by default that of the prior.
+    around: Gaussian of the points in a later iteration, see
+    :func:`heartfit.calibration.alternatives.iterate`; by default that of the prior.
     """
     if around is None:
         return update(prior, moments_of(prior, outcomes, tuple(observed), design), observed, noise)
