@@ -220,9 +220,8 @@ def test_numbers_are_checked_on_request(workflow, planned):
     assert job_counts(run.stdout)["check_numbers"] == job_counts(run.stdout)["make_tables"] == 1
     job = dict(jobs(run.stdout))["check_numbers"]
     read = inputs(job)
-    tables = ("numbers.csv", "claims.md", "discovery.md", "selection.md")
-    assert [name for name in tables if not any(text.endswith(f"/{name}") for text in read)] == ["numbers.csv"]
-    assert "results/smoke/tables/table1.md" in read, "one job writes it and numbers.csv"
+    tables = [f"results/smoke/tables/{name}.md" for name in ("table1", "claims", "discovery", "selection")]
+    assert [table for table in tables if table not in read] == []
     assert any(text.startswith("resources/reference/smoke/") for text in read)
 
 
