@@ -75,6 +75,8 @@ def drift(arguments: argparse.Namespace) -> int:
         f"{len(outcome.moves)} of {outcome.cells} cells differ, {len(outcome.drifted)} drifted; stored on {where}"
     )
     print("".join(f"  {move}\n" for move in outcome.moves), end="")
+    further = sorted(tables.keys() - stored.tables.keys())
+    print(f"not held: {', '.join(further)}\n" if further else "", end="")
     if arguments.renew:
         stored_tables.write_reference(folder, arguments.tables)
     elif arguments.processor:

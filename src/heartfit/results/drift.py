@@ -73,7 +73,10 @@ class StoredTables:
     elsewhere: Mapping[Cell, float]
 
     def compared(self, tables: Tables, machine: Mapping[str, str]) -> "Drift":
-        """Return the comparison of a study's tables, which this machine made, with the stored ones."""
+        """Return the comparison of a study's tables, which this machine made, with the stored ones.
+
+        Further tables, made on request, are not compared.
+        """
         moves = find_moves(self.tables, tables)
         same = machine == self.machine
         drifted = [
@@ -141,14 +144,13 @@ def drift_table(drift: Drift, places: Mapping[str, str], left_out: str = "") -> 
 
 
 def find_moves(stored: Tables, tables: Tables) -> list[Move]:
-    """Return every cell that differs; a table, column or row on one side only is one move without a column."""
+    """Return every stored cell that differs; a missing table, other columns or rows are one move without a column."""
     moves: list[Move] = []
-    for name in sorted({*stored, *tables}):
-        if name in stored and name in tables:
+    for name in sorted(stored):
+        if name in tables:
             moves.extend(_moves_of(name, stored[name], tables[name]))
         else:
-            before, now = ("a table" if name in side else "" for side in (stored, tables))
-            moves.append(Move((name, 0, ""), "", before, now))
+            moves.append(Move((name, 0, ""), "", "a table", ""))
     return moves
 
 
