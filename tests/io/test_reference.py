@@ -28,7 +28,7 @@ def write(folder: Path, v1: str = "1.25", minutes: str = "0.8", code: str = "abc
 
 @pytest.fixture
 def stored(tmp_path: Path) -> Path:
-    write_reference(tmp_path / "reference", write(tmp_path / "tables"))
+    write_reference(tmp_path / "reference", read_held_tables(write(tmp_path / "tables")))
     return tmp_path / "reference"
 
 

@@ -65,7 +65,7 @@ def drift(arguments: argparse.Namespace) -> int:
 
     tables, folder = stored_tables.read_held_tables(arguments.tables), arguments.reference
     if arguments.renew and not folder.exists():
-        stored_tables.write_reference(folder, arguments.tables)
+        stored_tables.write_reference(folder, tables)
         print(f"{folder}: {len(tables)} tables stored for the first time")
         return 0
     stored = stored_tables.read_reference(folder)
@@ -78,7 +78,7 @@ def drift(arguments: argparse.Namespace) -> int:
     further = sorted(tables.keys() - stored.tables.keys())
     print(f"not held: {', '.join(further)}\n" if further else "", end="")
     if arguments.renew:
-        stored_tables.write_reference(folder, arguments.tables)
+        stored_tables.write_reference(folder, tables)
     elif arguments.processor:
         stored_tables.write_processors(folder, stored.with_processor(tables).items())
     return int(bool(outcome.drifted) and not (arguments.renew or arguments.processor))

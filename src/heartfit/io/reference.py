@@ -18,7 +18,7 @@ from threadpoolctl import threadpool_info
 from heartfit.core.errors import InputError
 from heartfit.io.files import write_text
 from heartfit.io.fingerprint import versions
-from heartfit.results.drift import Cell, StoredTables
+from heartfit.results.drift import Cell, StoredTables, Tables
 
 FREE = ("costs", "posteriors", "curves", "drift")
 """Tables that are not held: times, and the values behind the other tables."""
@@ -74,11 +74,10 @@ def read_reference(folder: Path) -> StoredTables:
     return StoredTables(read_held_tables(folder), json.loads(stated.read_text(encoding="utf-8")), elsewhere)
 
 
-def write_reference(folder: Path, tables: Path) -> None:
-    """Store the tables of a study with the machine that made them; changes on other processors are forgotten."""
-    held = read_held_tables(tables)
+def write_reference(folder: Path, tables: Tables) -> None:
+    """Store held tables of a study with the machine that made them; changes on other processors are forgotten."""
     shutil.rmtree(folder, ignore_errors=True)
-    for name, table in held.items():
+    for name, table in tables.items():
         write_text(Path(folder, f"{name}.csv"), table.to_csv(index=False, lineterminator="\n"))
     write_text(Path(folder, MACHINE), json.dumps(machine(), indent=1) + "\n")
 

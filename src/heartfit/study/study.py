@@ -182,7 +182,8 @@ class Study(Strict):
             return name
         once = setting.model_copy(update={"iterations": 1, "cases": None})
         for other, partner in self.settings.items():
-            serves = partner.cases is None or set(setting.cases or ("",)) <= set(partner.cases)
+            for_all = partner.cases is None
+            serves = all(map(partner.serves, setting.cases)) if setting.cases else for_all
             if serves and partner.model_copy(update={"cases": None}) == once:
                 return other
         raise ValueError(
