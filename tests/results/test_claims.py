@@ -134,6 +134,16 @@ def test_patients_are_compared_over_the_mean_of_the_virtual_volunteers() -> None
     assert ours("spread_sigma_0", "2 virtual")[0] == "1.5"
 
 
+def test_the_spread_of_a_cohort_is_judged_unless_its_ratios_are_the_paper_s() -> None:
+    value, verdict = ours("spread_sigma_0", "2 virtual")
+    assert (value, verdict.partition(":")[0]) == ("1.5", "not comparable")
+    drawn = replace(RESULTS, planted_ratios=False)
+    assert ours("spread_sigma_0", "2 virtual", drawn) == ("1.5", "met"), "below 8.75 / 4.42"
+    assert ours("mean_R_p", "2 virtual", drawn)[1].startswith("not comparable"), (
+        "drawn about it in both cohorts"
+    )
+
+
 def test_registration_is_compared_with_known_motion_and_with_the_calibration() -> None:
     assert ours("registration_q_max", "2 image sequences") == ("10", "met")
     assert ours("registration_over_calibration", "2 virtual") == ("0.769", "met"), "10 % over 13 %"

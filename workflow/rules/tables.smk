@@ -88,6 +88,7 @@ rule judge_claims:
         results=results_folder,
         settings=PERTURBED_SETTINGS,
         groups=GROUPS,
+        planted_ratios=STUDY.cohort.planted_ratios,
         stated=configuration_text(GROUPS),
     script:
         "../scripts/judge_claims.py"

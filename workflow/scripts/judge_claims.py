@@ -22,6 +22,7 @@ results = StudyResults(
     sensitivities=dict(zip(params.settings, sensitivities, strict=True)),
     selection=list(map(read_published, map(Path, files.selection))),
     registered=list(map(read_comparison, map(Path, files.registered))),
+    planted_ratios=params.planted_ratios,
 )
 claims = read_published(Path(files.claims))
 write_tables(folder / "tables", render_tables({"claims": claims_table(claims, results)}))

@@ -102,9 +102,9 @@ NO_RESULT = "this study has no such hearts"
 def claims_table(claims: pd.DataFrame, results: StudyResults) -> pd.DataFrame:
     """Return the claims in the order of the resource, one row per setting and group of hearts of ours.
 
-    claims: claim, place, quote, quantity, printed, value, unit, relation, incomparable. "ours" has three digits;
-    verdict: met, not met, or not comparable with the reason. Raises InputError for a claim that nothing is computed
-    for, or an unknown relation.
+    claims: claim, place, quote, quantity, printed, value, unit, relation, incomparable, planted. "ours" has three
+    digits; verdict: met, not met, or not comparable with the reason. Raises InputError for a claim that nothing is
+    computed for, or an unknown relation.
     """
     rows = [row for claim in claims.fillna("").to_dict("records") for row in _rows(claim, results)]
     return pd.DataFrame(rows)
@@ -139,7 +139,7 @@ def _rows(claim: Mapping[Any, Any], results: StudyResults) -> Sequence[dict[str,
             "setting": finding.setting,
             "hearts": finding.hearts,
             "ours": _printed(finding.value / SCALES.get(claim["unit"], 1.0)),
-            "verdict": _verdict(finding, claim),
+            "verdict": _verdict(finding, claim, results.planted_ratios),
             LONG_STEPS: finding.long_steps,
         }
         for finding in findings
@@ -153,8 +153,9 @@ def _printed(value: float) -> str:
     return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
 
 
-def _verdict(finding: Finding, claim: Mapping[Any, Any]) -> str:
-    reason = claim["incomparable"] or finding.incomparable
+def _verdict(finding: Finding, claim: Mapping[Any, Any], planted_ratios: bool) -> str:
+    circular = claim["planted"] if planted_ratios else ""
+    reason = claim["incomparable"] or circular or finding.incomparable
     if reason:
         return f"{INCOMPARABLE}: {reason}"
     ours = finding.value / SCALES.get(claim["unit"], 1.0)

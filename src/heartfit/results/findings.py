@@ -41,7 +41,8 @@ class StudyResults:
     """Results that the claims are judged by.
 
     cases: under the settings that serve all hearts; costs: of all jobs; sensitivities: by setting; selection: its
-    table, or empty; registered: images of known motion under the baseline protocol.
+    table, or empty; registered: images of known motion under the baseline protocol; planted_ratios: the hidden hearts
+    have the ratios of the paper's Table 2.
     """
 
     cases: Sequence[CaseResult]
@@ -50,6 +51,7 @@ class StudyResults:
     sensitivities: Mapping[str, Sensitivity]
     selection: Sequence[pd.DataFrame]
     registered: Sequence[Comparison]
+    planted_ratios: bool = True
 
     def under(self, setting: str) -> list[CaseResult]:
         """Return the cases under one setting."""

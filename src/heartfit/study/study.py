@@ -24,6 +24,11 @@ class Cohort(Generator):
     scanner: Acquisition = Acquisition()
     catheter: PressureLine = PressureLine()
     heart: dict[str, float] = Field({}, description="parameters around which the hidden hearts scatter")
+    planted_ratios: bool = Field(
+        default=True,
+        description="the volunteers of the table of cases have the ratios of the paper's Table 2, so their spread "
+        "confirms no claim of the paper",
+    )
 
 
 class Study(Strict):
