@@ -22,7 +22,7 @@ SUBJECTS = {
     "search": ("discovery/inference/search.py", "discovery/inference/evidence.py"),
     "decision": ("discovery/inference/decide.py",),
     "held-out data": ("discovery/sphere_model/held_out.py",),
-    "withdrawal": ("discovery/sphere_model/diagnose.py",),
+    "withdrawal": ("discovery/sphere_model/diagnose.py", "discovery/sphere_model/searched_recording.py"),
     "recentring": ("discovery/sphere_model/recentred.py",),
     "refit": ("discovery/refit/refit.py",),
     "halves": ("discovery/refit/target.py",),

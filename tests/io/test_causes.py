@@ -9,7 +9,15 @@ import pytest
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, FittedModel, Gain, Trace
-from heartfit.io.causes import cause_schema, read_cause, read_diagnosis, write_cause, write_cause_card
+from heartfit.io.causes import (
+    SHARED,
+    TraceFile,
+    cause_schema,
+    read_cause,
+    read_diagnosis,
+    write_cause,
+    write_cause_card,
+)
 from heartfit.observation.beat import BeatPhases
 from heartfit.results.cause_card import departure_sentences, markdown_card
 from heartfit.results.cause_figure import render_cause
@@ -32,6 +40,8 @@ DIAGNOSIS = Diagnosis(
     5.0,
     traces=(TRACE,),
     phases=BeatPhases(np.array([0.0, 0.06, 0.3, 0.36, 0.55, 0.65]), 0.8),
+    from_all_samples=(Cause("MitralRegurgitation", 20.0, 3.2e-5, "m^2", (2.5e-5, 4e-5)),),
+    warnings=("stroke work 4 J, expected 0.05 to 3.5 J: check the unit and the column",),
 )
 
 
@@ -113,3 +123,12 @@ def test_a_diagnosis_is_read_back_to_the_bit(tmp_path, diagnosis):
     for name in {field.name for field in fields(Trace)}:
         assert np.array_equal(getattr(trace, name), getattr(diagnosis.traces[0], name)), name
     assert markdown_card(restored, "") == markdown_card(diagnosis, "")
+
+
+def test_every_field_of_a_diagnosis_is_restored(tmp_path):
+    assert {entry.name for entry in fields(Diagnosis)} <= SHARED | {entry.name for entry in fields(TraceFile)}
+    write_cause_card(tmp_path, render_cause(DIAGNOSIS, "heart"), "0123")
+    restored = read_diagnosis(tmp_path)
+    assert restored.from_all_samples == DIAGNOSIS.from_all_samples
+    assert restored.warnings == DIAGNOSIS.warnings
+    assert DIAGNOSIS.warnings[0] in markdown_card(restored, "heart")

@@ -8,11 +8,11 @@ import pytest
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.sphere_model.cause import Cause
-from heartfit.io.beats import MEASURED
 from heartfit.io.curves import read_curves
 from heartfit.io.fingerprint import PACKAGE, modules_below
 from heartfit.io.planted import read_conditions_of, read_planted, write_findings
 from heartfit.io.planting import write_planted
+from heartfit.io.recordings import MEASURED
 from heartfit.io.scores import read_scored
 from heartfit.io.seals import open_seal, seal
 from heartfit.synthetic.campaign import PlantedPlan

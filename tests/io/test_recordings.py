@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 from heartfit.core.errors import InputError
-from heartfit.io.beats import read_recording
+from heartfit.io.pressures import read_pressure
+from heartfit.io.recordings import read_recording
+from heartfit.observation.curve import Curve
+from heartfit.study.case import RecordedPressure
 
 
 def written(path, text):
@@ -37,8 +40,13 @@ def test_empty_cells_are_other_times_and_beats_may_follow(tmp_path):
         ("time_s,lv_volume_ml", [(k * 0.05, 100) for k in range(5)], 0.9, "at least 8"),
         ("time_s,lv_pressure_kpa", [(k * 0.05, 10) for k in range(20)], 0.9, "no lv_volume"),
         ("time_s,lv_volume", [(k * 0.05, 10) for k in range(20)], 0.9, "did you mean lv_volume_ml"),
-        ("lv_volume_ml", [(100,)], 0.9, "no column time_s"),
-        ("time_s;lv_volume_ml", [("0,05;100",)], 0.9, "no commas between columns"),
+        (
+            "lv_volume_ml",
+            [(100,)],
+            0.9,
+            "no column time_s among lv_volume_ml; expected times in seconds or milliseconds",
+        ),
+        ("time_s;lv_volume_ml", [("0,05;100.5",)], 0.9, "time_s in data row 1 is 0,05"),
         ("time_s,lv_volume_ml", [(0.0, 100), (0.05, 100, 7)], 0.9, "3 cells, expected 2"),
         ("time_s,lv_volume_ml", [(50 * k, 100 + k) for k in range(20)], 0.9, "milliseconds"),
         ("time_s,lv_volume_ml", [(k * 0.05, 120) for k in range(20)], 0.9, "expected a curve that beats"),
@@ -63,3 +71,56 @@ def test_a_byte_order_mark_and_letters_in_comments_are_accepted(tmp_path):
     path.write_bytes(text.encode("latin-1"))
     with pytest.raises(InputError, match="not UTF-8"):
         read_recording(path)
+
+
+TIMES = np.arange(30) * 0.03
+VOLUMES, PRESSURES = 100 + 20 * np.cos(7 * TIMES), 60 - 50 * np.cos(7 * TIMES)
+
+
+def columns(separator, decimal, header, *values):
+    rows = (
+        "\t".join(f"{value:.5f}" for value in row).replace(".", decimal) for row in zip(*values, strict=True)
+    )
+    return separator.join(header) + "\n" + "\n".join(rows).replace("\t", separator) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("separator", "decimal"), [(",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ",")]
+)
+def test_separators_decimal_signs_and_units_of_others_are_read(tmp_path, separator, decimal):
+    header = ("time_ms", "LV_Volume_ml", "lv_pressure_mmHg")
+    text = columns(separator, decimal, header, 1e3 * TIMES, VOLUMES, PRESSURES)
+    recording = read_recording(written(tmp_path / "m.csv", text), 0.9)
+    volume, pressure = (recording.curves[name] for name in ("lv_volume", "lv_pressure"))
+    assert volume.times == pytest.approx(TIMES, abs=1e-7)
+    assert volume.values == pytest.approx(1e-6 * VOLUMES, abs=1e-11)
+    assert pressure.values == pytest.approx(133.322368 * PRESSURES, abs=1e-2)
+
+
+def test_whole_numbers_between_semicolons_stay_whole(tmp_path):
+    text = columns(";", ".", ("time_ms", "lv_volume_ml"), 1e3 * TIMES, VOLUMES)
+    text = "\n".join(line.replace(".00000", "") for line in text.splitlines())
+    recording = read_recording(written(tmp_path / "m.csv", text), 0.9)
+    assert recording.curves["lv_volume"].times[1] == pytest.approx(0.03)
+
+
+def test_a_pressure_of_its_own_is_averaged_from_its_triggers(tmp_path):
+    volumes = written(tmp_path / "v.csv", columns(",", ".", ("time_s", "lv_volume_ml"), TIMES, VOLUMES))
+    fine = np.arange(3600) * 1e-3
+    phase = np.mod(fine - 0.25, 0.9)
+    signal = 60 - 50 * np.cos(2 * np.pi * phase / 0.9)
+    marks = (phase < 0.02).astype(float)
+    text = columns(";", ",", ("time_ms", "p_mmHg", "ecg"), 1e3 * fine, signal, marks)
+    source = RecordedPressure(file=str(written(tmp_path / "p.csv", text)), trigger="ecg")
+    averaged = read_pressure(source, 0.9).curve
+    pressure = read_recording(volumes, 0.9).with_pressure(averaged).curves["lv_pressure"]
+    expected = 133.322368 * (60 - 50 * np.cos(2 * np.pi * pressure.times / 0.9))
+    assert pressure.values == pytest.approx(expected, abs=150.0), "a beat from its trigger, to a sample"
+    assert np.ptp(pressure.times) < 0.9
+
+
+def test_a_pressure_in_both_files_is_refused(tmp_path):
+    text = columns(",", ".", ("time_s", "lv_volume_ml", "lv_pressure_mmhg"), TIMES, VOLUMES, PRESSURES)
+    recording = read_recording(written(tmp_path / "m.csv", text), 0.9)
+    with pytest.raises(InputError, match="expected it in one"):
+        recording.with_pressure(Curve(TIMES[:29], 133.322368 * PRESSURES[:29], 0.9))

@@ -26,7 +26,7 @@ MALFORMED = [
     recorded("empty", "", "empty"),
     recorded("one row", "time_s,lv_pressure_mmhg,marker\n0,8,1\n", "fewer than two"),
     recorded("Latin-1", SOUND.replace("marker", "m\xe4rker").encode("latin-1"), "not UTF-8"),
-    recorded("decimal commas", SOUND.replace(",", ";").replace(".", ","), "no commas|columns"),
+    recorded("decimal commas between commas", SOUND.replace(".", ","), "cells"),
     recorded("a row too short", SOUND + "2.1,8\n", "2 cells, expected 3"),
     recorded("a word", SOUND.replace(",8,", ",high,", 1), "is high; expected a finite number"),
     recorded("an empty cell", SOUND.replace(",8,", ",,", 1), "is empty; expected a finite number"),

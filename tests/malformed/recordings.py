@@ -3,11 +3,16 @@
 import gzip
 
 from tests.malformed.case import Content, Malformed, folder, pipe
+from tests.malformed.pictures import pressure
 from tests.malformed.sound import recording
 
 SOUND = recording()
 DIAGNOSE = "diagnose|bad.csv"
-ROW = "0.0900,142.361,2.337\n"
+ROW = next(line for line in SOUND.splitlines(keepends=True) if line.startswith("0.0900,"))
+CLOCKWISE = recording(lead=-1 / 6)
+VOLUME: dict[str, Content] = {
+    "volume.csv": "".join(f"{line.rpartition(',')[0] or line}\n" for line in SOUND.splitlines())
+}
 
 
 def curves(name: str, text: Content, message: str) -> Malformed:
@@ -51,10 +56,12 @@ MALFORMED = [
         "not UTF-8",
         **{"bad.csv.gz": gzip.compress(SOUND.encode())},
     ),
-    curves("semicolons and decimal commas", SOUND.replace(",", ";").replace(".", ","), "no commas|no column"),
-    curves("decimal commas", SOUND.replace(".", ","), "cells"),
-    curves("tabs", SOUND.replace(",", "\t"), "no commas|no column"),
-    with_("a row too long", ROW, "0.0900,142.361,2.337,7\n", "4 cells, expected 3"),
+    curves("decimal commas between commas", SOUND.replace(".", ","), "cells"),
+    curves(
+        "decimal commas and points", SOUND.replace(",", ";").replace(".", ",", 90), "expected a finite number"
+    ),
+    curves("blanks between columns", SOUND.replace(",", " "), "no column time_s"),
+    with_("a row too long", ROW, ROW.replace("\n", ",7\n"), "4 cells, expected 3"),
     with_("a row too short", ROW, "0.0900,142.361\n", "2 cells, expected 3"),
     curves(
         "every row too long",
@@ -78,7 +85,12 @@ MALFORMED = [
     with_("a column without a unit", "lv_volume_ml", "lv_volume", "did you mean lv_volume_ml"),
     with_("a column misspelt", "lv_volume_ml", "lv_volme_ml", "did you mean lv_volume_ml"),
     with_("an unknown unit", "lv_volume_ml", "lv_volume_pints", "did you mean lv_volume_ml"),
-    with_("times of another unit", "time_s", "time_ms", "no column time_s"),
+    with_("seconds called milliseconds", "time_s", "time_ms", "record a whole beat"),
+    with_("minutes", "time_s", "time_min", "no column time_s"),
+    with_("two columns of times", "lv_pressure_kpa", "time_ms", "time_s and time_ms"),
+    with_(
+        "a curve in two units", "time_s,lv_volume_ml", "time_s,lv_pressure_mmhg", "lv_pressure in two columns"
+    ),
     with_("no volume", "lv_volume_ml", "aortic_pressure_kpa", "no lv_volume|pressure"),
     with_(
         "columns swapped",
@@ -118,6 +130,24 @@ MALFORMED = [
     refused("a period of nothing given", "diagnose|sound.csv|--rr|0", "period"),
     refused("a period of minutes", "diagnose|sound.csv|--rr|70", "period"),
     refused("a period that is a word", "diagnose|sound.csv|--rr|fast", "--rr"),
+    refused("a pressure in both files", "diagnose|sound.csv|--pressure|sound.csv", "expected it in one"),
+    refused(
+        "a pressure that is missing",
+        "diagnose|volume.csv|--pressure|none.csv",
+        "none.csv: no such file",
+        **VOLUME,
+    ),
+    refused(
+        "a pressure of another rate",
+        "diagnose|volume.csv|--pressure|fast.csv|--upstroke|0.08",
+        "at the heart rate of the images",
+        **VOLUME,
+        **{"fast.csv": pressure(step=0.0065)},
+    ),
+    refused("a unit of pressure alone", "diagnose|sound.csv|--pressure-unit|kPa", "file"),
+    refused(
+        "a loop that runs clockwise", "diagnose|clockwise.csv", "clockwise", **{"clockwise.csv": CLOCKWISE}
+    ),
     refused("a condition without a name", "diagnose|sound.csv|--condition|sound.csv", "NAME=CSV"),
     refused(
         "a condition that is missing",

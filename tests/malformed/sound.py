@@ -31,13 +31,17 @@ PHASES = 8
 
 
 def recording(
-    columns: str = "time_s,lv_volume_ml,lv_pressure_kpa", period: str = "0.9", rows: int = 30
+    columns: str = "time_s,lv_volume_ml,lv_pressure_kpa",
+    period: str = "0.9",
+    rows: int = 30,
+    lead: float = 1 / 6,
 ) -> str:
-    """A table of curves of one beat."""
+    """A table of curves of one beat; lead: of the pressure before the emptying, over the period."""
     lines = [f"# period_s = {period}", columns]
     for share in np.arange(rows) / rows:
         wave = np.cos(2 * np.pi * share)
-        lines.append(f"{0.9 * share:.4f},{110 + 40 * wave:.3f},{8 - 7 * wave:.3f}")
+        earlier = np.cos(2 * np.pi * (share + lead))
+        lines.append(f"{0.9 * share:.4f},{110 + 40 * wave:.3f},{8 - 7 * earlier:.3f}")
     return "\n".join(lines) + "\n"
 
 

@@ -2,6 +2,7 @@
 
 from tests.mutations.mutants.calibration import CALIBRATION_MUTANTS
 from tests.mutations.mutants.circulation import CIRCULATION_MUTANTS
+from tests.mutations.mutants.consistency import CONSISTENCY_MUTANTS
 from tests.mutations.mutants.decision import DECISION_MUTANTS
 from tests.mutations.mutants.finite_elements import ELEMENT_MUTANTS
 from tests.mutations.mutants.geometry import GEOMETRY_MUTANTS
@@ -28,6 +29,7 @@ MUTANTS = (
     *CALIBRATION_MUTANTS,
     *SEARCH_MUTANTS,
     *DECISION_MUTANTS,
+    *CONSISTENCY_MUTANTS,
     *JUDGING_MUTANTS,
     *WITHDRAWAL_MUTANTS,
     *RECENTRING_MUTANTS,

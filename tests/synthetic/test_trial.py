@@ -3,7 +3,7 @@
 import pytest
 
 from heartfit.discovery.sphere_model import forward_model as library
-from heartfit.discovery.sphere_model.diagnose import SearchedRecording
+from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 from heartfit.roles import registered
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.trial import CONDITION, VOLUME, diagnose_by_data

@@ -8,6 +8,7 @@ from pathlib import Path
 from traceback import extract_tb
 
 from heartfit.cli.console import Command
+from heartfit.cli.pressure import pressure_arguments, stated_pressure
 from heartfit.core.errors import InputError
 from heartfit.io.files import require_writable
 from heartfit.io.fingerprint import fingerprint
@@ -58,8 +59,10 @@ def diagnose_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "measured",
         type=Path,
-        help="curves (.csv): time_s, lv_volume_ml, and lv_pressure_kpa, rv_volume_ml, aortic_pressure_kpa if measured",
+        help="curves (.csv): time_s or time_ms, lv_volume_ml, and lv_pressure_kpa, aortic_pressure_kpa (or _mmhg), "
+        "rv_volume_ml if measured",
     )
+    pressure_arguments(command)
     command.add_argument(
         "--condition",
         nargs="+",
@@ -87,17 +90,26 @@ def diagnose_arguments(command: argparse.ArgumentParser) -> None:
 def diagnose(arguments: argparse.Namespace) -> int:
     """Name the mechanism that a simulation of a recorded heart lacks, within a minute."""
     from heartfit.cli.diagnose import run_mechanism_files
+    from heartfit.core.validation import validate
     from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES
     from heartfit.discovery.sphere_model import diagnose as diagnosis
-    from heartfit.io.beats import read_conditions, read_recording
+    from heartfit.discovery.sphere_model.consistency import implausible
     from heartfit.io.causes import write_cause_card
+    from heartfit.io.pressures import read_pressure
+    from heartfit.io.recordings import read_conditions, read_recording
     from heartfit.results.cause_card import verdict_sentence
     from heartfit.results.cause_figure import render_cause
+    from heartfit.study.case import RecordedPressure
 
     run_mechanism_files(arguments.mechanism)
     recording = read_recording(arguments.measured, arguments.rr)
+    if stated := stated_pressure(arguments):
+        source = validate(RecordedPressure, stated, "diagnose")
+        recording = recording.with_pressure(read_pressure(source, recording.period).curve)
     conditions = read_conditions(arguments.condition, recording.period)
     require_writable(arguments.output)
+    for line in implausible(recording, str(arguments.measured)):
+        print(f"{arguments.measured}: warning: {line}", file=sys.stderr)
     conclusion = diagnosis.diagnose(
         recording, conditions, rules=STRICT_RULES if arguments.strict else DEFAULT_RULES
     )

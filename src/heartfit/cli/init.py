@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from heartfit.cli.console import STANDARD, Command
+from heartfit.cli.pressure import pressure_arguments, stated_pressure
 from heartfit.core.errors import InputError
 from heartfit.core.validation import validate
 from heartfit.io.files import write_text
@@ -92,13 +93,9 @@ def init_arguments(command: argparse.ArgumentParser) -> None:
         ("--surfaces", "folder of surface meshes, one per phase"),
         ("--segmentation", "label volume at end diastole, or one per frame"),
         ("--images", "cine: a 4-D file, or a folder"),
-        ("--pressure", "CSV of the left ventricular pressure"),
-        ("--pressure-column", "column of the pressure, if there are several"),
-        ("--trigger", "column of the ECG or of a marker in the CSV"),
     ):
-        command.add_argument(
-            option, metavar="PATH" if "CSV" not in text and "column" not in text else None, help=text
-        )
+        command.add_argument(option, metavar="PATH", help=text)
+    pressure_arguments(command)
     command.add_argument(
         "--labels", help="label numbers of the segmentation: lv_cavity=1,lv_wall=2,rv_cavity=3[,rv_wall=4]"
     )
@@ -107,17 +104,6 @@ def init_arguments(command: argparse.ArgumentParser) -> None:
         type=int,
         metavar="FRAME",
         help="frame of the images at end diastole, counted from 0",
-    )
-    command.add_argument(
-        "--pressure-unit",
-        choices=("mmHg", "kPa"),
-        help="unit of the pressure, if the column's name does not state it",
-    )
-    command.add_argument(
-        "--upstroke",
-        type=float,
-        metavar="S",
-        help="time from the trigger to the steepest rise, if no column marks the trigger",
     )
     command.add_argument(
         "--rr", type=float, metavar="S", help="period of the beat; that of the data if not given"
@@ -163,14 +149,7 @@ def _source(arguments: argparse.Namespace) -> dict[str, Any]:
         for name in ("fit", "surfaces", "segmentation", "images", "end_diastole")
     }
     source["labels"] = None if arguments.labels is None else dict(map(_label, arguments.labels.split(",")))
-    pressure = {
-        "file": arguments.pressure,
-        "unit": arguments.pressure_unit,
-        "column": arguments.pressure_column,
-        "trigger": arguments.trigger,
-        "upstroke": arguments.upstroke,
-    }
-    source["pressure"] = _without_none(pressure) or None
+    source["pressure"] = stated_pressure(arguments) or None
     return _without_none(source)
 
 

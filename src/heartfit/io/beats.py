@@ -1,25 +1,12 @@
-"""Simulated beats and measured recordings.
+"""Simulated beats: their curves as CSV, and their status, reason and diagnostics as JSON of the same name."""
 
-A beat is two files: its curves as CSV, and its status, reason and diagnostics as JSON of the same name. A recording is
-one CSV of curves.
-"""
-
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
-from heartfit.core.errors import InputError
-from heartfit.discovery.sphere_model.recording import Recording, Samples
 from heartfit.heart.beat import Beat
-from heartfit.io.curves import (
-    KINDS,
-    kind_of,
-    read_sampled,
-    read_table_of_curves,
-    stated_period,
-    write_table_of_curves,
-)
+from heartfit.io.curves import KINDS, kind_of, read_table_of_curves, write_table_of_curves
 from heartfit.io.results import read_result, write_result
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
@@ -63,44 +50,3 @@ def read_fitted_curves(beat: Path, fitted: Path, setting: Setting) -> dict[str, 
     """
     sensors = setting.sensors(read_result(Path(fitted))["summary"]["estimate"])
     return beat_curves(read_beat(Path(beat)), sensors)
-
-
-MEASURED = "MEASURED.csv"
-"""File name of the recording at rest in the folder of a planted case; other conditions are NAME.csv beside it."""
-
-
-def read_recording(path: Path, period: float | None = None) -> Recording:
-    """Read a recording in SI units; without ``period`` [s] the file states it.
-
-    Raises InputError that names the file for samples that a recording refuses.
-    """
-    times, values, period = read_sampled(path, period)
-    try:
-        return Recording(period, {name: _samples(name, times, array) for name, array in values.items()})
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
-
-
-def read_conditions(arguments: Iterable[str], period: float) -> dict[str, Recording]:
-    """Read the recordings of arguments NAME=CSV by name; ``period`` [s] holds where a file states none.
-
-    Raises InputError for an argument of another form and for a repeated name.
-    """
-    recordings: dict[str, Recording] = {}
-    for argument in arguments:
-        name, _, path = argument.partition("=")
-        if not name or not path or name in recordings:
-            raise InputError(
-                f"condition {argument!r}: expected NAME=CSV with names that differ, as legs_raised=legs.csv"
-            )
-        stated = stated_period(Path(path))
-        recordings[name] = read_recording(Path(path), period if stated is None else stated)
-    return recordings
-
-
-def _samples(name: str, times: np.ndarray, values: np.ndarray) -> Samples:
-    sampled = ~np.isnan(values)
-    try:
-        return Samples(times[sampled], values[sampled])
-    except InputError as error:
-        raise InputError(f"{name}: {error}") from error

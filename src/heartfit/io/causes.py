@@ -78,33 +78,25 @@ class CauseFile:
     self_test: float | None = None
     tried: tuple[FittedModel, ...] = ()
     samples: int = 0
+    from_all_samples: tuple[Cause, ...] = ()
+    warnings: tuple[str, ...] = ()
     made_by: str = ""
 
     @classmethod
     def of(cls, diagnosis: Diagnosis, misses: Sequence[str], fingerprint: str) -> "CauseFile":
         """Collect the fields of a diagnosis, without its curves."""
+        stored: dict[str, Any] = {name: getattr(diagnosis, name) for name in SHARED}
         return cls(
-            diagnosis.verdict,
-            diagnosis.mechanisms,
-            diagnosis.alternatives,
-            diagnosis.next_measurement,
-            diagnosis.gain,
-            diagnosis.simulations,
-            fingerprint,
-            diagnosis.ranking,
-            diagnosis.withdrawn,
-            tuple(departures(diagnosis)),
-            tuple(misses),
-            diagnosis.unsearched,
-            diagnosis.refitted,
-            diagnosis.threshold,
-            diagnosis.self_test,
-            diagnosis.tried,
-            diagnosis.samples,
-            versions(),
+            departures=tuple(departures(diagnosis)),
+            misses=tuple(misses),
+            fingerprint=fingerprint,
+            made_by=versions(),
+            **stored,
         )
 
 
+SHARED = {entry.name for entry in fields(CauseFile)} & {entry.name for entry in fields(Diagnosis)}
+"""Fields of a diagnosis in its cause.json; the others are in its traces.json."""
 FILE = TypeAdapter(CauseFile)
 
 
@@ -168,6 +160,5 @@ def read_cause(path: Path) -> dict[str, Any]:
 def read_diagnosis(folder: Path) -> Diagnosis:
     """Read the diagnosis that write_cause_card wrote; raises InputError for a missing or broken file."""
     cause = FILE.validate_python(read_cause(Path(folder, "cause.json")))
-    shared = {entry.name for entry in fields(Diagnosis)} & {entry.name for entry in fields(CauseFile)}
-    stored = {name: getattr(cause, name) for name in shared if getattr(cause, name) is not None}
+    stored = {name: getattr(cause, name) for name in SHARED if getattr(cause, name) is not None}
     return Diagnosis(**{"threshold": float("nan"), **stored, **read_traces(Path(folder, "traces.json"))})

@@ -4,7 +4,8 @@
 time_s,lv_volume_ml,rv_volume_ml,lv_pressure_kpa,mitral_flow_ml_per_s
 0.0,174.49,170.1,1.3,0.0
 
-A curve has empty cells at times at which only other curves were sampled.
+A curve has empty cells at times at which only other curves were sampled. Files of others may have times in ms and
+pressures in mmHg, columns between semicolons or tabs, and then decimal commas; written files have none of these.
 """
 
 import difflib
@@ -17,7 +18,7 @@ import numpy as np
 
 from heartfit.core.errors import InputError
 from heartfit.io.files import write_text
-from heartfit.io.text import LARGEST, number, number_in, read_cells, read_text
+from heartfit.io.text import LARGEST, PASCAL, number, number_in, read_cells, read_text
 from heartfit.observation.curve import Curve
 
 UNITS = {"volume": ("ml", 1e-6), "pressure": ("kpa", 1e3), "flow": ("ml_per_s", 1e-6)}
@@ -27,8 +28,18 @@ PLACES = {
     "flow": ("aortic", "mitral", "pulmonary", "tricuspid"),
 }
 KINDS = {f"{place}_{kind}": kind for kind, places in PLACES.items() for place in places}
-COLUMNS = {f"{name}_{UNITS[kind][0]}": name for name, kind in KINDS.items()}
-COLUMNS["aortic_pressure_kpa"] = "aorta_pressure"  # the usual name
+FURTHER_UNITS = {"volume": (), "pressure": (("mmhg", PASCAL["mmhg"]),), "flow": ()}
+COLUMNS = {
+    f"{name}_{unit}": (name, factor)
+    for name, kind in KINDS.items()
+    for unit, factor in (UNITS[kind], *FURTHER_UNITS[kind])
+}
+"""Curve and SI value of the unit by column."""
+COLUMNS |= {  # the usual name
+    f"aortic_pressure_{unit}": COLUMNS[f"aorta_pressure_{unit}"] for unit in ("kpa", "mmhg")
+}
+TIMES = {"time_s": 1.0, "time_ms": 1e-3}
+"""Columns of times, and their unit [s]."""
 PERIOD = re.compile(r"^#\s*period_s\s*=\s*(.*?)\s*$", re.MULTILINE)
 FLOW = re.compile(r"(\w+_flow)_ml_per_s")  # any branch, since mechanisms may add one
 
@@ -38,9 +49,10 @@ def kind_of(name: str) -> str:
     return name.rsplit("_", 1)[1]
 
 
-def _name_of(column: str) -> str | None:
+def _curve_of(column: str) -> tuple[str, float] | None:
+    """Return name and SI value of the unit of a column of curves, None for any other."""
     branch = FLOW.fullmatch(column)
-    return branch[1] if branch else COLUMNS.get(column)
+    return (branch[1], UNITS["flow"][1]) if branch else COLUMNS.get(column.lower())
 
 
 def write_table_of_curves(
@@ -75,12 +87,15 @@ def read_table_of_curves(
 def read_sampled(path: Path, period: float | None) -> tuple[np.ndarray, dict[str, np.ndarray], float]:
     """Read as :func:`read_table_of_curves`, with NaN in empty cells."""
     numbers = {column: _numbers(path, column, cells) for column, cells in _table(path).items()}
-    values = {
-        name: array * UNITS[kind_of(name)][1]
-        for column, array in numbers.items()
-        if (name := _name_of(column))
-    }
-    return numbers["time_s"], values, _period(path) if period is None else period
+    times = next(numbers[column] * unit for column, unit in TIMES.items() if column in numbers)
+    values: dict[str, np.ndarray] = {}
+    for column, array in numbers.items():
+        if curve := _curve_of(column):
+            name, factor = curve
+            if name in values:
+                raise InputError(f"{path}: {name} in two columns, one of them {column}; remove one")
+            values[name] = array * factor
+    return times, values, _period(path) if period is None else period
 
 
 def write_curves(path: Path, curves: Mapping[str, Curve]) -> None:
@@ -118,25 +133,27 @@ def read_curves(path: Path, period: float | None = None) -> dict[str, Curve]:
 
 def _table(path: Path) -> dict[str, list[str]]:
     table = read_cells(path)
-    if "time_s" not in table:
+    times = [column for column in TIMES if column in table]
+    if len(times) != 1:
         raise InputError(
-            f"{path}: no column time_s among {', '.join(table)}; expected times in seconds: name it time_s"
+            f"{path}: {' and '.join(times) or 'no column time_s'} among {', '.join(table)}; expected times in seconds "
+            "or milliseconds: name their column time_s or time_ms"
         )
     if len(table) == 1:
-        raise InputError(f"{path}: no curve beside time_s; expected a column such as lv_volume_ml")
+        raise InputError(f"{path}: no curve beside {times[0]}; expected a column such as lv_volume_ml")
     return table
 
 
 def _numbers(path: Path, column: str, cells: list[str]) -> np.ndarray:
     """Numbers of a column, NaN where a cell is empty; times may not be empty."""
-    if column != "time_s" and _name_of(column) is None:
+    if column not in TIMES and _curve_of(column) is None:
         near = difflib.get_close_matches(column.lower(), COLUMNS, n=1, cutoff=0.0)
         raise InputError(
             f"{path}: unknown column {column}; did you mean {near[0]}? Rename it or leave it out"
         )
     values = np.full(len(cells), np.nan)
     for row, cell in enumerate(cells):
-        if cell.strip() or column == "time_s":
+        if cell.strip() or column in TIMES:
             values[row] = number_in(path, column, row, cell)
     return values
 

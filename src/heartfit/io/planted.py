@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.io.beats import MEASURED, read_recording
+from heartfit.io.recordings import MEASURED, read_recording
 from heartfit.io.results import read_record, write_result
 from heartfit.synthetic.trial import ScoredDiagnosis
 

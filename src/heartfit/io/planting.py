@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from heartfit.io.beats import MEASURED
 from heartfit.io.curves import write_curves
+from heartfit.io.recordings import MEASURED
 from heartfit.io.seals import seal
 from heartfit.synthetic.case import REST, PlantedCase
 

@@ -110,16 +110,21 @@ LARGEST = 64 * MEGABYTE
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 PASCAL = {"mmhg": 133.322368, "kpa": 1e3}
 """Pascal in a unit of pressure, by its name in small letters at the end of a column's name."""
-SEPARATORS = {",": "commas", "\t": "tabs"}
+SEPARATORS = (";", "\t", ",")
+"""Separators of columns, of which the first that stands in the header separates the table."""
+DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d+(e[+-]?\d+)?\s*", re.IGNORECASE | re.ASCII)
 
 
-def read_cells(path: Path, separator: str = ",", expected: str = "curves as CSV") -> dict[str, list[str]]:
+def read_cells(path: Path, separator: str = "", expected: str = "curves as CSV") -> dict[str, list[str]]:
     """Read the cells of a table by column; empty lines and lines that begin with # are skipped.
 
-    Raises InputError for a file that is not text, other separators, a column without a name or with the name of
-    another, and a row with another number of cells than there are columns.
+    separator: one of SEPARATORS, that of the header if empty. Between semicolons and tabs, numbers of a table without
+    any point may have decimal commas, which become points. Raises InputError for a file that is not text, other
+    separators, a column without a name or with the name of another, and a row with another number of cells than there
+    are columns.
     """
     lines = [line for line in read_text(path, expected, LARGEST).split("\n") if _is_row(line)]
+    separator = separator or next((mark for mark in SEPARATORS if lines and mark in lines[0]), ",")
     try:
         header, *rows = csv.reader(lines, delimiter=separator, skipinitialspace=True, strict=True)
     except csv.Error as fault:
@@ -127,10 +132,16 @@ def read_cells(path: Path, separator: str = ",", expected: str = "curves as CSV"
     except ValueError:  # no header to unpack
         raise InputError(f"{path}: empty; expected {expected}: export it again") from None
     names = [name.strip() for name in header]
-    _require_columns(path, names, separator)
+    _require_columns(path, names)
     _require_even(path, names, rows)
+    if separator != "," and not any("." in cell for row in rows for cell in row):
+        rows = [[_with_decimal_point(cell) for cell in row] for row in rows]
     columns = [list(column) for column in zip(*rows, strict=True)] or [[] for _ in names]
     return dict(zip(names, columns, strict=True))
+
+
+def _with_decimal_point(cell: str) -> str:
+    return cell.replace(",", ".") if DECIMAL_COMMA.fullmatch(cell) else cell
 
 
 def number(text: str) -> float:
@@ -152,10 +163,10 @@ def _is_row(line: str) -> bool:
     return bool(line.strip(" \r")) and not line.lstrip().startswith("#")
 
 
-def _require_columns(path: Path, names: list[str], separator: str) -> None:
+def _require_columns(path: Path, names: list[str]) -> None:
     if len(names) == 1 and re.search(r"[;,\t]", names[0]):
         raise InputError(
-            f"{path}: no {SEPARATORS[separator]} between columns; expected these, and decimal points: export it again"
+            f"{path}: no tabs between columns; expected these, and decimal points: export it again"
         )
     for place, name in enumerate(names, start=1):
         if not name:

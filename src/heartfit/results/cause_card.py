@@ -58,6 +58,7 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
     misfits += [f"- {line}" for line in unsearched_sentences(diagnosis)]
     parts = [
         f"# {title}\n\n**{verdict_sentence(diagnosis)}**",
+        *([_warnings(diagnosis.warnings)] if diagnosis.warnings else []),
         "## Misfit of the simulation\n\n" + "\n".join(misfits),
         "## Evidence for each mechanism\n\n" + _ranking_table(diagnosis),
         "## Alternative explanations\n\n" + alternatives_text(diagnosis),
@@ -69,6 +70,10 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
         f"Simulated beats: {diagnosis.simulations}.",
     ]  # fmt: skip
     return "\n\n".join(parts) + "\n"
+
+
+def _warnings(warnings: Iterable[str]) -> str:
+    return "## Check the recording first\n\n" + "\n".join(f"- {line}" for line in warnings)
 
 
 def self_test_sentence(diagnosis: Diagnosis) -> str:

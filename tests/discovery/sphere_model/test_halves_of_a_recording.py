@@ -7,9 +7,11 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model import diagnose as module
-from heartfit.discovery.sphere_model.diagnose import SearchedRecording, diagnose
+from heartfit.discovery.sphere_model import diagnose as diagnosis
+from heartfit.discovery.sphere_model import searched_recording as module
+from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.recording import Recording, Samples, search_data
+from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 
 PERIOD = 0.8
 FRAMES, SAMPLES = np.arange(25) * PERIOD / 25, np.arange(800) * 1e-3
@@ -20,7 +22,7 @@ def volume(times: np.ndarray) -> Samples:
 
 
 def pressure(times: np.ndarray) -> Samples:
-    return Samples(times, 8e3 - 7e3 * np.cos(2.0 * np.pi * times / PERIOD))
+    return Samples(times, 8e3 - 7e3 * np.cos(2.0 * np.pi * (times / PERIOD + 1 / 6)))
 
 
 BOTH = Recording(
@@ -73,8 +75,8 @@ def searched_by(
     """Return the samples that the search sees, and those that it keeps for the judgement."""
     calls: list[tuple[Any, ...]] = []
     stand_in = SimpleNamespace(search=lambda *arguments: calls.append(arguments))
-    monkeypatch.setattr(module, "SearchedRecording", stand_in)
-    monkeypatch.setattr(module, "conclude", lambda *_: None)
+    monkeypatch.setattr(diagnosis, "SearchedRecording", stand_in)
+    monkeypatch.setattr(diagnosis, "conclude", lambda *_: None)
     diagnose(BOTH, conditions)
     ((recording, _, _, unseen),) = calls
     return recording, unseen

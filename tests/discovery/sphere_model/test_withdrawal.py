@@ -11,8 +11,9 @@ import pytest
 from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES, Decision, Effects, Rules, Verdict
 from heartfit.discovery.sphere_model import diagnose as module
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
-from heartfit.discovery.sphere_model.diagnose import SearchedRecording, conclude, predict_explanation
+from heartfit.discovery.sphere_model.diagnose import conclude, predict_explanation
 from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 
 LEAK, DELAY = ("Leak",), ("Delay",)
 TIMES = np.arange(25) * 0.8 / 25

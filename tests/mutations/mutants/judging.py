@@ -65,6 +65,9 @@ DIAGNOSIS_MUTANTS = changes(
         "recording, unseen = recording.halves()",
         "unseen = recording.halves()[1]",
     ),
+) + changes(
+    "discovery/sphere_model/searched_recording.py",
+    RECORDING_HALVES,
     ("the size of all samples is that of one half", "self.recording.merged(self.unseen)", "self.recording"),
 )
 

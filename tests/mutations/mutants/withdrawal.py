@@ -20,11 +20,6 @@ WITHDRAWAL_MUTANTS = (
             "        return case.verdict",
         ),
         (
-            "a refuted name always leaves something unknown",
-            "if evidences.discrepancy - evidences.baseline >= self.rules.detected:",
-            "if evidences.baseline < np.inf:",
-        ),
-        (
             "a withdrawn name stays among the mechanisms",
             "tuple(case.cause(effects, name) for effects in kept for",
             "tuple(case.cause(effects, name) for effects in case.explanations for",
@@ -40,6 +35,15 @@ WITHDRAWAL_MUTANTS = (
             "0.0",
         ),
         ("unseen samples do not judge", "if case.unseen is not None:", "if False:"),
+    ),
+    *changes(
+        "discovery/sphere_model/searched_recording.py",
+        WITHDRAWAL,
+        (
+            "a refuted name always leaves something unknown",
+            "if evidences.discrepancy - evidences.baseline >= self.rules.detected:",
+            "if evidences.baseline < np.inf:",
+        ),
         (
             "a volume alone needs no more evidence",
             "VOLUME_ONLY_THRESHOLD = 10.0",

@@ -112,6 +112,7 @@ class Diagnosis:
       to.
     - from_all_samples: the mechanisms with their amplitudes given both halves of the recording, after the second has
       judged; empty where there is one half only.
+    - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
     """
 
     verdict: Verdict
@@ -132,6 +133,7 @@ class Diagnosis:
     tried: tuple[FittedModel, ...] = ()
     samples: int = 0
     from_all_samples: tuple[Cause, ...] = ()
+    warnings: tuple[str, ...] = ()
 
 
 CLEAR_DEVIATIONS = 2.0

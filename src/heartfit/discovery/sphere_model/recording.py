@@ -14,7 +14,7 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.data import Block, Data, Noise
-from heartfit.observation.curve import require_pressures, require_volumes
+from heartfit.observation.curve import Curve, require_pressures, require_volumes
 from heartfit.observation.second_reading import FrameNoise
 
 KNOWN_CURVES = ("lv_volume", "lv_pressure", "aorta_pressure", "rv_volume")
@@ -129,6 +129,14 @@ class Recording:
             return replace(self, curves=fitted | whole), replace(self, curves=held)
         except InputError:
             return self, None
+
+    def with_pressure(self, pressure: Curve) -> "Recording":
+        """Return the recording with a left ventricular pressure of another file; raises InputError if it has one."""
+        if "lv_pressure" in self.curves:
+            raise InputError(
+                "lv_pressure is in the recording and in a file of its own; expected it in one: leave one out"
+            )
+        return replace(self, curves={**self.curves, "lv_pressure": Samples(pressure.times, pressure.values)})
 
     def merged(self, other: "Recording") -> "Recording":
         """Return the recording with the samples of another one of the same beat."""

@@ -1,0 +1,168 @@
+"""A recording with everything that a search on the sphere found in it."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.data import Data, Whitening
+from heartfit.discovery.inference.decide import DEFAULT_RULES, Effects, Rules, Verdict
+from heartfit.discovery.inference.evidence import Explanation
+from heartfit.discovery.inference.search import Findings, search
+from heartfit.discovery.sphere_model.cause import Cause, FittedModel, Trace
+from heartfit.discovery.sphere_model.forward_model import (
+    Candidate,
+    SphereForwardModel,
+    candidates,
+    hypothesis,
+)
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, NominalHeart
+from heartfit.discovery.sphere_model.recording import Recording, search_data
+from heartfit.observation.beat import BeatPhases, beat_curves
+
+
+def traces(findings: Findings, explained: Explanation, data: Data) -> tuple[Trace, ...]:
+    """One trace for each curve; noise: at the level that is most probable under the explanation."""
+    baseline, best = findings.survey.baseline.fit, explained.fit
+    levels = Whitening.from_data(data).most_probable_levels(data.values - best.predicted)
+    parts = zip(data.blocks, data.rows, levels, findings.baseline_discrepancy, strict=True)
+    return tuple(
+        Trace(
+            block.curve,
+            block.times,
+            data.values[rows],
+            baseline.predicted[rows],
+            best.predicted[rows],
+            np.sqrt(np.diag(block.noise.covariance(block.times, block.period, block.noise.levels[level]))),
+            lacking.mean,
+            lacking.sd,
+        )
+        for block, rows, level, lacking in parts
+    )
+
+
+VOLUME_ONLY_THRESHOLD = 10.0
+"""ln Bayes factor that a recording of the volume alone must give: it shows one in nine of the effects that pressure
+reveals, and an instrument explains a single curve as well as a heart does."""
+NAMING_VERDICTS = ("named", "two", "group")
+
+
+@dataclass(frozen=True, eq=False)
+class SearchedRecording:
+    """A recording with the findings of its search; ``unseen``: samples of the same beat that were kept from it."""
+
+    recording: Recording
+    model: SphereForwardModel
+    library: Mapping[str, Candidate]
+    data: Data
+    findings: Findings
+    rules: Rules
+    unseen: Recording | None = None
+
+    @classmethod
+    def search(
+        cls,
+        recording: Recording,
+        nominal: NominalHeart | None = None,
+        rules: Rules = DEFAULT_RULES,
+        unseen: Recording | None = None,
+    ) -> "SearchedRecording":
+        """Fit every mechanism, pairs and the GP discrepancy to the recording; nominal: a sphere fitted to a
+        beat of the 3-D model; the adult's, scaled to the recorded size, if None."""
+        data = search_data(recording)
+        model = SphereForwardModel(
+            nominal or ADULT.scaled_to(recording), {block.curve: block.times for block in data.blocks}
+        )
+        library = candidates(model)
+        if recording.searched == ("lv_volume",):
+            rules = replace(rules, detected=max(rules.detected, VOLUME_ONLY_THRESHOLD))
+        findings = search(
+            data,
+            hypothesis(model),
+            [hypothesis(model, (candidate,)) for candidate in library.values()],
+            lambda names: hypothesis(model, tuple(library[name] for name in names)),
+            rules,
+        )
+        return cls(recording, model, library, data, findings, rules, unseen)
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """The verdict of the search, before held-out tests."""
+        verdict = self.findings.decision.verdict
+        alone = self.recording.searched == ("lv_volume",)
+        return "insufficient" if alone and verdict not in NAMING_VERDICTS else verdict
+
+    @property
+    def verdict_without_name(self) -> Verdict:
+        """The verdict where no mechanism is named: by the evidence for a GP discrepancy alone."""
+        evidences = self.findings.evidences
+        if evidences.discrepancy - evidences.baseline >= self.rules.detected:
+            return "unknown"
+        return "insufficient" if self.recording.searched == ("lv_volume",) else "none"
+
+    @property
+    def explanations(self) -> tuple[Effects, ...]:
+        """Named effects: the best ones, and in a group all that the data do not distinguish from them."""
+        decision = self.findings.decision
+        others = decision.alternatives if self.verdict == "group" else ()
+        return (decision.effects, *others) if decision.effects else ()
+
+    def cause(self, effects: Effects, name: str) -> Cause:
+        """A mechanism with its amplitude in the explanation by these effects."""
+        return self._cause(self.findings.explanation(effects), effects, name)
+
+    def _cause(self, explained: Explanation, effects: Effects, name: str) -> Cause:
+        switch = self.library[name].unknowns[0]
+        amplitude, low, high = map(switch.at, explained.interval(f"{name}.{switch.name}"))
+        factor = self.findings.log_bayes_factor(effects)
+        return Cause(name, factor, amplitude, switch.unit, (low, high))
+
+    def sizes_from_all_samples(self, named: Sequence[Effects]) -> tuple[Cause, ...]:
+        """Return the named mechanisms refitted to both halves; empty without a second half, or where a fit fails.
+
+        It judges nothing, since the half that judged is now fitted, too.
+        """
+        if self.unseen is None:
+            return ()
+        data = search_data(self.recording.merged(self.unseen))
+        return tuple(cause for effects in named for cause in self._refitted(data, effects))
+
+    def _refitted(self, data: Data, effects: Effects) -> Iterator[Cause]:
+        model = SphereForwardModel(self.model.nominal, {block.curve: block.times for block in data.blocks})
+        added = tuple(self.library[name] for name in effects)
+        start = self.findings.explanation(effects).fit.x
+        explained = FitContext(data).explain(hypothesis(model, added), start)
+        if explained is not None:
+            yield from (self._cause(explained, effects, name) for name in effects)
+
+    def ranking(self) -> dict[str, float]:
+        """ln Bayes factors over the baseline, in descending order."""
+        evidences = self.findings.evidences
+        factors = {effects[0]: value - evidences.baseline for effects, value in evidences.singles.items()}
+        factors["unknown"] = evidences.discrepancy - evidences.baseline
+        return dict(sorted(factors.items(), key=lambda item: -item[1]))
+
+    def tried(self) -> tuple[FittedModel, ...]:
+        """Every fitted model: without effects, with one, with two."""
+        survey = self.findings.survey
+        return tuple(map(_tried, (survey.baseline, *survey.singles, *survey.pairs)))
+
+    def phases(self) -> BeatPhases | None:
+        """Phases of the baseline's beat; None where one of its valves never moves."""
+        simulated = self.model.simulate(self.findings.survey.baseline.fit.x)
+        if simulated is None:
+            return None
+        heart, beat = simulated
+        try:
+            return BeatPhases.from_curves(beat_curves(replace(beat, trigger=heart.trigger)))
+        except ValueError:
+            return None
+
+
+def _tried(explained: Explanation) -> FittedModel:
+    """Summary of a fit, whose objective is -ln p(y | x) + |x|^2 / 2."""
+    fit = explained.fit
+    likelihood = fit.objective - 0.5 * float(fit.x @ fit.x)
+    return FittedModel(explained.effects, explained.log_evidence, likelihood, fit.x.size)

@@ -1,0 +1,50 @@
+"""Measured recordings: one CSV of curves, and one for each further condition."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+
+from heartfit.core.errors import InputError
+from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.io.curves import read_sampled, stated_period
+
+MEASURED = "MEASURED.csv"
+"""File name of the recording at rest in the folder of a planted case; other conditions are NAME.csv beside it."""
+
+
+def read_recording(path: Path, period: float | None = None) -> Recording:
+    """Read a recording in SI units; without ``period`` [s] the file states it.
+
+    Raises InputError that names the file for samples that a recording refuses.
+    """
+    times, values, period = read_sampled(path, period)
+    try:
+        return Recording(period, {name: _samples(name, times, array) for name, array in values.items()})
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def read_conditions(arguments: Iterable[str], period: float) -> dict[str, Recording]:
+    """Read the recordings of arguments NAME=CSV by name; ``period`` [s] holds where a file states none.
+
+    Raises InputError for an argument of another form and for a repeated name.
+    """
+    recordings: dict[str, Recording] = {}
+    for argument in arguments:
+        name, _, path = argument.partition("=")
+        if not name or not path or name in recordings:
+            raise InputError(
+                f"condition {argument!r}: expected NAME=CSV with names that differ, as legs_raised=legs.csv"
+            )
+        stated = stated_period(Path(path))
+        recordings[name] = read_recording(Path(path), period if stated is None else stated)
+    return recordings
+
+
+def _samples(name: str, times: np.ndarray, values: np.ndarray) -> Samples:
+    sampled = ~np.isnan(values)
+    try:
+        return Samples(times[sampled], values[sampled])
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from error
