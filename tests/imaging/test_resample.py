@@ -43,6 +43,14 @@ def test_a_cropped_image_holds_the_points_and_their_margin(sequence: ImageSequen
     assert_linear(cropped)
 
 
+@pytest.mark.parametrize("error", [-1e-10, 0.0, 1e-10])
+def test_the_last_bits_of_a_position_move_no_edge(sequence: ImageSequence, error: float) -> None:
+    """The mesh of a phantom ends a whole number of voxels from the edge of its images, up to rounding."""
+    margin = 2.0 * float(sequence.grid.spacing[0])
+    points = sequence.grid.points(np.array([[3.0, 4.0, 2.0], [4.0, 5.0, 3.0]])) + error
+    assert crop(sequence, points, margin).grid.size == crop(sequence, points - error, margin).grid.size
+
+
 def test_a_margin_beyond_the_image_ends_at_its_border(sequence: ImageSequence) -> None:
     cropped = crop(sequence, sequence.grid.points(np.array([[0.5, 5.0, 3.0]])), 1.0)
     assert cropped.grid.size == sequence.grid.size

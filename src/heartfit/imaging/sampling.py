@@ -13,6 +13,8 @@ from heartfit.imaging.sequence import Grid, ImageSequence
 
 CUBIC_TOLERANCE = 0.01
 """Largest relative difference between the spacings of voxels that count as cubic."""
+ROUNDING = 1e-6
+"""Rounding of positions [voxels]: a voxel on the edge of a box is in it whatever the last bits of the edge are."""
 VIEW_MARGIN = 15e-3
 """Width [m] of the surroundings of the mesh that a view shows."""
 
@@ -35,8 +37,10 @@ def resample_isotropic(sequence: ImageSequence) -> ImageSequence:
 def crop(sequence: ImageSequence, points: Floats, margin: float) -> ImageSequence:
     """Return the present voxels within ``margin`` [m] of the box that holds the points (n, 3) [m]."""
     index, step = sequence.grid.index(points), margin / sequence.grid.spacing
-    first = np.maximum(np.floor(index.min(axis=0) - step).astype(int), 0)
-    last = np.minimum(np.ceil(index.max(axis=0) + step).astype(int), np.array(sequence.grid.size) - 1)
+    first = np.maximum(np.floor(index.min(axis=0) - step + ROUNDING).astype(int), 0)
+    last = np.minimum(
+        np.ceil(index.max(axis=0) + step - ROUNDING).astype(int), np.array(sequence.grid.size) - 1
+    )
     i, j, k = (slice(a, b + 1) for a, b in zip(first.tolist(), last.tolist(), strict=True))
     size = last - first + 1
     origin = sequence.grid.points(first.astype(float))
