@@ -9,9 +9,10 @@ docs/measured/NAME.tsv holds either single values, with the columns of `COLUMNS`
 """
 
 import csv
+import re
 import subprocess
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import unified_diff
 from pathlib import Path
@@ -50,6 +51,20 @@ PRINTED = {
     "study_discovery": "discovery",
 }
 """Stored tables that a study prints, and their names in its folder of tables."""
+NORMAL = "normal"
+"""Folder of the results of the second cohort, config/normal.yaml."""
+PRINTED_OF_NORMAL = {
+    "normal_table1": "table1_as_printed",
+    "normal_claims": "claims",
+    "normal_patients": "specificity_claims",
+}
+"""The same for the second cohort."""
+OF_VOLUNTEERS = (
+    "of the volunteers$|over that after calibration$|healthy mean$|^(?:mean|largest) error of [Vq]"
+)
+"""Quantities of the claims that the second cohort decides."""
+FRACTION = re.compile(r"\d+\.\d+")
+"""Numbers that a table stores with all digits and a page prints with two decimals."""
 COLUMNS = ["quantity", "value", "unit", "number", "commit"]
 """number: table/setting/case/quantity in the study's numbers.csv, empty where a value is in another result."""
 KEY = ("table", "setting", "case", "quantity")
@@ -123,22 +138,37 @@ def renewed(rows: Rows, numbers: Path, commit: str) -> Rows:
 
 def take(numbers: Path) -> None:
     """Write the numbers of a study into the stored results."""
-    made_by = STUDY.read_text(encoding="utf-8").splitlines()[0]
     commit = subprocess.run(
         ["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True
     ).stdout.strip()
+    if numbers.parts[-3:-2] == (NORMAL,):
+        take_tables(
+            numbers, PRINTED_OF_NORMAL, "python3 study.py run --configfile config/normal.yaml", commit
+        )
+        return
+    made_by = STUDY.read_text(encoding="utf-8").splitlines()[0]
     head, *rows = read_rows(STUDY)
     lines = ["\t".join(row) for row in (head, *renewed(rows, numbers, commit))]
     write_text(STUDY, "\n".join([made_by, *lines]) + "\n")
-    for stem, table in PRINTED.items():
-        lines = ["\t".join(row) for row in printed(numbers.with_name(f"{table}.csv"))]
-        made_by = f"# made by: python3 study.py (tables/{table}); commit: {commit}"
+    take_tables(numbers, PRINTED, "python3 study.py", commit)
+
+
+def take_tables(numbers: Path, names: Mapping[str, str], command: str, commit: str) -> None:
+    """Write the tables of these names, which stand beside the numbers, into the stored results."""
+    for stem, table in names.items():
+        lines = ["\t".join(row) for row in printed(numbers.with_name(f"{table}.csv"), stem)]
+        made_by = f"# made by: {command} (tables/{table}); commit: {commit}"
         write_text(RESULTS / f"{stem}.tsv", "\n".join([made_by, *lines]) + "\n")
 
 
-def printed(table: Path) -> Rows:
+def printed(table: Path, stem: str = "") -> Rows:
     """The rows of a table of text of a study, its head first, as its Markdown shows them."""
     frame = pd.read_csv(table, dtype=str, keep_default_na=False, comment="#")
+    if stem == "normal_claims":
+        decided = ~frame["verdict"].str.startswith("not comparable")
+        frame = frame[decided & frame["quantity"].str.contains(OF_VOLUNTEERS)]
+    if stem == "normal_patients":
+        frame = frame.map(lambda cell: f"{float(cell):.2f}" if FRACTION.fullmatch(cell) else cell)
     if {"case", "setting", "text"} <= {*frame}:
         frame = findings_by_case(frame)
     shown = without_repeats(frame, STATED_ONCE.get(table.stem, ()))
