@@ -89,10 +89,20 @@ def test_each_extension_must_come_nearer_to_held_out_samples_than_the_model_befo
 
 @pytest.mark.parametrize(
     ("baseline", "extended", "helps"),
-    [((3.0, 10.0), (1.0, 100.0), True), ((1.1, 100.0), (1.0, 1000.0), False)],
-    ids=["2-mL-against-90-Pa", "0.1-mL-against-900-Pa"],
+    [
+        ((3.0, 10.0), (1.0, 100.0), True),
+        ((1.1, 100.0), (1.0, 1000.0), False),
+        ((3.0, 2000.0), (1.0, 2200.0), True),
+        ((3.0, 2000.0), (2.9, 2600.0), False),
+    ],
+    ids=[
+        "2-mL-against-90-Pa",
+        "0.1-mL-against-900-Pa",
+        "a-curve-missed-by-far",
+        "much-farther-from-a-curve-missed-by-far",
+    ],
 )
-def test_volume_and_pressure_count_in_units_of_their_noise(
+def test_volume_and_pressure_count_in_units_of_their_noise_and_of_what_the_model_leaves(
     baseline: Errors, extended: Errors, helps: bool
 ) -> None:
     """A correct model misses a volume by 0.6 mL and a pressure by 150 Pa."""
