@@ -73,12 +73,13 @@ def measure_beat(
     """Measure volume [m^3] and pressure [Pa] of the left ventricle, time zero at the trigger."""
     true: Mapping[str, Curve] = beat_curves(beat, sensors)
     return {
-        "lv_volume": _volume(true["lv_volume"], protocol, rng),
+        "lv_volume": record_volume(true["lv_volume"], protocol, rng),
         "lv_pressure": record_pressure(true["lv_pressure"], rng, protocol.catheter),
     }
 
 
-def _volume(true: Curve, protocol: RecordingProtocol, rng: np.random.Generator) -> Curve:
+def record_volume(true: Curve, protocol: RecordingProtocol, rng: np.random.Generator) -> Curve:
+    """Record frames of the volume, with correlated errors and discrepancy."""
     frames = true.resampled(protocol.frames)
     errors = autoregressive_error(protocol.frames, protocol.memory, rng)
     error = protocol.noise * float(true.values.max()) * errors

@@ -50,7 +50,7 @@ def test_the_work_is_the_area_of_the_loop() -> None:
     assert turned.work() == pytest.approx(-loop.work())
 
 
-@pytest.mark.parametrize("lag", [-0.09, 0.09, 0.12])
+@pytest.mark.parametrize("lag", [-0.14, 0.12, 0.16])
 def test_a_lag_is_found_with_its_size(lag: float) -> None:
     lines = implausible(recording(lag))
     (warning,) = [line for line in lines if "late" in line]

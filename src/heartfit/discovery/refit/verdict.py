@@ -13,6 +13,7 @@ from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Refitted, Trace
 from heartfit.discovery.sphere_model.held_out import error_ratio
+from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.observation.curve import Curve
 from heartfit.observation.strain import DIRECTIONS, segment_strain
@@ -62,7 +63,7 @@ class Proof:
         """
         return sum(self._relative_change(name, held) for name, held in self.case.split.held.items()) < 0.0
 
-    def _relative_change(self, name: str, held: Curve) -> float:
+    def _relative_change(self, name: str, held: Samples) -> float:
         before, after = (
             float(np.mean((held.values - beat.curves[name](held.times)) ** 2))
             for beat in (self.baseline, self.extended)

@@ -1,0 +1,1 @@
+"""Hearts of simulators that others wrote, as a bank of beats in resources/other_worlds."""
