@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from heartfit.discovery.sphere_model import diagnose as case
 from heartfit.discovery.sphere_model import forward_model as library
+from heartfit.discovery.sphere_model import searched_recording as case
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
 
 NAMES = ("CatheterDelay", "CatheterOffset", "ImageShrinkage", "MitralRegurgitation")

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model import diagnose as searching
 from heartfit.discovery.sphere_model import forward_model as library
+from heartfit.discovery.sphere_model import searched_recording as searching
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
 from heartfit.discovery.sphere_model.recording import PRESSURE_LEVELS, Recording, Samples, search_data

@@ -1,7 +1,7 @@
 """A late activation is not named slow relaxation: the spread of activation is free in every heart."""
 
-from heartfit.discovery.sphere_model import diagnose as searching
 from heartfit.discovery.sphere_model import forward_model as library
+from heartfit.discovery.sphere_model import searched_recording as searching
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
 from heartfit.discovery.sphere_model.nominal_heart import SPHERE_PARAMETERS
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording

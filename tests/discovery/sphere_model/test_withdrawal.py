@@ -10,6 +10,7 @@ import pytest
 
 from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES, Decision, Effects, Rules, Verdict
 from heartfit.discovery.sphere_model import diagnose as module
+from heartfit.discovery.sphere_model import searched_recording as searching
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
 from heartfit.discovery.sphere_model.diagnose import conclude, predict_explanation
 from heartfit.discovery.sphere_model.recording import Recording, Samples
@@ -216,7 +217,7 @@ def test_a_volume_alone_needs_more_evidence(
     monkeypatch: pytest.MonkeyPatch, curves: Mapping[str, Samples], rules: Rules, threshold: float
 ) -> None:
     applied: list[Rules] = []
-    monkeypatch.setattr(module, "candidates", lambda _: {})
-    monkeypatch.setattr(module, "search", lambda *arguments: applied.append(arguments[-1]))
+    monkeypatch.setattr(searching, "candidates", lambda _: {})
+    monkeypatch.setattr(searching, "search", lambda *arguments: applied.append(arguments[-1]))
     SearchedRecording.search(Recording(0.8, curves), rules=rules)
     assert [rule.detected for rule in applied] == [threshold]

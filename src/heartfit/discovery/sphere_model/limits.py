@@ -91,10 +91,10 @@ def expected_evidence(name: str, scales: float) -> float:
 
 
 class _PlannedRecording:
-    """Samples that a study would record of a nominal heart, and what they would show of an effect."""
+    """The samples of a nominal heart that a search would see, one half of a recording, and what they would show."""
 
     def __init__(self, nominal: NominalHeart) -> None:
-        self.blocks = search_data(_sample_recording(nominal)).blocks
+        self.blocks = search_data(_sample_recording(nominal).halves()[0]).blocks
         self.model = SphereForwardModel(nominal, {block.curve: block.times for block in self.blocks})
         self.candidates = candidates(self.model)
 
