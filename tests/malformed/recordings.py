@@ -130,7 +130,12 @@ MALFORMED = [
     refused("a period of nothing given", "diagnose|sound.csv|--rr|0", "period"),
     refused("a period of minutes", "diagnose|sound.csv|--rr|70", "period"),
     refused("a period that is a word", "diagnose|sound.csv|--rr|fast", "--rr"),
-    refused("a pressure in both files", "diagnose|sound.csv|--pressure|sound.csv", "expected it in one"),
+    refused(
+        "a pressure in both files",
+        "diagnose|sound.csv|--pressure|p.csv|--trigger|marker",
+        "expected it in one",
+        **{"p.csv": pressure(step=0.9 / 160)},
+    ),
     refused(
         "a pressure that is missing",
         "diagnose|volume.csv|--pressure|none.csv",
