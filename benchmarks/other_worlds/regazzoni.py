@@ -4,6 +4,8 @@ Regazzoni F et al. 2022, doi 10.1016/j.jcp.2022.111083.
 """
 
 import logging
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from circulation.base import remove_units
@@ -15,7 +17,7 @@ logging.disable(logging.CRITICAL)
 BEATS, STEP = 14, 1e-3
 """Number of beats until the last is kept, and the step of the package's solver [s]."""
 MITRAL, AORTIC = 0.9, 1.1
-"""Resistance [mmHg s/mL] of a leak of all the stroke volume, at a stroke volume of 80 mL, over the size."""
+"""Resistance [mmHg s/mL] of a leak of 0.3 of a stroke volume of 80 mL."""
 VOLUMES = ("V_LA", "V_LV", "V_RA", "V_RV")
 
 
@@ -57,7 +59,8 @@ def simulate(adult: Adult) -> Beat:
             initial[name] *= size
     for name in (*VOLUMES, "p_VEN_SYS", "p_VEN_PUL"):
         initial[name] *= adult.filling
-    model = Regazzoni2020(parameters, initial_state=initial)
-    result = model.solve(T=BEATS * adult.period, dt=STEP, dt_eval=STEP)
+    with TemporaryDirectory() as folder:  # the package writes its states beside the results
+        model = Regazzoni2020(parameters, initial_state=initial, outdir=Path(folder))
+        result = model.solve(T=BEATS * adult.period, dt=STEP, dt_eval=STEP)
     last = np.asarray(result["time"]) >= (BEATS - 1) * adult.period
     return Beat(adult.period, np.asarray(result["V_LV"])[last], np.asarray(result["p_LV"])[last])
