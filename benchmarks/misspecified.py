@@ -6,7 +6,7 @@
 import sys
 from concurrent.futures import ProcessPoolExecutor
 
-from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.results.planted_table import populations_table
 from heartfit.results.text import to_markdown
 from heartfit.study.discovery import SCORING
@@ -39,9 +39,7 @@ def main(arguments: list[str]) -> None:
 def searched(plan: PlantedPlan) -> Scored:
     """Plant a case and diagnose its recording."""
     case = plant(plan)
-    curves = case.curves[REST]
-    samples = {name: Samples(curve.times, curve.values) for name, curve in curves.items()}
-    return Scored(case.answer, diagnose_recording(Recording(curves["lv_volume"].period, samples)))
+    return Scored(case.answer, diagnose_recording(Recording.from_curves(case.curves[REST])))
 
 
 def line(case: Scored) -> str:

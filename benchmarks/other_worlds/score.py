@@ -12,7 +12,7 @@ import numpy as np
 
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.diagnose import diagnose
-from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.io.other_worlds import read_other_hearts
 from heartfit.results.other_worlds import Judged, outcomes_table
 from heartfit.results.text import to_markdown
@@ -51,9 +51,7 @@ def printed(judged: Iterator[Judged]) -> Iterator[Judged]:
 
 def searched(heart: OtherHeart) -> Judged:
     """Measure a heart and diagnose its recording."""
-    curves = measure(heart)
-    samples = {name: Samples(curve.times, curve.values) for name, curve in curves.items()}
-    diagnosis = diagnose(Recording(heart.volume.period, samples))
+    diagnosis = diagnose(Recording.from_curves(measure(heart)))
     return Judged(heart, ScoredDiagnosis.of(diagnosis, 0.0), misfits(diagnosis))
 
 

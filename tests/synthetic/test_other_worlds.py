@@ -8,7 +8,7 @@ import pytest
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.sphere_model.consistency import implausible
-from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.io.other_worlds import read_other_hearts
 from heartfit.roles import registered
 from heartfit.synthetic.other_worlds import EXPECTED, UPSTROKE, OtherHeart, measure
@@ -20,11 +20,6 @@ WORLDS = sorted(BANK.glob("*.csv"))
 @pytest.fixture(scope="module", params=WORLDS, ids=lambda path: path.stem)
 def hearts(request: pytest.FixtureRequest) -> list[OtherHeart]:
     return read_other_hearts(request.param)
-
-
-def recording(heart: OtherHeart) -> Recording:
-    curves = measure(heart)
-    return Recording(heart.volume.period, {name: Samples(c.times, c.values) for name, c in curves.items()})
 
 
 def test_a_world_has_healthy_hearts_and_every_illness_twice_in_two_severities(
@@ -53,7 +48,7 @@ def test_healthy_hearts_are_within_the_ranges_of_people(hearts: list[OtherHeart]
 def test_a_measured_heart_is_plausible_and_its_upstroke_follows_the_trigger(hearts: list[OtherHeart]) -> None:
     delays = []
     for heart in hearts:
-        measured = recording(heart)
+        measured = Recording.from_curves(measure(heart))
         if not heart.illness:
             assert implausible(measured) == (), heart.seed
         pressure = measured.curves["lv_pressure"]

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import plant
 
@@ -12,8 +12,7 @@ LEAK = PlantedPlan(1, "single", ("MitralRegurgitation",), 2.5)
 def recorded(plan: PlantedPlan, condition: str = "rest") -> Recording:
     """Recording of a planted case."""
     curves = plant(replace(plan, reloaded=condition != "rest")).curves[condition]
-    samples = {name: Samples(curve.times, curve.values) for name, curve in curves.items()}
-    return Recording(curves["lv_volume"].period, samples)
+    return Recording.from_curves(curves)
 
 
 def healthy(seed: int) -> Recording:

@@ -7,7 +7,7 @@ import pytest
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.sphere_model.consistency import Loop, folded, implausible
-from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.discovery.sphere_model.recording import Recording, Samples, averaged_by_phase
 
 PERIOD = 0.8
 STROKE, LOW, HIGH = 80e-6, 1e3, 15e3
@@ -106,3 +106,11 @@ def test_beats_are_averaged_by_phase() -> None:
     values = np.sin(2 * np.pi * times / PERIOD) + np.repeat([-1.0, 0.0, 1.0], 40)
     expected = np.sin(2 * np.pi * np.arange(40) / 40)
     assert folded(Samples(times, values), PERIOD, 40) == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_sample_that_rounding_puts_before_the_end_of_a_beat_begins_the_next() -> None:
+    times = 0.1 * np.arange(12)
+    times[3::3] -= 1e-13
+    means = averaged_by_phase(Samples(times, np.arange(12.0)), 0.3, 0.1)
+    assert means.values == pytest.approx([4.5, 5.5, 6.5])
+    assert means.times == pytest.approx([0.0, 0.1, 0.2], abs=1e-12)

@@ -7,7 +7,7 @@ from heartfit.discovery.sphere_model import recentred as module
 from heartfit.discovery.sphere_model.forward_model import BASE_COORDINATES, NUMERICS
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, perturb
 from heartfit.discovery.sphere_model.recentred import SELF_TEST_LIMIT, recorded, self_test
-from heartfit.discovery.sphere_model.recording import Recording, Samples, search_data
+from heartfit.discovery.sphere_model.recording import Recording, search_data
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
 
@@ -30,8 +30,7 @@ def recording(beats: list[dict[str, Curve]]) -> Recording:
         "lv_volume": beats[0]["lv_volume"].resampled(28),
         "lv_pressure": beats[0]["lv_pressure"].resampled(86),
     }
-    samples = {name: Samples(curve.times, curve.values) for name, curve in shown.items()}
-    return Recording(ADULT.heart.period, samples)
+    return Recording.from_curves(shown)
 
 
 @pytest.fixture(autouse=True)

@@ -222,9 +222,7 @@ class MeasuredCase:
 
     def recording(self) -> Recording:
         """All curves as the recording for the search on the sphere."""
-        return self._recording(
-            {name: Samples(curve.times, curve.values) for name, curve in self.curves.items()}
-        )
+        return self._recording({name: Samples.from_curve(curve) for name, curve in self.curves.items()})
 
     def halves(self) -> tuple[Recording, Recording | None]:
         """The fitted half, which chooses a name, and the other one, which judges it.

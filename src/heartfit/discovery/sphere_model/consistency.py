@@ -18,7 +18,7 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
-from heartfit.discovery.sphere_model.recording import ROUNDING, Recording, Samples
+from heartfit.discovery.sphere_model.recording import Recording, Samples, averaged_by_phase
 
 PHASES = 100
 """Number of phases of the beat at which both curves are compared."""
@@ -81,16 +81,9 @@ class Loop:
 
 def folded(samples: Samples, period: float, phases: int = PHASES) -> Floats:
     """Return the values at equidistant phases, averaged over all beats and linear between samples."""
-    step = period / phases
-    late = np.mod(samples.times + ROUNDING * step, period) - ROUNDING * step
-    places = np.floor(late / step + ROUNDING).astype(int)
-    counts = np.bincount(places, minlength=phases)
-    held = counts > 0
-    times, values = (
-        np.bincount(places, column, phases)[held] / counts[held] for column in (late, samples.values)
-    )
+    means = averaged_by_phase(samples, period, period / phases)
     grid = np.arange(phases) * period / phases
-    return np.asarray(np.interp(grid, times, values, period=period))
+    return np.asarray(np.interp(grid, means.times, means.values, period=period))
 
 
 def implausible(recording: Recording, name: str = "recording") -> tuple[str, ...]:
@@ -102,7 +95,7 @@ def implausible(recording: Recording, name: str = "recording") -> tuple[str, ...
     volume = folded(recording.curves["lv_volume"], recording.period)
     lines = [
         *_outside("ejection fraction", np.ptp(volume) / volume.max(), EJECTION_FRACTION, 1e2, "%"),
-        *(line for name in recording.searched for line in _open(name, recording)),
+        *(line for curve in recording.searched for line in _open(curve, recording)),
     ]
     if "lv_pressure" not in recording.curves:
         return tuple(lines)

@@ -38,7 +38,7 @@ from heartfit.discovery.sphere_model.forward_model import (
     hypothesis,
 )
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, NominalHeart, perturb
-from heartfit.discovery.sphere_model.recording import Recording, Samples, search_data
+from heartfit.discovery.sphere_model.recording import Recording, search_data
 from heartfit.heart.heart import Heart
 from heartfit.heart.sphere.heart import Inertia
 from heartfit.observation.curve import Curve
@@ -62,8 +62,7 @@ def fit_nominal_heart(
     Raises InputError where the sphere does not follow a ``recorded`` curve.
     """
     curves = {name: beat[name].resampled(SAMPLES) for name in LARGEST_RMSE}
-    samples = {name: Samples(curve.times, curve.values) for name, curve in curves.items()}
-    recording = Recording(heart.period, samples)
+    recording = Recording.from_curves(curves)
     data, nominal = _data(recording), _start(heart, recording)
     for _ in range(ROUNDS):  # restarts remove the shrinkage by the prior
         nominal, predicted = _fit(nominal, data)

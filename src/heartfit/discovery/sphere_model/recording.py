@@ -8,6 +8,7 @@ catheter's samples by 0.3 kPa each. Roughness is the residual of any model, disc
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Self
 
 import numpy as np
 
@@ -56,6 +57,11 @@ class Samples:
                 f"time goes from {before:g} s to {after:g} s; expected increasing times: sort them"
             )
 
+    @classmethod
+    def from_curve(cls, curve: Curve) -> Self:
+        """Return the samples of a curve."""
+        return cls(curve.times, curve.values)
+
     def part(self, kept: np.ndarray) -> "Samples":
         """The samples that the mask (k,) keeps."""
         return Samples(self.times[kept], self.values[kept])
@@ -78,6 +84,12 @@ class Recording:
     period: float
     curves: Mapping[str, Samples]
     noise: Mapping[str, FrameNoise] = field(default_factory=dict)
+
+    @classmethod
+    def from_curves(cls, curves: Mapping[str, Curve]) -> Self:
+        """Return the recording of curves of one period, such as those of a simulated or averaged beat."""
+        period = next(iter(curves.values())).period
+        return cls(period, {name: Samples.from_curve(curve) for name, curve in curves.items()})
 
     def __post_init__(self) -> None:
         if not HUMAN_PERIODS[0] < self.period < HUMAN_PERIODS[1]:
@@ -136,7 +148,7 @@ class Recording:
             raise InputError(
                 "lv_pressure is in the recording and in a file of its own; expected it in one: leave one out"
             )
-        return replace(self, curves={**self.curves, "lv_pressure": Samples(pressure.times, pressure.values)})
+        return replace(self, curves={**self.curves, "lv_pressure": Samples.from_curve(pressure)})
 
     def merged(self, other: "Recording") -> "Recording":
         """Return the recording with the samples of another one of the same beat."""
@@ -195,8 +207,17 @@ def _average(recording: Recording, name: str) -> Samples:
     samples = recording.curves[name]
     if name == "lv_volume" or not _needs_averaging(samples, recording.period):
         return samples
-    phases = np.mod(samples.times, recording.period)
-    places = np.floor(phases / BIN + ROUNDING).astype(int)
+    return averaged_by_phase(samples, recording.period, BIN)
+
+
+def averaged_by_phase(samples: Samples, period: float, length: float) -> Samples:
+    """Return the means of the samples of all beats in bins of this length [s] of the phase; empty bins are left out.
+
+    A sample that rounding puts before the end of a beat belongs to the first bin of the next one.
+    """
+    phases = np.mod(samples.times, period)
+    phases = np.where(period - phases < ROUNDING * length, phases - period, phases)
+    places = np.floor(phases / length + ROUNDING).astype(int)
     counts = np.bincount(places)
     held = counts > 0
     times, values = (np.bincount(places, column)[held] / counts[held] for column in (phases, samples.values))
