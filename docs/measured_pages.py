@@ -35,6 +35,7 @@ PAGES = {
             "discovery_in_3d",
             "measured_heart",
             "mutations",
+            "other_worlds",
             "registration",
             "reproducible",
             "sensitivity",

@@ -1,8 +1,10 @@
-"""Generate the beats of a simulator: python -m benchmarks.other_worlds {regazzoni,korakianitis,naghavi}
+"""Generate the beats of a simulator: python -m benchmarks.other_worlds WORLD
 
-Needs the packages of benchmarks/other_worlds/requirements.txt, in an environment of its own; some minutes. Writes
-resources/other_worlds/NAME.csv: a row for each beat, with HEALTHY healthy adults, and one of each illness and severity
-for EACH further ones. Adults whose healthy beat lies outside published ranges are drawn anew.
+WORLD: regazzoni, korakianitis and naghavi need the packages of requirements.txt, physioblocks and svzerod those of
+requirements-2.txt, in an environment of their own. Some minutes. Writes resources/other_worlds/WORLD.csv: a row for
+each beat, HEALTHY healthy adults, then EACH further ones for every illness and severity, their beats before and with
+the illness one after the other; of korakianitis, whose beats take longest, a third of them. Adults whose healthy beat
+lies outside published ranges are drawn anew.
 """
 
 import sys
@@ -20,7 +22,7 @@ WORLDS: dict[str, tuple[str, str, int, dict[str, float]]] = {
         "benchmarks.other_worlds.modular",
         "simulate_korakianitis",
         2000,
-        {"size": 1.4, "resistance": 1.35},
+        {"size": 1.4, "resistance": 1.4, "filling": 1.2},
     ),
     "naghavi": (
         "benchmarks.other_worlds.modular",
@@ -28,9 +30,23 @@ WORLDS: dict[str, tuple[str, str, int, dict[str, float]]] = {
         3000,
         {"size": 1.4, "contractility": 1.2},
     ),
+    "physioblocks": (
+        "benchmarks.other_worlds.physio",
+        "simulate",
+        4000,
+        {"contractility": 1.15, "resistance": 0.9},
+    ),
+    "svzerod": (
+        "benchmarks.other_worlds.svzerod_loop",
+        "simulate",
+        5000,
+        {"size": 1.4, "stiffness": 0.5, "resistance": 0.85, "filling": 1.4},
+    ),
 }
 """Module, function, first seed, and factors that make an adult of its published heart, by simulator."""
 HEALTHY, EACH = 16, 2
+FEWER = {"korakianitis": (6, 1)}
+"""Numbers instead of HEALTHY and EACH."""
 PHASES = 200
 FOLDER = Path(__file__).resolve().parents[2] / "resources" / "other_worlds"
 Row = tuple[int, str, str, Beat]
@@ -41,22 +57,26 @@ def main(arguments: list[str]) -> int:
         sys.stderr.write(f"{__doc__}\n")
         return 2
     module, function, first_seed, centre = WORLDS[arguments[0]]
-    rows = beats(getattr(import_module(module), function), adults(first_seed, centre))
+    numbers = FEWER.get(arguments[0], (HEALTHY, EACH))
+    rows = beats(getattr(import_module(module), function), adults(first_seed, centre), *numbers)
     FOLDER.mkdir(parents=True, exist_ok=True)
     (FOLDER / f"{arguments[0]}.csv").write_text("".join(map(line, rows_with_head(rows))), encoding="utf-8")
     return 0
 
 
-def beats(simulate: Callable[[Adult], Beat], drawn: Iterator[tuple[int, Adult]]) -> Iterator[Row]:
+def beats(
+    simulate: Callable[[Adult], Beat], drawn: Iterator[tuple[int, Adult]], sound: int, pairs: int
+) -> Iterator[Row]:
     """Yield seed, illness, severity and beat of all rows."""
     healthy = healthy_adults(simulate, drawn)
-    for _ in range(HEALTHY):
+    for _ in range(sound):
         seed, _, beat = next(healthy)
         yield seed, "", "", beat
-    for _ in range(EACH):
+    for _ in range(pairs):
         for illness in ILLNESSES:
             for severity in SEVERITIES:
-                seed, adult, _ = next(healthy)
+                seed, adult, before = next(healthy)
+                yield seed, "", "", before
                 yield seed, illness, severity, simulate(ill(adult, illness, severity))
 
 

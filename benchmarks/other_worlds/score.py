@@ -1,67 +1,80 @@
-"""Search the hearts of other simulators; prints a line per heart and the counts, half a minute of a core per heart.
+"""Search hearts of other simulators, each within the structure of the others: python -m benchmarks.other_worlds.score
 
-python -m benchmarks.other_worlds.score WORLD...   WORLD: name of a file of resources/other_worlds
+Of every file of resources/other_worlds: HEALTHY healthy hearts and the severe one of each illness alone, then the same
+ill ones against their own healthy beat. Prints a line per heart and stores all in docs/measured/other_worlds_*.tsv.
+Forty minutes of two cores.
 """
 
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from itertools import zip_longest
 from pathlib import Path
 
-import numpy as np
-
-from heartfit.discovery.sphere_model.cause import Diagnosis
-from heartfit.discovery.sphere_model.diagnose import diagnose
+from heartfit.discovery.sphere_model.diagnose import diagnose, diagnose_change
 from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.structure import Structure
+from heartfit.io.files import write_text
 from heartfit.io.other_worlds import read_other_hearts
-from heartfit.results.other_worlds import Judged, outcomes_table
-from heartfit.results.text import to_markdown
+from heartfit.io.structure import read_residuals
+from heartfit.results.other_worlds import Judged, fits_table, hearts_table, outcomes_table, priors_table
 from heartfit.synthetic.other_worlds import OtherHeart, measure
-from heartfit.synthetic.trial import ScoredDiagnosis
 
 PROCESSES = 2
-BANK = Path(__file__).resolve().parents[2] / "resources" / "other_worlds"
-STRONGEST = 3
-"""Number of mechanisms of the ranking that are printed."""
+ROOT = Path(__file__).resolve().parents[2]
+BANK, MEASURED = ROOT / "resources" / "other_worlds", ROOT / "docs" / "measured"
+HEALTHY = 4
+HEAD = "# made by python -m benchmarks.other_worlds.score"
+Task = tuple[OtherHeart, OtherHeart | None, Structure]
 
 
-def main(worlds: list[str]) -> None:
-    """Search all hearts of these worlds."""
-    hearts = [heart for world in worlds for heart in read_other_hearts(BANK / f"{world}.csv")]
+def main() -> None:
+    """Search the hearts of all simulators and store the tables."""
+    judged: list[Judged] = []
+    by_simulator = [list(tasks(path)) for path in sorted(BANK.glob("*.csv"))]
+    in_turn = [task for some in zip_longest(*by_simulator) for task in some if task is not None]
     with ProcessPoolExecutor(PROCESSES) as pool:
-        judged = list(printed(pool.map(searched, hearts)))
-    sys.stdout.write(f"\n{to_markdown(outcomes_table(judged))}")
+        for one in pool.map(searched, in_turn):
+            judged.append(one)
+            sys.stdout.write(f"{' | '.join(map(str, hearts_table([one]).iloc[0]))}\n")
+            sys.stdout.flush()
+            store(sorted(judged, key=lambda judged_heart: judged_heart.heart.world))
 
 
-def printed(judged: Iterator[Judged]) -> Iterator[Judged]:
-    """Yield what comes, and print a line of each."""
-    for one in judged:
-        ranking = sorted(one.finding.ranking.items(), key=lambda entry: -entry[1])[:STRONGEST]
-        factors = " ".join(f"{name} {factor:.1f}" for name, factor in ranking)
-        names = " ".join(sorted(one.finding.names))
-        ailment = f"{one.heart.illness} {one.heart.severity}".strip() or "healthy"
-        misfits = " ".join(f"{curve} {misfit:.1f}" for curve, misfit in one.misfit.items())
-        sys.stdout.write(
-            f"{one.heart.world} {one.heart.seed}: {ailment} -> {one.finding.verdict} {names} ({one.outcome})"
-            f" | {factors} | {misfits}\n"
-        )
-        sys.stdout.flush()
-        yield one
-
-
-def searched(heart: OtherHeart) -> Judged:
-    """Measure a heart and diagnose its recording."""
-    diagnosis = diagnose(Recording.from_curves(measure(heart)))
-    return Judged(heart, ScoredDiagnosis.of(diagnosis, 0.0), misfits(diagnosis))
-
-
-def misfits(diagnosis: Diagnosis) -> dict[str, float]:
-    """Return the root mean square residual without a mechanism over that of the noise, by curve."""
-    return {
-        trace.curve: float(np.sqrt(np.mean(((trace.measured - trace.none) / trace.noise) ** 2)))
-        for trace in diagnosis.traces
+def store(judged: list[Judged]) -> None:
+    """Write the tables of the hearts that are searched so far."""
+    tables = {
+        "verdicts": outcomes_table(judged),
+        "fits": fits_table(judged),
+        "hearts": hearts_table(judged),
+        "priors": priors_table(),
     }
+    for name, table in tables.items():
+        write_text(MEASURED / f"other_worlds_{name}.tsv", f"{HEAD}\n{table.to_csv(sep=chr(9), index=False)}")
+
+
+def tasks(path: Path) -> Iterator[Task]:
+    """Yield hearts with the beat before their illness, None where they are searched alone, and the structure."""
+    hearts = read_other_hearts(path)
+    structure = Structure.from_residuals(read_residuals(leave_out=(path.stem,)))
+    healthy = {heart.seed: heart for heart in hearts if not heart.illness}
+    ill = {heart.illness: heart for heart in reversed(hearts) if heart.severity == "severe"}
+    for heart in (*list(healthy.values())[:HEALTHY], *ill.values()):
+        yield heart, None, structure
+    for heart in ill.values():
+        yield heart, healthy[heart.seed], structure
+
+
+def searched(task: Task) -> Judged:
+    """Diagnose the measured heart alone, or against its healthy beat."""
+    heart, before, structure = task
+    recording = Recording.from_curves(measure(heart))
+    if before is None:
+        diagnosis = diagnose(recording, structure=structure)
+    else:
+        diagnosis = diagnose_change(recording, Recording.from_curves(measure(before)), structure)
+    return Judged.from_diagnosis(heart, before is not None, diagnosis)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -153,6 +153,16 @@ MALFORMED = [
     refused(
         "a loop that runs clockwise", "diagnose|clockwise.csv", "clockwise", **{"clockwise.csv": CLOCKWISE}
     ),
+    refused("an earlier recording that is missing", "diagnose|sound.csv|--against|none.csv", "none.csv"),
+    refused(
+        "an earlier recording and a group", "diagnose|sound.csv|--against|a.csv|--reference|b", "not allowed"
+    ),
+    refused(
+        "an earlier recording and a condition",
+        "diagnose|sound.csv|--against|sound.csv|--condition|legs=sound.csv",
+        "without --condition",
+    ),
+    refused("a group that is a file", "diagnose|sound.csv|--reference|sound.csv", "at least 5"),
     refused("a condition without a name", "diagnose|sound.csv|--condition|sound.csv", "NAME=CSV"),
     refused(
         "a condition that is missing",

@@ -17,6 +17,7 @@ from tests.mutations.mutants.refit import REFIT_MUTANTS
 from tests.mutations.mutants.scoring import SCORING_MUTANTS
 from tests.mutations.mutants.search import SEARCH_MUTANTS
 from tests.mutations.mutants.sphere import SPHERE_MUTANTS
+from tests.mutations.mutants.structure import STRUCTURE_MUTANTS
 from tests.mutations.mutants.withdrawal import WITHDRAWAL_MUTANTS
 
 MUTANTS = (
@@ -31,6 +32,7 @@ MUTANTS = (
     *DECISION_MUTANTS,
     *CONSISTENCY_MUTANTS,
     *JUDGING_MUTANTS,
+    *STRUCTURE_MUTANTS,
     *WITHDRAWAL_MUTANTS,
     *RECENTRING_MUTANTS,
     *REFIT_MUTANTS,

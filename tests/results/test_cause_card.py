@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Trace, departures
+from heartfit.discovery.sphere_model.cause import Cause, Change, Diagnosis, Gain, Trace, departures
 from heartfit.discovery.sphere_model.recording import UNSEARCHED
 from heartfit.observation.beat import BeatPhases
 from heartfit.results.cause_card import (
@@ -51,6 +51,7 @@ def diagnosis(verdict, mechanisms=(), **other):
 
 VERDICTS = {
     "none": (),
+    "model": (),
     "named": (LEAK,),
     "two": (LEAK, DELAY),
     "group": (LEAK, DELAY),
@@ -165,3 +166,34 @@ def test_the_figure_has_a_row_for_each_curve_and_the_threshold():
 def labelled(axes):
     """Number of curves in the legend."""
     return sum(not str(line.get_label()).startswith("_") for line in axes.lines)
+
+
+def test_the_card_states_what_structure_lets_the_simulation_err():
+    """1.5 mL at the scale 0.5."""
+    allowed = replace(TRACE, structure=np.full(20, 1.5e-6))
+    text = markdown_card(diagnosis("model", traces=(allowed,), structural_scale=0.5), "heart")
+    assert "Difference of structure" in text
+    assert "left ventricular volume 1.5 mL" in text
+    assert "scale 0.5" in text
+    assert "Difference of structure" not in markdown_card(diagnosis("none"), "heart")
+
+
+def test_the_figure_shows_the_band_of_structure():
+    allowed = replace(TRACE, structure=np.full(20, 1.5e-6))
+    figure = plot_cause(diagnosis("model", traces=(allowed,), structural_scale=0.5))
+    legends = [axes.get_legend() for axes in figure.get_axes() if axes.get_legend()]
+    labels = [text.get_text() for legend in legends for text in legend.get_texts()]
+    assert "structure, 95 % band" in labels
+
+
+@pytest.mark.parametrize(
+    ("change", "line"),
+    [
+        (Change("tissue.active.sigma_0", 1.31, (1.1, 1.55), "ratio"), "1.31 times (95 % CI 1.10 to 1.55)"),
+        (Change("tissue.control.duration", -0.02, (-0.03, -0.01), "s"), "-20 ms (95 % CI -30 to -10)"),
+        (Change("tissue.active.starling.slope", 0.1, (0.05, 0.15), "1"), "+0.10 (95 % CI +0.05 to +0.15)"),
+    ],
+)
+def test_a_change_is_a_ratio_or_a_difference(change, line):
+    text = markdown_card(diagnosis("none", changes=(change,)), "heart")
+    assert f"- `{change.name}`: {line}" in text

@@ -1,11 +1,23 @@
 """Verdicts on hearts of other simulators: what is right depends on whether the model needs a mechanism."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from heartfit.discovery.sphere_model.cause import Cause
 from heartfit.observation.curve import Curve
-from heartfit.results.other_worlds import HEALTHY, MECHANISM, PARAMETERS, Judged, outcomes_table
+from heartfit.results.other_worlds import (
+    AGAINST,
+    ALONE,
+    HEALTHY,
+    MECHANISM,
+    PARAMETERS,
+    Judged,
+    fits_table,
+    hearts_table,
+    outcomes_table,
+)
 from heartfit.synthetic.other_worlds import OtherHeart
 from heartfit.synthetic.trial import ScoredDiagnosis
 
@@ -17,7 +29,7 @@ def judged(illness: str, verdict: str, *names: str, misfit: float = 1.0) -> Judg
     curves = Curve(TIMES, 100e-6 + 40e-6 * WAVE, 0.8), Curve(TIMES, 8e3 - 7e3 * WAVE, 0.8)
     heart = OtherHeart("elsewhere", 1, illness, "severe" if illness else "", *curves)
     causes = tuple(Cause(name, 9.0, 1.0, "1", (0.5, 1.5)) for name in names)
-    return Judged(heart, ScoredDiagnosis(verdict, causes), {"lv_volume": misfit})
+    return Judged(heart, False, ScoredDiagnosis(verdict, causes), {"lv_volume": misfit}, 1.0)
 
 
 @pytest.mark.parametrize(
@@ -25,6 +37,7 @@ def judged(illness: str, verdict: str, *names: str, misfit: float = 1.0) -> Judg
     [
         ("", "none", (), HEALTHY, "right"),
         ("", "insufficient", (), HEALTHY, "right"),
+        ("", "model", (), HEALTHY, "right"),
         ("", "unknown", (), HEALTHY, "unknown"),
         ("", "named", ("Scar",), HEALTHY, "wrong"),
         ("weak ventricle", "none", (), PARAMETERS, "right"),
@@ -52,8 +65,31 @@ def test_outcomes_are_counted_by_kind_with_an_exact_interval() -> None:
             judged("mitral stenosis", "unknown"),
         ]
     )
-    healthy, ill = table.to_dict("records")
+    healthy, ill, all_healthy, _ = table.to_dict("records")
     assert (healthy["number"], healthy["right"], healthy["unknown"], healthy["wrong"]) == (3, 1, 1, 1)
-    assert healthy["right (%)"] == "1 to 91", "Clopper and Pearson: 1 of 3"
-    assert healthy["lv_volume residual over noise"] == "3.0"
-    assert (ill["hearts"], ill["unknown"], ill["right (%)"]) == (MECHANISM, 1, "0 to 98")
+    assert healthy["right (%), 95 % CI"] == "1 to 91", "Clopper and Pearson: 1 of 3"
+    assert (ill["hearts"], ill["unknown"], ill["right (%), 95 % CI"]) == (MECHANISM, 1, "0 to 98")
+    assert (all_healthy["simulator"], all_healthy["number"]) == ("all", 3)
+
+
+def test_a_heart_against_its_healthy_beat_is_counted_apart() -> None:
+    alone = judged("mitral stenosis", "unknown")
+    table = outcomes_table([replace(alone, against=True), alone])
+    assert table["recording"].tolist() == [ALONE, ALONE, AGAINST, AGAINST]
+    assert table["simulator"].tolist() == ["elsewhere", "all", "elsewhere", "all"]
+
+
+def test_fits_are_medians_of_healthy_hearts() -> None:
+    hearts = [judged("", "none", misfit=size) for size in (1.0, 3.0, 5.0)]
+    (row,) = fits_table([*hearts, judged("weak ventricle", "none", misfit=99.0)]).to_dict("records")
+    assert row["healthy hearts"] == 3
+    assert row["left ventricular volume, over noise"] == "3.0"
+
+
+def test_a_heart_is_listed_with_its_verdict_and_the_best_mechanisms() -> None:
+    (row,) = hearts_table([judged("mitral stenosis", "named", "MitralStenosis")]).to_dict("records")
+    assert (row["heart"], row["named"], row["outcome"]) == (
+        "severe mitral stenosis",
+        "mitral stenosis",
+        "right",
+    )

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from traceback import extract_tb
+from typing import TYPE_CHECKING
 
 from heartfit.cli.console import Command
 from heartfit.cli.pressure import pressure_arguments, stated_pressure
@@ -13,6 +14,9 @@ from heartfit.core.errors import InputError
 from heartfit.io.files import require_writable
 from heartfit.io.fingerprint import fingerprint
 from heartfit.roles import registered
+
+if TYPE_CHECKING:
+    from heartfit.discovery.sphere_model.structure import Structure
 
 
 def run_mechanism_files(paths: Iterable[Path]) -> list[str]:
@@ -84,6 +88,24 @@ def diagnose_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--strict", action="store_true", help="name nothing below a ln Bayes factor of 10 instead of 5"
     )
+    structure = command.add_mutually_exclusive_group()
+    structure.add_argument(
+        "--against",
+        type=Path,
+        metavar="CSV",
+        help="earlier curves of the same heart: name what has changed since",
+    )
+    structure.add_argument(
+        "--reference",
+        type=Path,
+        metavar="FOLDER",
+        help="curves of healthy controls, a CSV each: what the simulation leaves of them is no finding",
+    )
+    structure.add_argument(
+        "--trust-simulator",
+        action="store_true",
+        help="for data of this simulator: allow for no difference between it and the source of the curves",
+    )
     command.add_argument("-o", "--output", type=Path, default=Path("cause"), help="folder of the cause card")
 
 
@@ -101,6 +123,10 @@ def diagnose(arguments: argparse.Namespace) -> int:
     from heartfit.results.cause_figure import render_cause
     from heartfit.study.case import RecordedPressure
 
+    if arguments.against and (arguments.condition or arguments.strict):
+        raise InputError(
+            "--against compares two recordings; expected it without --condition and --strict: leave them out"
+        )
     run_mechanism_files(arguments.mechanism)
     recording = read_recording(arguments.measured, arguments.rr)
     if stated := stated_pressure(arguments):
@@ -110,15 +136,30 @@ def diagnose(arguments: argparse.Namespace) -> int:
     require_writable(arguments.output)
     for line in implausible(recording, str(arguments.measured)):
         print(f"{arguments.measured}: warning: {line}", file=sys.stderr)
-    conclusion = diagnosis.diagnose(
-        recording, conditions, rules=STRICT_RULES if arguments.strict else DEFAULT_RULES
-    )
+    if arguments.against:
+        before = read_recording(arguments.against)
+        conclusion = diagnosis.diagnose_change(recording, before, _structure(arguments))
+    else:
+        rules = STRICT_RULES if arguments.strict else DEFAULT_RULES
+        structure = None if arguments.trust_simulator else _structure(arguments)
+        conclusion = diagnosis.diagnose(recording, conditions, rules=rules, structure=structure)
     code = fingerprint(Path(diagnosis.__file__))
     write_cause_card(arguments.output, render_cause(conclusion, arguments.measured.stem), code)
     print(
         f"{verdict_sentence(conclusion)} See {arguments.output / 'cause.md'} and {arguments.output / 'cause.png'}."
     )
     return 0
+
+
+def _structure(arguments: argparse.Namespace) -> "Structure":
+    """Return the structure of the user's controls or, without them, of healthy hearts of other simulators."""
+    from heartfit.discovery.sphere_model.baseline import learn_from_controls
+    from heartfit.discovery.sphere_model.structure import Structure
+    from heartfit.io.structure import read_controls, read_residuals
+
+    if arguments.reference:
+        return learn_from_controls(read_controls(arguments.reference))
+    return Structure.from_residuals(read_residuals())
 
 
 def petab_select_arguments(command: argparse.ArgumentParser) -> None:

@@ -15,6 +15,7 @@ from heartfit.core.errors import InputError
 from heartfit.discovery.inference.decide import Verdict
 from heartfit.discovery.sphere_model.cause import (
     Cause,
+    Change,
     Departure,
     Diagnosis,
     FittedModel,
@@ -80,6 +81,8 @@ class CauseFile:
     samples: int = 0
     from_all_samples: tuple[Cause, ...] = ()
     warnings: tuple[str, ...] = ()
+    structural_scale: float = 0.0
+    changes: tuple[Change, ...] = ()
     made_by: str = ""
 
     @classmethod

@@ -3,7 +3,17 @@
 import re
 from collections.abc import Iterable, Sequence
 
-from heartfit.discovery.sphere_model.cause import Cause, Departure, Diagnosis, Gain, Refitted, departures
+import numpy as np
+
+from heartfit.discovery.sphere_model.cause import (
+    Cause,
+    Change,
+    Departure,
+    Diagnosis,
+    Gain,
+    Refitted,
+    departures,
+)
 from heartfit.results.text import printed_curve_unit
 
 CURVES = {
@@ -21,6 +31,8 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
     named = "; ".join(mechanism_with_size(cause) for cause in diagnosis.mechanisms)
     return {
         "none": f"No missing mechanism detected: the simulation explains {_explained_recording(diagnosis)}.",
+        "model": "No missing mechanism detected: the misfit is of the size and shape that healthy hearts of other "
+        "simulators or controls leave; nothing can be said beyond it.",
         "named": f"Missing mechanism: {named}.",
         "two": f"Missing mechanisms: {named}.",
         "group": f"Missing mechanism: one of {_mechanism_names(diagnosis)}; these data do not distinguish them.",
@@ -60,6 +72,8 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
         f"# {title}\n\n**{verdict_sentence(diagnosis)}**",
         *([_warnings(diagnosis.warnings)] if diagnosis.warnings else []),
         "## Misfit of the simulation\n\n" + "\n".join(misfits),
+        *([structure_text(diagnosis)] if diagnosis.structural_scale else []),
+        *([_changes(diagnosis.changes)] if diagnosis.changes else []),
         "## Evidence for each mechanism\n\n" + _ranking_table(diagnosis),
         "## Alternative explanations\n\n" + alternatives_text(diagnosis),
         "## Next measurement\n\n" + next_measurement_text(diagnosis),
@@ -74,6 +88,35 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
 
 def _warnings(warnings: Iterable[str]) -> str:
     return "## Check the recording first\n\n" + "\n".join(f"- {line}" for line in warnings)
+
+
+def structure_text(diagnosis: Diagnosis) -> str:
+    """Return the section on the misfit that the structure of the model leaves, with its size by curve."""
+    sizes = [
+        f"{CURVES.get(trace.curve, trace.curve)} {float(np.sqrt(np.mean(trace.structure**2))) / size:.2g} {unit}"
+        for trace in diagnosis.traces
+        if trace.structure is not None
+        for unit, size in [printed_curve_unit(trace.curve)]
+    ]
+    return (
+        "## Difference of structure\n\nHealthy hearts of other simulators, the controls or the earlier recording let "
+        f"this simulation err by {' and '.join(sizes)} (root mean square; scale {diagnosis.structural_scale:g}). A "
+        "mechanism is named for what this does not explain."
+    )
+
+
+def _changes(changes: Iterable[Change]) -> str:
+    """Return the section on the parameters that changed since the earlier recording."""
+    return "## Changes since the earlier recording\n\n" + "\n".join(map(change_line, changes))
+
+
+def change_line(change: Change) -> str:
+    """Return "- `tissue.active.sigma_0`: 1.31 times (95 % CI 1.10 to 1.55)", or a difference in ms or without unit."""
+    factor, form, unit = {"ratio": (1.0, ".2f", " times"), "s": (1e3, "+.0f", " ms"), "1": (1.0, "+.2f", "")}[
+        change.unit
+    ]
+    value, low, high = (format(factor * one, form) for one in (change.value, *change.interval))
+    return f"- `{change.name}`: {value}{unit} (95 % CI {low} to {high})"
 
 
 def self_test_sentence(diagnosis: Diagnosis) -> str:

@@ -31,7 +31,8 @@ def plot_cause(diagnosis: Diagnosis) -> Figure:
     """Plot one row per curve: measured and simulated, and the misfit of the simulation in units of the noise.
 
     Both over the phases of the beat; the discrepancy has its 95 % band, and the phase of its largest departure is
-    shaded and named. Bars: ln Bayes factors over baseline with the detection threshold (dashed).
+    shaded and named; a blue band is what structure lets the simulation err. Bars: ln Bayes factors over baseline with
+    the detection threshold (dashed).
     """
     rows = len(diagnosis.traces)
     figure = Figure(figsize=(12.5, 1.4 + 2.6 * rows), layout="constrained")
@@ -71,6 +72,11 @@ def _residuals(axes: Axes, trace: Trace, diagnosis: Diagnosis, departure: Depart
     axes.axhline(0.0, color="black", linewidth=0.6)
     low, high = ((side * 2.0 * trace.band - trace.lacking)[order] / noise for side in (-1.0, 1.0))
     axes.fill_between(times, low, high, color=REFERENCE, alpha=0.35, linewidth=0)
+    if trace.structure is not None and trace.structure.any():
+        allowed = 2.0 * (trace.structure / trace.noise)[order]
+        axes.fill_between(
+            times, -allowed, allowed, color=ARTERY, alpha=0.12, linewidth=0, label="structure, 95 % band"
+        )
     mark = "o" if times.size < MARKED_SAMPLES else "."
     misfit = (trace.none - trace.measured)[order] / noise
     axes.plot(times, misfit, mark, color=ARTERY, markersize=3)

@@ -1,11 +1,15 @@
-"""Verdicts on hearts of other simulators, counted by world and kind of heart."""
+"""Verdicts on hearts of other simulators, counted by simulator and kind of heart."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 
+from heartfit.discovery.sphere_model.cause import Diagnosis
+from heartfit.discovery.sphere_model.nominal_heart import FREE_PARAMETERS, FreeParameter
 from heartfit.observation.noise_model import Share
+from heartfit.results.cause_card import CURVES, spaced_name
 from heartfit.synthetic.other_worlds import OtherHeart
 from heartfit.synthetic.scoring import SILENT
 from heartfit.synthetic.trial import ScoredDiagnosis
@@ -13,18 +17,34 @@ from heartfit.synthetic.trial import ScoredDiagnosis
 OUTCOMES = ("right", "unknown", "nothing", "wrong")
 """Right: the illness named, alone or in a group, or nothing in a heart that needs no mechanism; wrong: other names."""
 HEALTHY, PARAMETERS, MECHANISM = "healthy", "ill by parameters", "ill by a mechanism"
+ALONE, AGAINST, ALL = "alone", "against the healthy beat", "all"
+STRONGEST = 3
+"""Number of mechanisms of the ranking that are listed."""
 
 
 @dataclass(frozen=True, eq=False)
 class Judged:
-    """A heart of another simulator and its diagnosis.
+    """A heart of another simulator and its diagnosis, alone or ``against`` its healthy beat.
 
-    misfit: root mean square residual of the model without a mechanism, over that of the noise, by curve.
+    misfit: root mean square residual of the model without a mechanism, over the standard deviation of the noise, by
+    curve; scale: most probable one of the structural covariance.
     """
 
     heart: OtherHeart
+    against: bool
     finding: ScoredDiagnosis
-    misfit: dict[str, float]
+    misfit: Mapping[str, float]
+    scale: float
+
+    @classmethod
+    def from_diagnosis(cls, heart: OtherHeart, against: bool, diagnosis: Diagnosis) -> "Judged":
+        """Judge a diagnosis."""
+        misfit = {
+            trace.curve: float(np.sqrt(np.mean(((trace.measured - trace.none) / trace.noise) ** 2)))
+            for trace in diagnosis.traces
+        }
+        finding = ScoredDiagnosis.of(diagnosis, 0.0)
+        return cls(heart, against, finding, misfit, diagnosis.structural_scale)
 
     @property
     def kind(self) -> str:
@@ -32,6 +52,11 @@ class Judged:
         if self.heart.expected:
             return MECHANISM
         return PARAMETERS if self.heart.illness else HEALTHY
+
+    @property
+    def recording(self) -> str:
+        """ALONE or AGAINST."""
+        return AGAINST if self.against else ALONE
 
     @property
     def outcome(self) -> str:
@@ -45,19 +70,77 @@ class Judged:
 
 
 def outcomes_table(judged: Sequence[Judged]) -> pd.DataFrame:
-    """Return the outcomes by world and kind: counts, the share of right ones with its exact interval, and misfits."""
-    groups: dict[tuple[str, str], list[Judged]] = {}
-    for one in judged:
-        groups.setdefault((one.heart.world, one.kind), []).append(one)
-    return pd.DataFrame([_row(world, kind, group) for (world, kind), group in groups.items()])
+    """Return outcomes by recording, simulator and kind of heart; then those of all simulators."""
+    groups: dict[tuple[str, str, str], list[Judged]] = {}
+    for simulator in (*dict.fromkeys(one.heart.world for one in judged), ALL):
+        for one in judged:
+            if simulator in (ALL, one.heart.world):
+                groups.setdefault((one.recording, simulator, one.kind), []).append(one)
+    rows = sorted(groups.items(), key=lambda entry: entry[0][0] != ALONE)
+    return pd.DataFrame([_outcomes(*row) for row in rows])
 
 
-def _row(world: str, kind: str, group: Sequence[Judged]) -> dict[str, object]:
+def _outcomes(key: tuple[str, str, str], group: Sequence[Judged]) -> dict[str, object]:
     counts = {outcome: sum(one.outcome == outcome for one in group) for outcome in OUTCOMES}
     share = Share.from_count(counts["right"], len(group))
+    interval = f"{100.0 * share.low:.0f} to {100.0 * share.high:.0f}"
+    names = dict(zip(("recording", "simulator", "hearts"), key, strict=True))
+    return {**names, "number": len(group), **counts, "right (%), 95 % CI": interval}
+
+
+def fits_table(judged: Sequence[Judged]) -> pd.DataFrame:
+    """Return medians of the residual of healthy hearts without a mechanism, over the noise, by simulator."""
+    groups: dict[str, list[Judged]] = {}
+    for one in judged:
+        if one.kind == HEALTHY:
+            groups.setdefault(one.heart.world, []).append(one)
+    return pd.DataFrame([_fits(world, group) for world, group in groups.items()])
+
+
+def _fits(world: str, group: Sequence[Judged]) -> dict[str, object]:
     misfits = {
-        f"{curve} residual over noise": f"{pd.Series([one.misfit[curve] for one in group]).median():.1f}"
+        f"{CURVES[curve]}, over noise": _median(one.misfit[curve] for one in group)
         for curve in group[0].misfit
     }
-    interval = f"{100.0 * share.low:.0f} to {100.0 * share.high:.0f}"
-    return {"world": world, "hearts": kind, "number": len(group), **counts, "right (%)": interval, **misfits}
+    scale = _median(one.scale for one in group)
+    return {"simulator": world, "healthy hearts": len(group), **misfits, "scale of the structure": scale}
+
+
+def _median(values: Iterable[float]) -> str:
+    return f"{np.median(list(values)):.1f}"
+
+
+def hearts_table(judged: Sequence[Judged]) -> pd.DataFrame:
+    """Return a row for every heart: what it is, the verdict, and the best of the ranking."""
+    return pd.DataFrame([_row(one) for one in judged])
+
+
+def _row(one: Judged) -> dict[str, object]:
+    best = list(one.finding.ranking.items())[:STRONGEST]
+    return {
+        "simulator": one.heart.world,
+        "seed": one.heart.seed,
+        "heart": f"{one.heart.severity} {one.heart.illness}".strip() or HEALTHY,
+        "recording": one.recording,
+        "verdict": f"`{one.finding.verdict}`",
+        "named": ", ".join(sorted(map(spaced_name, one.finding.names))),
+        "outcome": one.outcome,
+        "largest ln Bayes factors": ", ".join(f"{spaced_name(name)} {factor:.1f}" for name, factor in best),
+    }
+
+
+def priors_table() -> pd.DataFrame:
+    """Return the standard deviations of the free parameters about a person, between people, and of a change."""
+    return pd.DataFrame([_priors(parameter) for parameter in FREE_PARAMETERS])
+
+
+def _priors(parameter: FreeParameter) -> dict[str, object]:
+    unit = {"ratio": "of the logarithm", "s": "s", "1": "1"}[parameter.change_unit]
+    return {
+        "parameter": f"`{parameter.name}`",
+        "about a fitted person": parameter.person,
+        "between people": parameter.people,
+        "of a change": parameter.change,
+        "unit": unit,
+        "source of the spread between people": parameter.source,
+    }

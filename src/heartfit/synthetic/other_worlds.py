@@ -15,6 +15,8 @@ from heartfit.observation.curve import Curve
 from heartfit.synthetic.hidden import VOLUME_NOISE, RecordingProtocol, record_pressure, record_volume
 
 FRAMES = 28
+NOISE_FREE_FRAMES, NOISE_FREE_RATE = 40, 100.0
+"""Frames a beat, and samples of the pressure per second, of a recording without noise."""
 UPSTROKE = (0.060, 0.010)
 """Mean and standard deviation of the time from the R wave to the steepest rise of the pressure [s]."""
 EXPECTED: Mapping[str, frozenset[str]] = {
@@ -53,6 +55,16 @@ class OtherHeart:
         """Return the time of the steepest rise of the pressure [s]."""
         steps = np.diff(self.pressure.values, append=self.pressure.values[0])
         return float(self.pressure.times[int(np.argmax(steps))])
+
+
+def noise_free(heart: OtherHeart) -> dict[str, Curve]:
+    """Sample volume and pressure without errors, the mean time from the R wave to the upstroke."""
+    trigger = heart.upstroke() - UPSTROKE[0]
+    samples = round(heart.pressure.period * NOISE_FREE_RATE)
+    return {
+        "lv_volume": heart.volume.shifted(trigger).resampled(NOISE_FREE_FRAMES),
+        "lv_pressure": heart.pressure.shifted(trigger).resampled(samples),
+    }
 
 
 def measure(heart: OtherHeart) -> dict[str, Curve]:

@@ -13,7 +13,7 @@ from heartfit.synthetic.campaign import Effect, Population
 from heartfit.synthetic.case import Answer
 from heartfit.synthetic.trial import REFUSED, ScoredDiagnosis
 
-SILENT = ("none", "insufficient", REFUSED)
+SILENT = ("none", "model", "insufficient", REFUSED)
 """Verdicts that claim nothing."""
 
 

@@ -1,10 +1,13 @@
 """Search on an oscillator: it names the hidden effect, and none without a hidden effect."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.data import Block, Data, Noise
+from heartfit.discovery.inference.decide import DEFAULT_RULES
 from heartfit.discovery.inference.hypothesis import Hypothesis
 from heartfit.discovery.inference.search import Findings, search
 from tests.discovery.inference import oscillator
@@ -42,6 +45,34 @@ def test_a_departure_without_an_effect_is_unknown_and_is_located() -> None:
     assert result.decision.verdict == "unknown"
     position, _ = result.baseline_discrepancy
     assert oscillator.TIMES[np.argmax(position.mean)] == pytest.approx(0.35, abs=0.05)
+
+
+def bump() -> np.ndarray:
+    """A departure of the position that no effect has."""
+    shape = np.zeros(oscillator.curves(base(2)).size)
+    shape[:24] = 0.4 * np.exp(-0.5 * ((oscillator.TIMES - 0.35) / 0.05) ** 2)
+    return shape
+
+
+def within(shape: np.ndarray, data: Data) -> Findings:
+    """Search data with a structural covariance of this shape."""
+    structured = replace(data, structure=np.outer(shape, shape))
+    return search(structured, oscillator.NONE, oscillator.SINGLES, oscillator.combined)
+
+
+def test_a_departure_of_the_shape_that_structure_has_is_no_effect() -> None:
+    data = oscillator.observed(oscillator.curves(base(2)) + bump(), 2)
+    result = within(bump(), data)
+    assert result.decision.verdict == "none"
+    assert result.structural_scale > 0.0
+    assert result.rules.detected == result.rules.detected_beside_structure
+
+
+def test_an_effect_that_leaves_nothing_to_structure_needs_no_more_evidence() -> None:
+    truth = oscillator.EFFECTS["clipping"][1](base(4), 3.0)
+    result = within(bump(), oscillator.observed(truth, 4))
+    assert result.decision.effects == ("clipping",)
+    assert result.rules.detected == DEFAULT_RULES.detected
 
 
 def test_no_hypothesis_fits_worse_than_none() -> None:

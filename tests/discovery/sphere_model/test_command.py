@@ -36,7 +36,7 @@ def arguments(tmp_path, monkeypatch):
 
 
 def test_the_command_names_the_cause_and_the_curves_it_did_not_search(arguments, tmp_path, capsys):
-    assert cli.main(["diagnose", *arguments]) == 0
+    assert cli.main(["diagnose", *arguments, "--trust-simulator"]) == 0
     printed, content = capsys.readouterr().out, read_cause(tmp_path / "out" / "cause.json")
     assert printed.count("\n") == 1
     assert set(content["unsearched"]) == {"rv_volume"}
@@ -46,3 +46,33 @@ def test_the_command_names_the_cause_and_the_curves_it_did_not_search(arguments,
         *content["withdrawn"],
         *(mechanism["name"] for mechanism in content["mechanisms"]),
     }
+
+
+def test_the_same_recording_within_the_structure_of_other_simulators(arguments, tmp_path, capsys):
+    assert cli.main(["diagnose", *arguments]) == 0
+    content = read_cause(tmp_path / "out" / "cause.json")
+    assert "no missing mechanism" in capsys.readouterr().out.lower()
+    assert content["verdict"] in ("none", "model")
+
+
+def test_an_unchanged_heart_has_changed_in_nothing_and_no_instrument_is_asked(
+    arguments, tmp_path, monkeypatch
+):
+    leaking = {name: registered()[name] for name in ("MitralRegurgitation", "CatheterOffset")}
+    monkeypatch.setattr(library, "registered", lambda: leaking)
+    recording, *_, output = arguments
+    assert cli.main(["diagnose", recording, "--against", recording, "-o", output]) == 0
+    content = read_cause(tmp_path / "out" / "cause.json")
+    assert content["verdict"] == "none"
+    assert set(content["ranking"]) == {"MitralRegurgitation", "unknown"}
+    assert content["changes"] == []
+
+
+def test_controls_tell_the_structure(arguments, tmp_path):
+    recording, *_, output = arguments
+    group = tmp_path / "group"
+    group.mkdir()
+    for control in range(5):
+        (group / f"{control}.csv").write_text((tmp_path / "m.csv").read_text())
+    assert cli.main(["diagnose", recording, "--reference", str(group), "-o", output]) == 0
+    assert read_cause(tmp_path / "out" / "cause.json")["verdict"] in ("none", "model")

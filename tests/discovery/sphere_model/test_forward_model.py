@@ -50,7 +50,7 @@ def test_the_trigger_moves_the_recording_and_not_the_heart():
     late[-1] = 1.0
     model.predict(CENTRE, ())
     shifted = SphereForwardModel(
-        ADULT, {name: at + FREE_PARAMETERS[-1].sd for name, at in TIMES.items()}
+        ADULT, {name: at + FREE_PARAMETERS[-1].person for name, at in TIMES.items()}
     ).predict(CENTRE, ())
     assert model.predict(late, ()) == pytest.approx(shifted, rel=1e-9)
     assert model.simulations == 1

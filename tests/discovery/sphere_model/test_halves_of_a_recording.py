@@ -10,6 +10,7 @@ import pytest
 from heartfit.discovery.sphere_model import diagnose as diagnosis
 from heartfit.discovery.sphere_model import searched_recording as module
 from heartfit.discovery.sphere_model.diagnose import diagnose
+from heartfit.discovery.sphere_model.nominal_heart import ADULT
 from heartfit.discovery.sphere_model.recording import Recording, Samples, search_data
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 
@@ -78,7 +79,7 @@ def searched_by(
     monkeypatch.setattr(diagnosis, "SearchedRecording", stand_in)
     monkeypatch.setattr(diagnosis, "conclude", lambda *_: None)
     diagnose(BOTH, conditions)
-    ((recording, _, _, unseen),) = calls
+    ((recording, _, _, unseen, _),) = calls
     return recording, unseen
 
 
@@ -103,7 +104,7 @@ def test_the_final_size_is_that_of_a_fit_to_both_halves(monkeypatch: pytest.Monk
     findings = SimpleNamespace(explanation=lambda _: explained, log_bayes_factor=lambda _: 12.0)
     case = SearchedRecording(
         first,
-        cast("Any", SimpleNamespace(nominal=None)),
+        cast("Any", SimpleNamespace(nominal=ADULT)),
         cast("Any", {"Leak": SimpleNamespace(unknowns=(switch,))}),
         search_data(first),
         cast("Any", findings),
@@ -119,7 +120,6 @@ def test_the_final_size_is_that_of_a_fit_to_both_halves(monkeypatch: pytest.Monk
             return SimpleNamespace(interval=lambda _: (self.count, self.count - 1.0, self.count + 1.0))
 
     monkeypatch.setattr(module, "FitContext", Fitted)
-    monkeypatch.setattr(module, "SphereForwardModel", lambda *_: None)
     monkeypatch.setattr(module, "hypothesis", lambda *_: None)
     (final,) = case.sizes_from_all_samples([("Leak",)])
     assert final.amplitude == search_data(BOTH).values.size == 25 + 80

@@ -11,9 +11,11 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Block, Data, Noise
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.sphere_model import held_out as module
+from heartfit.discovery.sphere_model.baseline import SphereProblem
 from heartfit.discovery.sphere_model.forward_model import Candidate, SphereForwardModel
 from heartfit.discovery.sphere_model.held_out import predict_condition, predict_unseen
 from heartfit.discovery.sphere_model.nominal_heart import ADULT
+from heartfit.discovery.sphere_model.recording import Recording
 
 PERIOD = 0.8
 SIZES = {"lv_volume": 40e-6, "lv_pressure": 7e3}
@@ -61,7 +63,8 @@ TRUTH = np.array([0.2, 0.3])
 
 def test_unseen_samples_are_predicted_as_the_models_were_fitted() -> None:
     data = measured(ONE_BEAT, RESTING, TRUTH)
-    prediction = predict_unseen(RESTING, data, EFFECT, np.array([0.1]), TRUTH)
+    unseen = SphereProblem(cast("Recording", None), data, SphereForwardModel(RESTING, ONE_BEAT))
+    prediction = predict_unseen(unseen, EFFECT, np.array([0.1]), TRUTH)
     assert prediction is not None
     assert prediction.extended == pytest.approx(data.values)
     assert prediction.baseline == pytest.approx(

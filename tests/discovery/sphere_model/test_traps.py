@@ -86,7 +86,7 @@ def one_step(judge: FitContext, model: Hypothesis) -> Floats:
 def chi_square(judge: FitContext, predicted: Floats) -> float:
     """Squared whitened residual at its most likely level of noise, over the number of values."""
     residual = judge.data.values - predicted
-    levels = judge.whitening.most_probable_levels(residual)
+    levels, _ = judge.whitening.most_probable_levels(residual)
     parts = zip(judge.whitening.roots, levels, judge.whitening.rows, strict=True)
     white = np.concatenate([roots[level] @ residual[rows] for roots, level, rows in parts])
     return float(np.mean(white**2))

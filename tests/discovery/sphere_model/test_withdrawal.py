@@ -48,9 +48,12 @@ class Searched:
     rules: Rules = DEFAULT_RULES
     unseen: Recording | None = None
     discrepancy: float = 6.0
+    scale: float = 0.0
     library: Mapping[str, str] = field(default_factory=lambda: {"Leak": "leak", "Delay": "delay"})
     data: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(values=np.zeros(3)))
-    model: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(simulations=7, nominal="nominal"))
+    model: SimpleNamespace = field(
+        default_factory=lambda: SimpleNamespace(simulations=7, nominal=SimpleNamespace(stands_for="people"))
+    )
     recording: SimpleNamespace = field(
         default_factory=lambda: SimpleNamespace(
             period=0.8,
@@ -75,6 +78,7 @@ class Searched:
             explanation=at.get,
             survey=SimpleNamespace(baseline=baseline, singles=list(at.values())),
             evidences=SimpleNamespace(baseline=0.0, discrepancy=self.discrepancy),
+            structural_scale=self.scale,
         )
 
     def sizes_from_all_samples(self, named: Sequence[Effects]) -> tuple[Cause, ...]:
@@ -88,6 +92,20 @@ class Searched:
     @property
     def verdict_without_name(self) -> Verdict:
         return SearchedRecording.verdict_without_name.fget(self)  # type: ignore[attr-defined]
+
+    @property
+    def nothing(self) -> Verdict:
+        return SearchedRecording.nothing.fget(self)  # type: ignore[attr-defined]
+
+    @property
+    def unseen_problem(self) -> str | None:
+        return None if self.unseen is None else f"data of {self.unseen}"
+
+    def problem(self, recording: Recording) -> SimpleNamespace:
+        return SimpleNamespace(data=f"data of {recording}")
+
+    def changes(self, effects: Effects) -> tuple[()]:
+        return ()
 
     def ranking(self) -> dict[str, float]:
         return {}
@@ -143,6 +161,18 @@ def test_a_withdrawn_name_leaves_what_a_discrepancy_shows(
     assert (diagnosis.verdict, names(diagnosis), diagnosis.withdrawn) == (verdict, (), LEAK)
 
 
+@pytest.mark.parametrize(
+    ("scale", "stands_for", "verdict"),
+    [(0.0, "people", "none"), (0.5, "people", "model"), (0.5, "change", "none")],
+)
+def test_a_misfit_that_structure_explains_is_one_of_the_model(
+    monkeypatch: pytest.MonkeyPatch, scale: float, stands_for: str, verdict: Verdict
+) -> None:
+    case = Searched("named", {LEAK: 12.0}, discrepancy=4.9, scale=scale)
+    case.model.nominal.stands_for = stands_for
+    assert concluded(monkeypatch, case, {LEAK: (-0.1,)}).verdict == verdict
+
+
 def test_a_name_that_helps_in_every_test_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     diagnosis = concluded(monkeypatch, Searched("named", {LEAK: 12.0}), {LEAK: (2.0, 0.1)})
     assert (diagnosis.verdict, names(diagnosis), diagnosis.withdrawn) == ("named", LEAK, ())
@@ -179,8 +209,7 @@ def test_half_of_a_recording_withdraws_a_group_with_its_best_member(monkeypatch:
 @pytest.fixture
 def judges(monkeypatch: pytest.MonkeyPatch) -> None:
     """Predictions that return their kind and the data that they judge by."""
-    monkeypatch.setattr(module, "search_data", lambda recording: f"data of {recording}")
-    monkeypatch.setattr(module, "predict_unseen", lambda _, data, *fits: ("unseen", data, fits))
+    monkeypatch.setattr(module, "predict_unseen", lambda data, *fits: ("unseen", data, fits))
     monkeypatch.setattr(module, "predict_condition", lambda name, _, data, *fits: (name, data, fits))
 
 
@@ -218,6 +247,11 @@ def test_a_volume_alone_needs_more_evidence(
 ) -> None:
     applied: list[Rules] = []
     monkeypatch.setattr(searching, "candidates", lambda _: {})
-    monkeypatch.setattr(searching, "search", lambda *arguments: applied.append(arguments[-1]))
+
+    def search(*arguments: object) -> SimpleNamespace:
+        applied.append(cast("Rules", arguments[-1]))
+        return SimpleNamespace(rules=arguments[-1])
+
+    monkeypatch.setattr(searching, "search", search)
     SearchedRecording.search(Recording(0.8, curves), rules=rules)
     assert [rule.detected for rule in applied] == [threshold]

@@ -33,7 +33,7 @@ SCORING_MUTANTS = changes(
     ),
     (
         "too few data are a detection",
-        'SILENT = ("none", "insufficient", REFUSED)',
-        'SILENT = ("none", REFUSED)',
+        'SILENT = ("none", "model", "insufficient", REFUSED)',
+        'SILENT = ("none", "model", REFUSED)',
     ),
 )

@@ -34,7 +34,7 @@ WITHDRAWAL_MUTANTS = (
             "sum(test.log_likelihood_gain() for test in tests if test) if conditions else 0.0",
             "0.0",
         ),
-        ("unseen samples do not judge", "if case.unseen is not None:", "if False:"),
+        ("unseen samples do not judge", "if case.unseen_problem is not None:", "if False:"),
     ),
     *changes(
         "discovery/sphere_model/searched_recording.py",

@@ -60,8 +60,8 @@ class GPDiscrepancy:
         """Estimated discrepancy of the fitted hypothesis, block after block."""
         best = int(np.argmax(self._by_size(fit)))
         at_centre = self.data.values - fit.predicted + fit.jacobian @ fit.x
-        levels = self.whitenings[best].most_probable_levels(self.data.values - fit.predicted)
-        return _conditional_curves(self.data, at_centre, fit.jacobian, DISCREPANCY_SIZES[best], levels)
+        levels, scale = self.whitenings[best].most_probable_levels(self.data.values - fit.predicted)
+        return _conditional_curves(self.data, at_centre, fit.jacobian, DISCREPANCY_SIZES[best], levels, scale)
 
     def _by_size(self, fit: Fit) -> list[float]:
         values = self.data.values
@@ -69,7 +69,7 @@ class GPDiscrepancy:
 
 
 def _conditional_curves(
-    data: Data, at_centre: Floats, jacobian: Floats, size: float, levels: list[int]
+    data: Data, at_centre: Floats, jacobian: Floats, size: float, levels: list[int], scale: float
 ) -> tuple[Discrepancy, ...]:
     """Mean and standard deviation of delta given ``at_centre`` (n,), the residual at the centre of the priors."""
     smooth = [
@@ -81,7 +81,8 @@ def _conditional_curves(
         for block, level in zip(data.blocks, levels, strict=True)
     ]
     K = block_diag(*smooth)
-    factor = cho_factor(block_diag(*noise) + K + jacobian @ jacobian.T)
+    structure = 0.0 if data.structure is None else scale**2 * data.structure
+    factor = cho_factor(block_diag(*noise) + structure + K + jacobian @ jacobian.T)
     mean = K @ cho_solve(factor, at_centre)
     variance = np.diag(K) - np.einsum("ij,ji->i", K, cho_solve(factor, K))
     sd = np.sqrt(np.maximum(variance, 0.0))

@@ -21,13 +21,19 @@ Its logarithm has the slope of the mean precision :math:`\bar\Lambda_b = \sum_l 
 probabilities of the levels given r. With a discrepancy, :math:`\Sigma + g^2 K` takes the place of Sigma.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
+from scipy.linalg import block_diag
 from scipy.special import logsumexp, softmax
 
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
+
+STRUCTURE_SCALES = (0.0, 0.25, 0.5, 1.0, 2.0)
+"""Scales of the structural covariance, equally likely; at 0 the model is the source of the data."""
 
 
 @dataclass(frozen=True)
@@ -78,11 +84,14 @@ class Block:
 class Data:
     """The measured values (n,), block after block.
 
-    Raises InputError unless values and times match in number and all values are finite.
+    structure: covariance S (n, n) of what the structure of the model leaves, None where the model is trusted; scales:
+    of S, equally likely. Raises InputError unless values and times match in number and all values are finite.
     """
 
     values: Floats
     blocks: tuple[Block, ...]
+    structure: Floats | None = None
+    scales: tuple[float, ...] = STRUCTURE_SCALES
 
     def __post_init__(self) -> None:
         expected = sum(block.times.size for block in self.blocks)
@@ -100,25 +109,41 @@ class Data:
 
 @dataclass(frozen=True, eq=False)
 class Whitening:
-    """Inverse Cholesky factors of each block and level, (l, k, k), and the logarithms of their densities at 0, (l,)."""
+    """Inverse Cholesky factors of each group of rows and level, (l, k, k), and the logarithms of their densities at 0.
+
+    A group is a block or, with structure, which ties the blocks, all of them; its levels are then all combinations of
+    the blocks' levels and of the scales of the structure, whose numbers are ``combined``.
+    """
 
     rows: tuple[slice, ...]
     roots: tuple[Floats, ...]
     peaks: tuple[Floats, ...]
+    combined: tuple[int, ...] = ()
+    scales: tuple[float, ...] = (0.0,)
 
     @classmethod
     def from_data(cls, data: Data, discrepancy: float = 0.0) -> "Whitening":
         """Whitening of the blocks' noise plus a discrepancy of size g."""
-        roots = tuple(_roots(block, discrepancy) for block in data.blocks)
-        return cls(data.rows, roots, tuple(_peaks(root) for root in roots))
+        blocks = [_covariances(block, discrepancy) for block in data.blocks]
+        rows, groups = data.rows, blocks
+        combined: tuple[int, ...] = ()
+        if data.structure is not None:
+            rows, groups = (slice(0, data.values.size),), [_combine(blocks, data.structure, data.scales)]
+            combined = (*(len(block) for block in blocks), len(data.scales))
+        roots = tuple(np.asarray(np.linalg.inv(np.linalg.cholesky(group)), np.float64) for group in groups)
+        return cls(rows, roots, tuple(_peaks(root) for root in roots), combined, data.scales)
 
     def log_likelihood(self, residual: Floats) -> float:
         """ln p(r)."""
         return float(sum(logsumexp(level) - np.log(level.size) for level in self._levels(residual)))
 
-    def most_probable_levels(self, residual: Floats) -> list[int]:
-        """The most probable level of each block."""
-        return [int(np.argmax(level)) for level in self._levels(residual)]
+    def most_probable_levels(self, residual: Floats) -> tuple[list[int], float]:
+        """The most probable level of each block and scale of the structure."""
+        best = [int(np.argmax(level)) for level in self._levels(residual)]
+        if not self.combined:
+            return best, 0.0
+        *levels, scale = (int(place) for place in np.unravel_index(best[0], self.combined))
+        return levels, self.scales[scale]
 
     def normal(self, residual: Floats, jacobian: Floats) -> tuple[Floats, Floats]:
         """J' L r (d,) and J' L J (d, d) with the mean precision L."""
@@ -143,13 +168,17 @@ class Whitening:
         ]
 
 
-def _roots(block: Block, discrepancy: float) -> Floats:
+def _covariances(block: Block, discrepancy: float) -> Floats:
+    """Sigma + g^2 K (l, k, k) of a block at each of its levels."""
     extra = discrepancy**2 * block.noise.discrepancy_covariance(block.times, block.times, block.period)
-    covariances = [
-        block.noise.covariance(block.times, block.period, level) + extra for level in block.noise.levels
-    ]
-    factors = np.linalg.cholesky(np.array(covariances))
-    return np.asarray(np.linalg.inv(factors), np.float64)
+    levels = block.noise.levels
+    return np.array([block.noise.covariance(block.times, block.period, level) + extra for level in levels])
+
+
+def _combine(blocks: Sequence[Floats], structure: Floats, scales: Sequence[float]) -> Floats:
+    """Covariances (c, n, n) of all combinations of the blocks' levels and the scales of the structure."""
+    scaled = [scale**2 * structure for scale in scales]
+    return np.array([block_diag(*levels) + extra for levels in product(*blocks) for extra in scaled])
 
 
 def _peaks(roots: Floats) -> Floats:

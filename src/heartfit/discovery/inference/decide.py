@@ -6,7 +6,7 @@ would give a false alarm in one of nine.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 
@@ -18,6 +18,7 @@ class Rules:
       from the data's source by integrator, valves and roughness, more where its structure differs (see
       CENTRED_RULES and
       STRICT_RULES).
+    - detected_beside_structure: the same where even the best effect leaves what the structure of another model leaves.
     - suspected: the same after the first round of fits, below which there is no second.
     - start_amplitude: the amplitude with which every effect starts from the prior mean; from 1 a leak of 3 is missed.
     - refitted, respread: number of effects in the second round, and number of these that start again from every
@@ -36,6 +37,7 @@ class Rules:
     """
 
     detected: float = 5.0
+    detected_beside_structure: float = 25.0
     suspected: float = 2.0
     start_amplitude: float = 2.0
     refitted: int = 8
@@ -52,11 +54,20 @@ class Rules:
     pairs: int = 6
     predicted_gain: float = 2.0
 
+    def beside_structure(self, scale: float) -> "Rules":
+        """Return the rules where structure of this scale is the most probable one beside the best effect."""
+        if scale == 0.0:
+            return self
+        detected = max(self.detected, self.detected_beside_structure)
+        return replace(self, detected=detected, suspected=self.suspected + detected - self.detected)
+
 
 DEFAULT_RULES = Rules()
 CENTRED_RULES = Rules(detected=7.0)
 """For data of a 3-D heart and a sphere that is centred on a 3-D beat of it: of nine such hearts without an effect,
 observed through images, the largest ln Bayes factors were 5.9, 5.6 and 5.0."""
+CHANGE_RULES = Rules(detected=7.0, detected_beside_structure=7.0)
+"""For a change of one heart: its earlier recording has told what structure leaves."""
 STRICT_RULES = Rules(detected=10.0)
 """For a model that differs in structure from the source of the data and is not centred on it."""
 
@@ -64,9 +75,9 @@ Effects = tuple[str, ...]
 """Names of the effects of a hypothesis, empty for the baseline."""
 
 
-Verdict = Literal["none", "named", "two", "group", "unknown", "insufficient"]
-"""Conclusion about missing effects; evidences alone never give "insufficient", which is for data that could not show an
-effect."""
+Verdict = Literal["none", "model", "named", "two", "group", "unknown", "insufficient"]
+"""Conclusion about missing effects. Evidences alone never give "insufficient", which is for data that could not show an
+effect, nor "model", for a misfit of the size and shape that the structure of another model leaves."""
 
 
 @dataclass(frozen=True)

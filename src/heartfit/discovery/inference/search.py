@@ -87,8 +87,14 @@ def survey_singles(
         raise InputError("search: no effect has a simulation that is completed; expected one at least")
     failed = tuple(effects for effects, explanation in fits.items() if explanation is None)
     survey = Survey(base, completed, failed=failed)
+    rules = rules.beside_structure(_structural_scale(context, completed[0]))
     suspected = is_suspected(survey.evidences(context.discrepancy), rules)
     return _refine(context, at_mean, survey, rules) if suspected else survey
+
+
+def _structural_scale(context: FitContext, explanation: Explanation) -> float:
+    """The most probable scale of the structural covariance beside an explanation."""
+    return context.whitening.most_probable_levels(context.data.values - explanation.fit.predicted)[1]
 
 
 def _fit_baseline(context: FitContext, baseline: Hypothesis) -> tuple[Explanation, Explanation]:
@@ -202,7 +208,8 @@ class Findings:
     """The decision and its grounds.
 
     baseline_discrepancy, discrepancy: estimated discrepancies of the baseline and of the explanation that the decision
-    names; simulations: number of forward runs.
+    names; simulations: number of forward runs; rules: that were applied; structural_scale: the most probable scale of
+    the structural covariance beside the baseline, 0 where the model is trusted.
     """
 
     decision: Decision
@@ -211,6 +218,8 @@ class Findings:
     baseline_discrepancy: tuple[Discrepancy, ...]
     discrepancy: tuple[Discrepancy, ...]
     simulations: int
+    rules: Rules = DEFAULT_RULES
+    structural_scale: float = 0.0
 
     @property
     def best(self) -> Explanation:
@@ -240,11 +249,14 @@ def search(
     fails at the centre of the priors, or that of every effect.
     """
     context = FitContext(data)
-    survey = _complete(context, survey_singles(context, baseline, singles, rules), combine, rules)
+    survey = survey_singles(context, baseline, singles, rules)
+    scale = _structural_scale(context, survey.baseline)
+    rules = rules.beside_structure(_structural_scale(context, survey.singles[0]))
+    survey = _complete(context, survey, combine, rules)
     evidences = survey.evidences(context.discrepancy)
     decision = decide(evidences, rules)
     missing = context.discrepancy.curves(survey.baseline.fit)
-    findings = Findings(decision, evidences, survey, missing, missing, context.simulations)
+    findings = Findings(decision, evidences, survey, missing, missing, context.simulations, rules, scale)
     return replace(findings, discrepancy=context.discrepancy.curves(findings.best.fit))
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 
@@ -41,7 +42,8 @@ class Trace:
     """A measured curve (k,) [SI] beside the fitted ones: ``none`` without and ``extended`` with the cause.
 
     noise (k,): standard deviation of the samples; lacking, band (k,): discrepancy of the model without the cause and
-    its standard deviation.
+    its standard deviation; structure (k,): standard deviation that the structural covariance allows it, at the most
+    probable scale, None where the model is trusted.
     """
 
     curve: str
@@ -52,6 +54,17 @@ class Trace:
     noise: Floats
     lacking: Floats
     band: Floats
+    structure: Floats | None = None
+
+
+@dataclass(frozen=True)
+class Change:
+    """A parameter after over before, with its 95 % interval: a ratio or, in s or 1, a difference."""
+
+    name: str
+    value: float
+    interval: tuple[float, float]
+    unit: Literal["ratio", "s", "1"]
 
 
 @dataclass(frozen=True)
@@ -112,6 +125,8 @@ class Diagnosis:
       to.
     - from_all_samples: the mechanisms with their amplitudes given both halves of the recording, after the second has
       judged; empty where there is one half only.
+    - structural_scale: the most probable scale of the structural covariance beside the baseline, 0 where the model is
+      trusted; changes: parameters that changed since an earlier recording of the same heart, empty without one.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
     """
 
@@ -134,6 +149,8 @@ class Diagnosis:
     samples: int = 0
     from_all_samples: tuple[Cause, ...] = ()
     warnings: tuple[str, ...] = ()
+    structural_scale: float = 0.0
+    changes: tuple[Change, ...] = ()
 
 
 CLEAR_DEVIATIONS = 2.0

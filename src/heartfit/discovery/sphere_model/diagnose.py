@@ -2,7 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
-from heartfit.discovery.inference.decide import DEFAULT_RULES, Effects, Rules, Verdict
+from heartfit.discovery.inference.decide import CHANGE_RULES, DEFAULT_RULES, Effects, Rules, Verdict
+from heartfit.discovery.sphere_model.baseline import learn_from_earlier
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.consistency import implausible
 from heartfit.discovery.sphere_model.held_out import (
@@ -12,8 +13,9 @@ from heartfit.discovery.sphere_model.held_out import (
 )
 from heartfit.discovery.sphere_model.limits import RECORD_PRESSURE, next_measurement
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
-from heartfit.discovery.sphere_model.recording import UNSEARCHED, Recording, search_data
+from heartfit.discovery.sphere_model.recording import UNSEARCHED, Recording
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording, traces
+from heartfit.discovery.sphere_model.structure import Structure
 
 
 def diagnose(
@@ -22,20 +24,32 @@ def diagnose(
     nominal: NominalHeart | None = None,
     rules: Rules = DEFAULT_RULES,
     unseen: Recording | None = None,
+    structure: Structure | None = None,
 ) -> Diagnosis:
     """Diagnose the effects that the model of the heart lacks to explain the recording.
 
     conditions: recordings of the same heart under other loading, by name; only the loading is fitted to them. nominal:
     a sphere that was fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None. unseen:
-    samples of the same beat, which judge a name and do not choose it. Without them and without conditions the search
+    samples of the same beat, which judge a name and do not choose it. structure: of the discrepancy between the sphere
+    and the source of the recording; None where the model is trusted. Without them and without conditions the search
     sees half of the recording, and the other half judges. Raises InputError where the nominal heart does not beat, and
     for a loop of pressure and volume that runs clockwise.
     """
     warnings = implausible(recording)
     if unseen is None and not conditions:
         recording, unseen = recording.halves()
-    case = SearchedRecording.search(recording, nominal, rules, unseen)
+    case = SearchedRecording.search(recording, nominal, rules, unseen, structure)
     return conclude(case, conditions or {}, warnings)
+
+
+def diagnose_change(after: Recording, before: Recording, structure: Structure) -> Diagnosis:
+    """Diagnose what has changed between two recordings of one heart: parameters, or a mechanism.
+
+    The sphere is fitted to the earlier recording within the ``structure`` of healthy hearts. What it leaves there it is
+    expected to leave in the later one, up to the part that two recordings do not share.
+    """
+    heart, shared = learn_from_earlier(before, structure)
+    return diagnose(after, nominal=heart.at_period(after.period), rules=CHANGE_RULES, structure=shared)
 
 
 def conclude(
@@ -69,6 +83,8 @@ def conclude(
         samples=case.data.values.size,
         from_all_samples=case.sizes_from_all_samples(kept),
         warnings=warnings,
+        structural_scale=case.findings.structural_scale,
+        changes=case.changes(best),
     )
 
 
@@ -97,11 +113,11 @@ def predict_explanation(
     fits = case.findings.survey.baseline.fit.x, case.findings.explanation(effects).fit.x
     nominal = case.model.nominal
     tests: list[HeldOutPrediction | None] = [
-        predict_condition(name, nominal, search_data(condition), added, *fits)
+        predict_condition(name, nominal, case.problem(condition).data, added, *fits)
         for name, condition in conditions.items()
     ]
-    if case.unseen is not None:
-        tests.append(predict_unseen(nominal, search_data(case.unseen), added, *fits))
+    if case.unseen_problem is not None:
+        tests.append(predict_unseen(case.unseen_problem, added, *fits))
     return tests
 
 

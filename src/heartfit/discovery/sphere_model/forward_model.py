@@ -34,11 +34,13 @@ CACHED_BEATS = 256
 class SphereForwardModel:
     """Predictions of curves at their ``times`` [s after the trigger], by name.
 
-    simulations: number of beats that were run; an instrument costs none.
+    offsets: known discrepancies of curves [SI] at these times, which are added; simulations: number of beats that were
+    run; an instrument costs none.
     """
 
     nominal: NominalHeart
     times: Mapping[str, Floats]
+    offsets: dict[str, Floats] = field(default_factory=dict)
     simulations: int = 0
     _beats: "OrderedDict[bytes, Beat]" = field(default_factory=OrderedDict)
 
@@ -48,7 +50,10 @@ class SphereForwardModel:
         if simulated is None:
             return None
         heart, beat = simulated
-        curves = [observe_curve(beat, heart, name, times) for name, times in self.times.items()]
+        curves = [
+            observe_curve(beat, heart, name, times) + self.offsets.get(name, 0.0)
+            for name, times in self.times.items()
+        ]
         return np.concatenate(curves)
 
     def simulate(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Heart, Beat] | None:
@@ -138,9 +143,14 @@ class Candidate:
 
 
 def candidates(model: SphereForwardModel) -> dict[str, Candidate]:
-    """All mechanisms that the nominal heart lacks and that act on a recorded curve, by name."""
+    """All mechanisms that the nominal heart lacks and that act on a recorded curve, by name.
+
+    Sensors are none of a heart that stands for a change: the same instruments have recorded both beats.
+    """
     present = {type(mechanism) for mechanism in model.nominal.heart.mechanisms}
     kinds = {name: kind for name, kind in registered().items() if kind not in present}
+    if model.nominal.stands_for == "change":
+        kinds = {name: kind for name, kind in kinds.items() if not issubclass(kind, Sensor)}
     return {
         name: Candidate.from_mechanism(kind)
         for name, kind in kinds.items()

@@ -17,6 +17,7 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.data import Data
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
+from heartfit.discovery.sphere_model.baseline import SphereProblem
 from heartfit.discovery.sphere_model.cause import Gain
 from heartfit.discovery.sphere_model.forward_model import Candidate, SphereForwardModel, hypothesis
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
@@ -72,14 +73,16 @@ def error_ratio(phase: Floats, baseline: Floats, extended: Floats) -> tuple[floa
 
 
 def predict_unseen(
-    nominal: NominalHeart, unseen: Data, effects: tuple[Candidate, ...], baseline: Floats, extended: Floats
+    unseen: SphereProblem, effects: tuple[Candidate, ...], baseline: Floats, extended: Floats
 ) -> HeldOutPrediction | None:
     """Prediction of data that the search has not seen, by both models as they were fitted; None where a beat fails."""
-    model = _forward_model(nominal, unseen)
+    model = unseen.model
     predictions = [hypothesis(model, added).forward(x) for added, x in (((), baseline), (effects, extended))]
     if predictions[0] is None or predictions[1] is None:
         return None
-    return HeldOutPrediction("samples that the search has not seen", unseen, predictions[0], predictions[1])
+    return HeldOutPrediction(
+        "samples that the search has not seen", unseen.data, predictions[0], predictions[1]
+    )
 
 
 def _forward_model(nominal: NominalHeart, data: Data) -> SphereForwardModel:

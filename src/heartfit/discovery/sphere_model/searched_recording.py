@@ -11,22 +11,29 @@ from heartfit.discovery.inference.data import Data, Whitening
 from heartfit.discovery.inference.decide import DEFAULT_RULES, Effects, Rules, Verdict
 from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.inference.search import Findings, search
-from heartfit.discovery.sphere_model.cause import Cause, FittedModel, Trace
+from heartfit.discovery.sphere_model.baseline import SphereProblem
+from heartfit.discovery.sphere_model.cause import CLEAR_DEVIATIONS, Cause, Change, FittedModel, Trace
 from heartfit.discovery.sphere_model.forward_model import (
     Candidate,
     SphereForwardModel,
     candidates,
     hypothesis,
 )
-from heartfit.discovery.sphere_model.nominal_heart import ADULT, NominalHeart
-from heartfit.discovery.sphere_model.recording import Recording, search_data
+from heartfit.discovery.sphere_model.nominal_heart import (
+    FREE_PARAMETERS,
+    TIME_SHIFT_INDEX,
+    FreeParameter,
+    NominalHeart,
+)
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.structure import Structure
 from heartfit.observation.beat import BeatPhases, beat_curves
 
 
 def traces(findings: Findings, explained: Explanation, data: Data) -> tuple[Trace, ...]:
     """One trace for each curve; noise: at the level that is most probable under the explanation."""
     baseline, best = findings.survey.baseline.fit, explained.fit
-    levels = Whitening.from_data(data).most_probable_levels(data.values - best.predicted)
+    levels, scale = Whitening.from_data(data).most_probable_levels(data.values - best.predicted)
     parts = zip(data.blocks, data.rows, levels, findings.baseline_discrepancy, strict=True)
     return tuple(
         Trace(
@@ -38,6 +45,7 @@ def traces(findings: Findings, explained: Explanation, data: Data) -> tuple[Trac
             np.sqrt(np.diag(block.noise.covariance(block.times, block.period, block.noise.levels[level]))),
             lacking.mean,
             lacking.sd,
+            None if data.structure is None else scale * np.sqrt(np.diag(data.structure)[rows]),
         )
         for block, rows, level, lacking in parts
     )
@@ -60,6 +68,7 @@ class SearchedRecording:
     findings: Findings
     rules: Rules
     unseen: Recording | None = None
+    structure: Structure | None = None
 
     @classmethod
     def search(
@@ -68,13 +77,12 @@ class SearchedRecording:
         nominal: NominalHeart | None = None,
         rules: Rules = DEFAULT_RULES,
         unseen: Recording | None = None,
+        structure: Structure | None = None,
     ) -> "SearchedRecording":
         """Fit every mechanism, pairs and the GP discrepancy to the recording; nominal: a sphere fitted to a
         beat of the 3-D model; the adult's, scaled to the recorded size, if None."""
-        data = search_data(recording)
-        model = SphereForwardModel(
-            nominal or ADULT.scaled_to(recording), {block.curve: block.times for block in data.blocks}
-        )
+        problem = SphereProblem.from_recording(recording, nominal, structure)
+        data, model = problem.data, problem.model
         library = candidates(model)
         if recording.searched == ("lv_volume",):
             rules = replace(rules, detected=max(rules.detected, VOLUME_ONLY_THRESHOLD))
@@ -85,14 +93,27 @@ class SearchedRecording:
             lambda names: hypothesis(model, tuple(library[name] for name in names)),
             rules,
         )
-        return cls(recording, model, library, data, findings, rules, unseen)
+        return cls(recording, model, library, data, findings, findings.rules, unseen, structure)
+
+    @cached_property
+    def unseen_problem(self) -> SphereProblem | None:
+        """The samples that were kept from the search, as data; None without any."""
+        return None if self.unseen is None else self.problem(self.unseen)
 
     @cached_property
     def verdict(self) -> Verdict:
         """The verdict of the search, before held-out tests."""
         verdict = self.findings.decision.verdict
         alone = self.recording.searched == ("lv_volume",)
-        return "insufficient" if alone and verdict not in NAMING_VERDICTS else verdict
+        if alone and verdict not in NAMING_VERDICTS:
+            return "insufficient"
+        return self.nothing if verdict == "none" else verdict
+
+    @property
+    def nothing(self) -> Verdict:
+        """The verdict where no effect is detected; a change of one heart is told from its own discrepancy."""
+        other_model = self.findings.structural_scale > 0.0 and self.model.nominal.stands_for == "people"
+        return "model" if other_model else "none"
 
     @property
     def verdict_without_name(self) -> Verdict:
@@ -100,7 +121,7 @@ class SearchedRecording:
         evidences = self.findings.evidences
         if evidences.discrepancy - evidences.baseline >= self.rules.detected:
             return "unknown"
-        return "insufficient" if self.recording.searched == ("lv_volume",) else "none"
+        return "insufficient" if self.recording.searched == ("lv_volume",) else self.nothing
 
     @property
     def explanations(self) -> tuple[Effects, ...]:
@@ -126,16 +147,32 @@ class SearchedRecording:
         """
         if self.unseen is None:
             return ()
-        data = search_data(self.recording.merged(self.unseen))
-        return tuple(cause for effects in named for cause in self._refitted(data, effects))
+        problem = self.problem(self.recording.merged(self.unseen))
+        return tuple(cause for effects in named for cause in self._refitted(problem, effects))
 
-    def _refitted(self, data: Data, effects: Effects) -> Iterator[Cause]:
-        model = SphereForwardModel(self.model.nominal, {block.curve: block.times for block in data.blocks})
+    def problem(self, recording: Recording) -> SphereProblem:
+        """Pose other samples of the heart to the same model within the same structure."""
+        return SphereProblem.from_recording(recording, self.model.nominal, self.structure)
+
+    def _refitted(self, problem: SphereProblem, effects: Effects) -> Iterator[Cause]:
         added = tuple(self.library[name] for name in effects)
         start = self.findings.explanation(effects).fit.x
-        explained = FitContext(data).explain(hypothesis(model, added), start)
+        explained = FitContext(problem.data).explain(hypothesis(problem.model, added), start)
         if explained is not None:
             yield from (self._cause(explained, effects, name) for name in effects)
+
+    def changes(self, effects: Effects) -> tuple[Change, ...]:
+        """Return the clear changes since an earlier recording, beside these effects, the clearest first."""
+        if self.model.nominal.stands_for != "change":
+            return ()
+        posterior = self.findings.explanation(effects).posterior
+        pairs = zip(posterior.mean, np.sqrt(np.diag(posterior.covariance)), strict=True)
+        clear = [
+            (abs(mean) / sd, _change(parameter, mean, sd))
+            for parameter, (mean, sd) in zip(FREE_PARAMETERS, pairs, strict=False)
+            if parameter is not FREE_PARAMETERS[TIME_SHIFT_INDEX] and abs(mean) > CLEAR_DEVIATIONS * sd
+        ]
+        return tuple(change for _, change in sorted(clear, key=lambda entry: -entry[0]))
 
     def ranking(self) -> dict[str, float]:
         """ln Bayes factors over the baseline, in descending order."""
@@ -159,6 +196,14 @@ class SearchedRecording:
             return BeatPhases.from_curves(beat_curves(replace(beat, trigger=heart.trigger)))
         except ValueError:
             return None
+
+
+def _change(parameter: FreeParameter, mean: float, sd: float) -> Change:
+    nominal = 0.0 if parameter.additive else 1.0
+    value, low, high = (
+        parameter.at(nominal, float(mean + side * sd), "change") for side in (0.0, -1.96, 1.96)
+    )
+    return Change(parameter.name, value, (low, high), parameter.change_unit)
 
 
 def _tried(explained: Explanation) -> FittedModel:

@@ -42,7 +42,11 @@ class Control:
     )
 
     trigger_delay: float = parameter(
-        0.045, unit="s", symbol="t_R", meaning="ECG trigger (R wave) after the earliest activation"
+        0.045,
+        unit="s",
+        symbol="t_R",
+        meaning="ECG trigger (R wave) after the earliest activation, negative before it",
+        low=-0.2,
     )
     tails: tuple[Tail, ...] = ()
 

@@ -1,0 +1,42 @@
+"""Fit the sphere to healthy hearts of all simulators; store what it leaves as src/heartfit/io/healthy_residuals.csv.
+
+python -m benchmarks.other_worlds.learn   the first HEARTS healthy hearts of each file of resources/other_worlds
+"""
+
+import sys
+from concurrent.futures import ProcessPoolExecutor
+
+from benchmarks.other_worlds.score import BANK, PROCESSES
+from heartfit.core.arrays import Floats
+from heartfit.discovery.sphere_model.baseline import healthy_residual
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.io.other_worlds import read_other_hearts
+from heartfit.io.structure import BANK as RESIDUALS
+from heartfit.io.structure import write_residuals
+from heartfit.synthetic.other_worlds import OtherHeart, noise_free
+
+HEARTS = 16
+"""Number of healthy hearts of each simulator, so that all weigh the same."""
+
+
+def main() -> None:
+    """Fit all hearts and write the residuals."""
+    hearts = [
+        heart
+        for path in sorted(BANK.glob("*.csv"))
+        for heart in [heart for heart in read_other_hearts(path) if not heart.illness][:HEARTS]
+    ]
+    with ProcessPoolExecutor(PROCESSES) as pool:
+        residuals = list(pool.map(residual, hearts))
+    keys = [(heart.world, heart.seed) for heart in hearts]
+    write_residuals(RESIDUALS, dict(zip(keys, residuals, strict=True)))
+    sys.stdout.write(f"{len(hearts)} residuals in {RESIDUALS}\n")
+
+
+def residual(heart: OtherHeart) -> Floats:
+    """Return what the sphere leaves of a heart that is sampled without noise."""
+    return healthy_residual(Recording.from_curves(noise_free(heart)))
+
+
+if __name__ == "__main__":
+    main()
