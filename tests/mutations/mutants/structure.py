@@ -17,7 +17,7 @@ STRUCTURE_MUTANTS = (
         (
             "the earlier residual is not carried over",
             "mean = SHARED * cross.T @",
-            "0.0 * seen",
+            "mean = 0.0 * cross.T @",
         ),
         ("the scale of the earlier recording is forgotten", "prior = scale**2 * self", "prior = self"),
         ("phases ignore the length of systole", "FALL * since / systole", "since / self.period"),
