@@ -24,7 +24,7 @@ PROCESSES = 2
 ROOT = Path(__file__).resolve().parents[2]
 BANK, MEASURED = ROOT / "resources" / "other_worlds", ROOT / "docs" / "measured"
 HEALTHY = 4
-HEAD = "# made by python -m benchmarks.other_worlds.score"
+HEAD = "# made by: python -m benchmarks.other_worlds.score"
 Task = tuple[OtherHeart, OtherHeart | None, Structure]
 
 

@@ -1,11 +1,12 @@
 """Verdicts on hearts of other simulators: what is right depends on whether the model needs a mechanism."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model.cause import Cause
+from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
 from heartfit.observation.curve import Curve
 from heartfit.results.other_worlds import (
     AGAINST,
@@ -13,10 +14,13 @@ from heartfit.results.other_worlds import (
     HEALTHY,
     MECHANISM,
     PARAMETERS,
+    Exchanged,
     Judged,
+    exchange_table,
     fits_table,
     hearts_table,
     outcomes_table,
+    priors_table,
 )
 from heartfit.synthetic.other_worlds import OtherHeart
 from heartfit.synthetic.trial import ScoredDiagnosis
@@ -93,3 +97,31 @@ def test_a_heart_is_listed_with_its_verdict_and_the_best_mechanisms() -> None:
         "mitral stenosis",
         "right",
     )
+
+
+def searched(name: str, factor: float, verdict: str = "none") -> Diagnosis:
+    causes = (Cause(name, factor, 1.0, "1", (0.5, 1.5)),) if verdict == "named" else ()
+    return Diagnosis(verdict, causes, (), "", (), 1, 0.8, 5.0, ranking={"unknown": 40.0, name: factor})  # type: ignore[arg-type]
+
+
+def test_the_price_of_structure_is_counted_at_equal_thresholds() -> None:
+    """One leak that is found with trust at 12 and within structure at 6, and a healthy heart with 4 and 2."""
+    leak, no_leak = frozenset({"Leak"}), frozenset[str]()
+    table = exchange_table(
+        [
+            Exchanged(leak, searched("Leak", 12.0, "named"), searched("Leak", 6.0)),
+            Exchanged(no_leak, searched("Scar", 4.0), searched("Scar", 2.0)),
+        ]
+    ).set_index("rule")
+    at_3, at_5, at_10 = (table.loc[f"best ln Bayes factor at least {least}"] for least in (3, 5, 10))
+    assert (at_3["trust: false alarms"], at_3["structure: false alarms"]) == ("1 of 1", "0 of 1")
+    assert (at_5["trust: right"], at_5["structure: right"]) == ("1 of 1", "1 of 1")
+    assert (at_10["trust: right"], at_10["structure: right"]) == ("1 of 1", "0 of 1")
+    assert table.loc["verdict", "trust: right"] == "1 of 1"
+    assert table.loc["verdict", "structure: right"] == "0 of 1"
+    assert set(table["trust: wrong"]) == {"0 of 1"}
+
+
+def test_the_priors_of_the_page_are_those_of_the_code() -> None:
+    stored = Path(__file__).parents[2] / "docs" / "measured" / "other_worlds_priors.tsv"
+    assert stored.read_text().split("\n", 1)[1] == priors_table().to_csv(sep="\t", index=False)
