@@ -14,6 +14,9 @@ from heartfit.roles import registered
 from heartfit.synthetic.other_worlds import EXPECTED, UPSTROKE, OtherHeart, measure
 
 BANK = Path(__file__).parents[2] / "resources" / "other_worlds"
+WARNED = {"physioblocks": {4003, 4019, 4044}, "regazzoni": {1060}}
+"""Seeds of healthy hearts that are warned of, by simulator: an atrial kick between the last frame and the first; 40 % of
+a stroke volume that moves while the pressure rises."""
 WORLDS = sorted(BANK.glob("*.csv"))
 
 
@@ -26,8 +29,8 @@ def test_a_world_has_healthy_hearts_and_every_illness_in_two_severities(hearts: 
     kinds = [(heart.illness, heart.severity) for heart in hearts]
     assert kinds.count(("", "")) >= 20
     for illness in EXPECTED.keys() - {""}:
-        moderate, severe = (kinds.count((illness, severity)) for severity in ("moderate", "severe"))
-        assert moderate == severe >= 1
+        count = 1 if hearts[0].world == "korakianitis" else 2
+        assert [kinds.count((illness, severity)) for severity in ("moderate", "severe")] == [count, count]
 
 
 def test_every_ill_heart_has_its_healthy_beat_of_the_same_rate(hearts: list[OtherHeart]) -> None:
@@ -51,13 +54,14 @@ def test_healthy_hearts_are_within_the_ranges_of_people(hearts: list[OtherHeart]
 
 
 def test_a_measured_heart_is_plausible_and_its_upstroke_follows_the_trigger(hearts: list[OtherHeart]) -> None:
-    delays, warned, healthy = [], 0, sum(not heart.illness for heart in hearts)
+    delays, warned = [], set()
     for heart in hearts:
         measured = Recording.from_curves(measure(heart))
-        warned += not heart.illness and bool(implausible(measured))
+        if not heart.illness and implausible(measured):
+            warned.add(heart.seed)
         pressure = measured.curves["lv_pressure"]
         delays.append(pressure.times[int(np.argmax(np.diff(pressure.values)))])
-    assert warned <= 0.1 * healthy
+    assert warned == WARNED.get(hearts[0].world, set())
     assert np.median(delays) == pytest.approx(UPSTROKE[0], abs=0.012)
 
 
