@@ -7,11 +7,10 @@ nothing else uses. Stores docs/measured/other_worlds_exchange.tsv. Ten minutes o
 import sys
 from concurrent.futures import ProcessPoolExecutor
 
-from benchmarks.other_worlds.score import MEASURED, PROCESSES
+from benchmarks.other_worlds.score import PROCESSES, store_table
 from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure
-from heartfit.io.files import write_text
 from heartfit.io.structure import read_residuals
 from heartfit.results.other_worlds import Exchanged, exchange_table
 from heartfit.synthetic.campaign import PlantedPlan
@@ -34,11 +33,7 @@ def main() -> None:
     ]
     with ProcessPoolExecutor(PROCESSES) as pool:
         exchanged = list(pool.map(searched, plans))
-    text = exchange_table(exchanged).to_csv(sep="\t", index=False)
-    write_text(
-        MEASURED / "other_worlds_exchange.tsv",
-        f"# made by: python -m benchmarks.other_worlds.exchange\n{text}",
-    )
+    store_table("exchange", exchange_table(exchanged), "exchange")
 
 
 def searched(plan: PlantedPlan) -> Exchanged:

@@ -11,8 +11,7 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.baseline import healthy_residual
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.io.other_worlds import read_other_hearts
-from heartfit.io.structure import BANK as RESIDUALS
-from heartfit.io.structure import write_residuals
+from heartfit.io.structure import HEALTHY_RESIDUALS, write_residuals
 from heartfit.synthetic.other_worlds import OtherHeart, noise_free
 
 HEARTS = 16
@@ -29,8 +28,8 @@ def main() -> None:
     with ProcessPoolExecutor(PROCESSES) as pool:
         residuals = list(pool.map(residual, hearts))
     keys = [(heart.world, heart.seed) for heart in hearts]
-    write_residuals(RESIDUALS, dict(zip(keys, residuals, strict=True)))
-    sys.stdout.write(f"{len(hearts)} residuals in {RESIDUALS}\n")
+    write_residuals(HEALTHY_RESIDUALS, dict(zip(keys, residuals, strict=True)))
+    sys.stdout.write(f"{len(hearts)} residuals in {HEALTHY_RESIDUALS}\n")
 
 
 def residual(heart: OtherHeart) -> Floats:

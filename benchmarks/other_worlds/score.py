@@ -11,6 +11,8 @@ from concurrent.futures import ProcessPoolExecutor
 from itertools import zip_longest
 from pathlib import Path
 
+import pandas as pd
+
 from heartfit.discovery.sphere_model.diagnose import diagnose, diagnose_change
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure
@@ -24,7 +26,6 @@ PROCESSES = 2
 ROOT = Path(__file__).resolve().parents[2]
 BANK, MEASURED = ROOT / "resources" / "other_worlds", ROOT / "docs" / "measured"
 HEALTHY = 4
-HEAD = "# made by: python -m benchmarks.other_worlds.score"
 Task = tuple[OtherHeart, OtherHeart | None, Structure]
 
 
@@ -50,7 +51,16 @@ def store(judged: list[Judged]) -> None:
         "priors": priors_table(),
     }
     for name, table in tables.items():
-        write_text(MEASURED / f"other_worlds_{name}.tsv", f"{HEAD}\n{table.to_csv(sep=chr(9), index=False)}")
+        store_table(name, table, "score")
+
+
+def store_table(name: str, table: pd.DataFrame, module: str) -> None:
+    """Write docs/measured/other_worlds_NAME.tsv, made by a module of this package."""
+    text = table.to_csv(sep="\t", index=False)
+    write_text(
+        MEASURED / f"other_worlds_{name}.tsv",
+        f"# made by: python -m benchmarks.other_worlds.{module}\n{text}",
+    )
 
 
 def tasks(path: Path) -> Iterator[Task]:

@@ -17,7 +17,7 @@ from heartfit.io.files import write_text
 from heartfit.io.recordings import read_recording
 from heartfit.io.text import number_in, read_cells
 
-BANK = Path(__file__).with_name("healthy_residuals.csv")
+HEALTHY_RESIDUALS = Path(__file__).with_name("healthy_residuals.csv")
 """Residuals of healthy hearts of simulators that others wrote."""
 COLUMNS = tuple(f"{curve}_{phase}" for curve in ("volume", "pressure") for phase in range(PHASES))
 FEWEST_CONTROLS = 5
@@ -33,7 +33,7 @@ def write_residuals(path: Path, residuals: Mapping[tuple[str, int], Floats]) -> 
     write_text(path, "\n".join([",".join(["simulator", "seed", *COLUMNS]), *rows]) + "\n")
 
 
-def read_residuals(path: Path = BANK, leave_out: Iterable[str] = ()) -> Floats:
+def read_residuals(path: Path = HEALTHY_RESIDUALS, leave_out: Iterable[str] = ()) -> Floats:
     """Read residuals (N, 2 PHASES) of all simulators but those left out."""
     cells = read_cells(path, ",", "residuals of healthy hearts as CSV")
     kept = [row for row, simulator in enumerate(cells["simulator"]) if simulator not in set(leave_out)]

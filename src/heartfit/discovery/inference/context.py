@@ -76,13 +76,9 @@ def _conditional_curves(
         size**2 * block.noise.discrepancy_covariance(block.times, block.times, block.period)
         for block in data.blocks
     ]
-    noise = [
-        block.noise.covariance(block.times, block.period, block.noise.levels[level])
-        for block, level in zip(data.blocks, levels, strict=True)
-    ]
     K = block_diag(*smooth)
     structure = 0.0 if data.structure is None else scale**2 * data.structure
-    factor = cho_factor(block_diag(*noise) + structure + K + jacobian @ jacobian.T)
+    factor = cho_factor(data.noise_covariance(levels) + structure + K + jacobian @ jacobian.T)
     mean = K @ cho_solve(factor, at_centre)
     variance = np.diag(K) - np.einsum("ij,ji->i", K, cho_solve(factor, K))
     sd = np.sqrt(np.maximum(variance, 0.0))

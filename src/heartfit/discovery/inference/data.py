@@ -100,6 +100,14 @@ class Data:
         if not np.isfinite(self.values).all():
             raise InputError("data: a value is not finite: leave the sample out")
 
+    def noise_covariance(self, levels: Sequence[int]) -> Floats:
+        """Sigma (n, n) with every block at one of its levels."""
+        covariances = [
+            block.noise.covariance(block.times, block.period, block.noise.levels[level])
+            for block, level in zip(self.blocks, levels, strict=True)
+        ]
+        return np.asarray(block_diag(*covariances), np.float64)
+
     @property
     def rows(self) -> tuple[slice, ...]:
         """Slices of ``values``, one for each block."""

@@ -5,12 +5,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.context import FitContext
-from heartfit.discovery.inference.data import Data
+from heartfit.discovery.inference.data import Data, Whitening
 from heartfit.discovery.inference.evidence import Explanation, fit
 from heartfit.discovery.inference.hypothesis import CountedHypothesis
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel, hypothesis
@@ -39,9 +38,9 @@ class SphereProblem:
         recorded size, the ADULT of a trusted model or the middle of all PEOPLE, if None.
         """
         data = search_data(recording)
-        times = {block.curve: block.times for block in data.blocks}
         middle = ADULT if structure is None else PEOPLE
-        problem = cls(recording, data, SphereForwardModel(nominal or middle.scaled_to(recording), times))
+        model = SphereForwardModel.at_samples(nominal or middle.scaled_to(recording), data.blocks)
+        problem = cls(recording, data, model)
         return problem if structure is None else problem._within(structure)
 
     def _within(self, structure: Structure) -> "SphereProblem":
@@ -119,14 +118,9 @@ def learn_from_controls(controls: Mapping[str, Recording]) -> Structure:
 def learn_from_earlier(before: Recording, structure: Structure) -> tuple[NominalHeart, Structure]:
     """Return the heart that was fitted to a recording, and the discrepancy of a second recording of the same heart."""
     problem = SphereProblem.from_recording(before, structure=structure)
-    explained, blocks = problem.fit(), problem.data.blocks
-    left = problem.data.values - explained.fit.predicted
-    levels, scale = FitContext(problem.data).whitening.most_probable_levels(left)
-    noise = block_diag(
-        *(
-            block.noise.covariance(block.times, block.period, block.noise.levels[level])
-            for block, level in zip(blocks, levels, strict=True)
-        )
-    )
-    heart = replace(perturb(problem.model.nominal, explained.fit.x), stands_for="change")
-    return heart, structure.after(problem.frame.weights(blocks), noise, left, scale)
+    data, fitted = problem.data, problem.fit().fit
+    left = data.values - fitted.predicted
+    levels, scale = Whitening.from_data(data).most_probable_levels(left)
+    heart = replace(perturb(problem.model.nominal, fitted.x), stands_for="change")
+    weights = problem.frame.weights(data.blocks)
+    return heart, structure.after(weights, data.noise_covariance(levels), left, scale)

@@ -1,7 +1,7 @@
 """The sphere forward model, and every mechanism as a hypothesis about it."""
 
 from collections import OrderedDict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
 from operator import add
@@ -10,6 +10,7 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.core.parameter import Parameter, parameters_of
+from heartfit.discovery.inference.data import Block
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.sphere_model.nominal_heart import (
     FREE_PARAMETERS,
@@ -43,6 +44,11 @@ class SphereForwardModel:
     offsets: dict[str, Floats] = field(default_factory=dict)
     simulations: int = 0
     _beats: "OrderedDict[bytes, Beat]" = field(default_factory=OrderedDict)
+
+    @classmethod
+    def at_samples(cls, nominal: NominalHeart, blocks: Iterable[Block]) -> "SphereForwardModel":
+        """Return the forward model of the samples of measured curves."""
+        return cls(nominal, {block.curve: block.times for block in blocks})
 
     def predict(self, x: Floats, effects: Sequence[Mechanism]) -> Floats | None:
         """The curves (n,) [SI], one after the other, at the coordinates x (23,); None where the simulation fails."""

@@ -15,7 +15,7 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.context import FitContext
-from heartfit.discovery.inference.data import Data
+from heartfit.discovery.inference.data import Data, Whitening
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.sphere_model.baseline import SphereProblem
 from heartfit.discovery.sphere_model.cause import Gain
@@ -43,7 +43,7 @@ class HeldOutPrediction:
 
     def log_likelihood_gain(self) -> float:
         """ln likelihood of the held-out data with the cause, minus that without."""
-        whitening = FitContext(self.data).whitening
+        whitening = Whitening.from_data(self.data)
         baseline, extended = (
             whitening.log_likelihood(self.data.values - predicted)
             for predicted in (self.baseline, self.extended)
@@ -85,10 +85,6 @@ def predict_unseen(
     )
 
 
-def _forward_model(nominal: NominalHeart, data: Data) -> SphereForwardModel:
-    return SphereForwardModel(nominal, {block.curve: block.times for block in data.blocks})
-
-
 def predict_condition(
     name: str,
     nominal: NominalHeart,
@@ -113,7 +109,7 @@ def _fit_loading(
         pairs = zip(LOADING.items(), change.tolist(), strict=True)
         changed = {path: nominal.values[path] * exp(sd * z) for (path, sd), z in pairs}
         loaded = replace(nominal, heart=nominal.heart.with_parameters(changed))
-        return hypothesis(_forward_model(loaded, data), effects).forward(x)
+        return hypothesis(SphereForwardModel.at_samples(loaded, data.blocks), effects).forward(x)
 
     loading = Hypothesis((), tuple(Coordinate(path) for path in LOADING), forward)
     explanation = FitContext(data).explain(loading, loading.at(0.0))

@@ -95,7 +95,7 @@ class _PlannedRecording:
 
     def __init__(self, nominal: NominalHeart) -> None:
         self.blocks = search_data(_sample_recording(nominal).halves()[0]).blocks
-        self.model = SphereForwardModel(nominal, {block.curve: block.times for block in self.blocks})
+        self.model = SphereForwardModel.at_samples(nominal, self.blocks)
         self.candidates = candidates(self.model)
 
     def log_bayes_factor(self, candidate: Candidate, amplitude: float, heart: Floats) -> float:
@@ -175,7 +175,7 @@ def _measurement(
     blocks = tuple(_block(name, period) for name in option.curves) or data.blocks
 
     def forward(effects: tuple[str, ...]) -> Callable[[Floats], Floats | None]:
-        model = SphereForwardModel(loaded, {block.curve: block.times for block in blocks})
+        model = SphereForwardModel.at_samples(loaded, blocks)
         return hypothesis(model, tuple(library[name] for name in effects)).forward
 
     return FurtherMeasurement(option.name, option.cost, blocks, forward)

@@ -155,7 +155,7 @@ class FreeParameter:
 
     def at(self, nominal: float, x: float, standing: Standing = "person") -> float:
         """Value [SI] at x standard deviations from the nominal one."""
-        sd = {"person": self.person, "people": self.people, "change": self.change}[standing]
+        sd: float | None = getattr(self, standing)
         difference = (self.person if sd is None else sd) * x
         return nominal + difference if self.additive else nominal * exp(difference)
 

@@ -151,7 +151,7 @@ def _noise(block: Block, random: np.random.Generator) -> Floats:
 def largest_log_bayes_factor(data: Data, nominal: NominalHeart) -> float:
     """The largest ln Bayes factor of any mechanism over the baseline; infinite where the sphere does not beat."""
     model, context = (
-        SphereForwardModel(nominal, {block.curve: block.times for block in data.blocks}),
+        SphereForwardModel.at_samples(nominal, data.blocks),
         FitContext(data),
     )
     baseline = context.explain(hypothesis(model), np.zeros(len(BASE_COORDINATES)))

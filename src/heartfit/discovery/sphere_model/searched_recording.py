@@ -34,7 +34,8 @@ def traces(findings: Findings, explained: Explanation, data: Data) -> tuple[Trac
     """One trace for each curve; noise: at the level that is most probable under the explanation."""
     baseline, best = findings.survey.baseline.fit, explained.fit
     levels, scale = Whitening.from_data(data).most_probable_levels(data.values - best.predicted)
-    parts = zip(data.blocks, data.rows, levels, findings.baseline_discrepancy, strict=True)
+    noise = np.sqrt(np.diag(data.noise_covariance(levels)))
+    parts = zip(data.blocks, data.rows, findings.baseline_discrepancy, strict=True)
     return tuple(
         Trace(
             block.curve,
@@ -42,15 +43,16 @@ def traces(findings: Findings, explained: Explanation, data: Data) -> tuple[Trac
             data.values[rows],
             baseline.predicted[rows],
             best.predicted[rows],
-            np.sqrt(np.diag(block.noise.covariance(block.times, block.period, block.noise.levels[level]))),
+            noise[rows],
             lacking.mean,
             lacking.sd,
             None if data.structure is None else scale * np.sqrt(np.diag(data.structure)[rows]),
         )
-        for block, rows, level, lacking in parts
+        for block, rows, lacking in parts
     )
 
 
+VOLUME_ALONE = ("lv_volume",)
 VOLUME_ONLY_THRESHOLD = 10.0
 """ln Bayes factor that a recording of the volume alone must give: it shows one in nine of the effects that pressure
 reveals, and an instrument explains a single curve as well as a heart does."""
@@ -84,7 +86,7 @@ class SearchedRecording:
         problem = SphereProblem.from_recording(recording, nominal, structure)
         data, model = problem.data, problem.model
         library = candidates(model)
-        if recording.searched == ("lv_volume",):
+        if recording.searched == VOLUME_ALONE:
             rules = replace(rules, detected=max(rules.detected, VOLUME_ONLY_THRESHOLD))
         findings = search(
             data,
@@ -104,14 +106,16 @@ class SearchedRecording:
     def verdict(self) -> Verdict:
         """The verdict of the search, before held-out tests."""
         verdict = self.findings.decision.verdict
-        alone = self.recording.searched == ("lv_volume",)
-        if alone and verdict not in NAMING_VERDICTS:
-            return "insufficient"
-        return self.nothing if verdict == "none" else verdict
+        shown = verdict in NAMING_VERDICTS or (
+            verdict == "unknown" and self.recording.searched != VOLUME_ALONE
+        )
+        return verdict if shown else self.nothing
 
     @property
     def nothing(self) -> Verdict:
         """The verdict where no effect is detected; a change of one heart is told from its own discrepancy."""
+        if self.recording.searched == VOLUME_ALONE:
+            return "insufficient"
         other_model = self.findings.structural_scale > 0.0 and self.model.nominal.stands_for == "people"
         return "model" if other_model else "none"
 
@@ -121,7 +125,7 @@ class SearchedRecording:
         evidences = self.findings.evidences
         if evidences.discrepancy - evidences.baseline >= self.rules.detected:
             return "unknown"
-        return "insufficient" if self.recording.searched == ("lv_volume",) else self.nothing
+        return self.nothing
 
     @property
     def explanations(self) -> tuple[Effects, ...]:
