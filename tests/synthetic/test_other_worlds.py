@@ -15,8 +15,8 @@ from heartfit.synthetic.other_worlds import EXPECTED, UPSTROKE, OtherHeart, meas
 
 BANK = Path(__file__).parents[2] / "resources" / "other_worlds"
 WARNED = {"physioblocks": {4003, 4019, 4044}, "regazzoni": {1060}}
-"""Seeds of healthy hearts that are warned of, by simulator: an atrial kick between the last frame and the first; 40 % of
-a stroke volume that moves while the pressure rises."""
+"""Seeds of healthy hearts that are warned of, by simulator: an atrial kick between the last and the first frame; 40 %
+of a stroke volume that moves while the pressure rises."""
 WORLDS = sorted(BANK.glob("*.csv"))
 
 
