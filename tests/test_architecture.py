@@ -11,6 +11,7 @@ ROOMS = (
     "geometry",
     "roles",
     "mechanisms",
+    "places",
     "heart",
     "imaging",
     "calibration",
@@ -26,7 +27,7 @@ ROOMS = (
 """A room may import itself and what stands above it in this list."""
 
 PHYSICS = {"geometry", "roles", "mechanisms", "heart", "imaging", "observation", "calibration", "discovery"}
-PHYSICS |= {"synthetic"}
+PHYSICS |= {"synthetic", "places"}
 VECTORS = ("calibration", "discovery/inference")
 """Folders that know parameters and observations as vectors, and no heart."""
 

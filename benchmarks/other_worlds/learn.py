@@ -8,8 +8,8 @@ from concurrent.futures import ProcessPoolExecutor
 
 from benchmarks.other_worlds.score import BANK, PROCESSES
 from heartfit.core.arrays import Floats
-from heartfit.discovery.sphere_model.baseline import healthy_residual
 from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.structure import healthy_residual
 from heartfit.io.other_worlds import read_other_hearts
 from heartfit.io.structure import HEALTHY_RESIDUALS, write_residuals
 from heartfit.synthetic.other_worlds import OtherHeart, noise_free

@@ -1,8 +1,7 @@
 """Search hearts of other simulators, each within the structure of the others: python -m benchmarks.other_worlds.score
 
-Of every file of resources/other_worlds: HEALTHY healthy hearts and the severe one of each illness alone, then the same
-ill ones against their own healthy beat. Prints a line per heart and stores all in docs/measured/other_worlds_*.tsv.
-Forty minutes of two cores.
+Of every file of resources/other_worlds: HEALTHY healthy hearts and the severe one of each illness. Prints a line per
+heart and stores docs/measured/other_worlds_*.tsv. Twenty-five minutes of two cores.
 """
 
 import sys
@@ -13,20 +12,27 @@ from pathlib import Path
 
 import pandas as pd
 
-from heartfit.discovery.sphere_model.diagnose import diagnose, diagnose_change
+from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure
 from heartfit.io.files import write_text
 from heartfit.io.other_worlds import read_other_hearts
 from heartfit.io.structure import read_residuals
-from heartfit.results.other_worlds import Judged, fits_table, hearts_table, outcomes_table, priors_table
+from heartfit.results.other_worlds import (
+    ALONE,
+    Judged,
+    fits_table,
+    hearts_table,
+    outcomes_table,
+    priors_table,
+)
 from heartfit.synthetic.other_worlds import OtherHeart, measure
 
 PROCESSES = 2
 ROOT = Path(__file__).resolve().parents[2]
 BANK, MEASURED = ROOT / "resources" / "other_worlds", ROOT / "docs" / "measured"
 HEALTHY = 4
-Task = tuple[OtherHeart, OtherHeart | None, Structure]
+Task = tuple[OtherHeart, Structure]
 
 
 def main() -> None:
@@ -64,26 +70,20 @@ def store_table(name: str, table: pd.DataFrame, module: str) -> None:
 
 
 def tasks(path: Path) -> Iterator[Task]:
-    """Yield hearts with the beat before their illness, None where they are searched alone, and the structure."""
+    """Yield hearts and the structure of the other simulators."""
     hearts = read_other_hearts(path)
     structure = Structure.from_residuals(read_residuals(leave_out=(path.stem,)))
-    healthy = {heart.seed: heart for heart in hearts if not heart.illness}
+    healthy = [heart for heart in hearts if not heart.illness]
     ill = {heart.illness: heart for heart in reversed(hearts) if heart.severity == "severe"}
-    for heart in (*list(healthy.values())[:HEALTHY], *ill.values()):
-        yield heart, None, structure
-    for heart in ill.values():
-        yield heart, healthy[heart.seed], structure
+    for heart in (*healthy[:HEALTHY], *ill.values()):
+        yield heart, structure
 
 
 def searched(task: Task) -> Judged:
-    """Diagnose the measured heart alone, or against its healthy beat."""
-    heart, before, structure = task
+    """Diagnose the measured heart."""
+    heart, structure = task
     recording = Recording.from_curves(measure(heart))
-    if before is None:
-        diagnosis = diagnose(recording, structure=structure)
-    else:
-        diagnosis = diagnose_change(recording, Recording.from_curves(measure(before)), structure)
-    return Judged.from_diagnosis(heart, before is not None, diagnosis)
+    return Judged.from_diagnosis(heart, ALONE, diagnose(recording, structure=structure))
 
 
 if __name__ == "__main__":

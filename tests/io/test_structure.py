@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from heartfit.core.errors import InputError
-from heartfit.discovery.sphere_model.structure import PHASES
+from heartfit.discovery.sphere_model.landmarks import PHASES
 from heartfit.io.structure import FEWEST_CONTROLS, read_controls, read_residuals, write_residuals
 
 RESIDUALS = {

@@ -9,15 +9,16 @@ import pytest
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
 from heartfit.observation.curve import Curve
 from heartfit.results.other_worlds import (
-    AGAINST,
     ALONE,
     HEALTHY,
     MECHANISM,
     PARAMETERS,
     Exchanged,
     Judged,
+    changes_table,
     exchange_table,
     fits_table,
+    functions_table,
     hearts_table,
     outcomes_table,
     priors_table,
@@ -33,7 +34,7 @@ def judged(illness: str, verdict: str, *names: str, misfit: float = 1.0) -> Judg
     curves = Curve(TIMES, 100e-6 + 40e-6 * WAVE, 0.8), Curve(TIMES, 8e3 - 7e3 * WAVE, 0.8)
     heart = OtherHeart("elsewhere", 1, illness, "severe" if illness else "", *curves)
     causes = tuple(Cause(name, 9.0, 1.0, "1", (0.5, 1.5)) for name in names)
-    return Judged(heart, False, ScoredDiagnosis(verdict, causes), {"lv_volume": misfit}, 1.0)
+    return Judged(heart, ALONE, ScoredDiagnosis(verdict, causes), {"lv_volume": misfit}, 1.0)
 
 
 @pytest.mark.parametrize(
@@ -76,11 +77,26 @@ def test_outcomes_are_counted_by_kind_with_an_exact_interval() -> None:
     assert (all_healthy["simulator"], all_healthy["number"]) == ("all", 3)
 
 
-def test_a_heart_against_its_healthy_beat_is_counted_apart() -> None:
-    alone = judged("mitral stenosis", "unknown")
-    table = outcomes_table([replace(alone, against=True), alone])
-    assert table["recording"].tolist() == [ALONE, ALONE, AGAINST, AGAINST]
-    assert table["simulator"].tolist() == ["elsewhere", "all", "elsewhere", "all"]
+def test_changes_are_counted_by_severity_and_illness_with_sums() -> None:
+    stenosis, weak = judged("mitral stenosis", "unknown"), judged("weak ventricle", "none")
+    named = judged("mitral stenosis", "named", "MitralStenosis")
+    moderate = replace(named, heart=replace(named.heart, severity="moderate"))
+    table = changes_table([stenosis, weak, named, moderate])
+    rows = {(row["severity"], row["illness"]): row for row in table.to_dict("records")}
+    assert list(rows) == [
+        *(("moderate", illness) for illness in ("mitral stenosis", MECHANISM)),
+        *(("severe", illness) for illness in ("mitral stenosis", "weak ventricle", PARAMETERS, MECHANISM)),
+        *(("all", illness) for illness in (PARAMETERS, MECHANISM, "all")),
+    ]
+    severe, everything = rows["severe", "mitral stenosis"], rows["all", "all"]
+    assert (severe["number"], severe["right"], severe["unknown"]) == (2, 1, 1)
+    assert (everything["number"], everything["right"], everything["wrong"]) == (4, 3, 0)
+
+
+def test_misfits_with_functions_are_medians_by_simulator() -> None:
+    table = functions_table([("one", {"lv_volume": size}) for size in (1.0, 3.0, 5.0)])
+    (row,) = table.to_dict("records")
+    assert (row["healthy hearts"], row["left ventricular volume, over noise"]) == (3, "3.0")
 
 
 def test_fits_are_medians_of_healthy_hearts() -> None:

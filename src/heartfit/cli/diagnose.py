@@ -138,7 +138,9 @@ def diagnose(arguments: argparse.Namespace) -> int:
         print(f"{arguments.measured}: warning: {line}", file=sys.stderr)
     if arguments.against:
         before = read_recording(arguments.against)
-        conclusion = diagnosis.diagnose_change(recording, before, _structure(arguments))
+        for line in implausible(before, str(arguments.against)):
+            print(f"{arguments.against}: warning: {line}", file=sys.stderr)
+        conclusion = diagnosis.diagnose_change(recording, before)
     else:
         rules = STRICT_RULES if arguments.strict else DEFAULT_RULES
         structure = None if arguments.trust_simulator else _structure(arguments)
@@ -153,8 +155,7 @@ def diagnose(arguments: argparse.Namespace) -> int:
 
 def _structure(arguments: argparse.Namespace) -> "Structure":
     """Return the structure of the user's controls or, without them, of healthy hearts of other simulators."""
-    from heartfit.discovery.sphere_model.baseline import learn_from_controls
-    from heartfit.discovery.sphere_model.structure import Structure
+    from heartfit.discovery.sphere_model.structure import Structure, learn_from_controls
     from heartfit.io.structure import read_controls, read_residuals
 
     if arguments.reference:

@@ -11,8 +11,8 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
+from heartfit.discovery.sphere_model.landmarks import PHASES
 from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.discovery.sphere_model.structure import PHASES
 from heartfit.io.files import write_text
 from heartfit.io.recordings import read_recording
 from heartfit.io.text import number_in, read_cells

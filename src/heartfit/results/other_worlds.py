@@ -10,7 +10,7 @@ from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.nominal_heart import FREE_PARAMETERS, FreeParameter
 from heartfit.observation.noise_model import Share
 from heartfit.results.cause_card import CURVES, spaced_name
-from heartfit.synthetic.other_worlds import OtherHeart
+from heartfit.synthetic.other_worlds import EXPECTED, OtherHeart
 from heartfit.synthetic.scoring import SILENT
 from heartfit.synthetic.trial import ScoredDiagnosis
 
@@ -24,27 +24,27 @@ STRONGEST = 3
 
 @dataclass(frozen=True, eq=False)
 class Judged:
-    """A heart of another simulator and its diagnosis, alone or ``against`` its healthy beat.
+    """A heart of another simulator and its diagnosis.
 
-    misfit: root mean square residual of the model without a mechanism, over the standard deviation of the noise, by
-    curve; scale: most probable one of the structural covariance.
+    recording: ALONE or AGAINST; misfit: root mean square residual of the model without a mechanism, over the
+    standard deviation of the noise, by curve; scale: most probable one of the structural covariance.
     """
 
     heart: OtherHeart
-    against: bool
+    recording: str
     finding: ScoredDiagnosis
     misfit: Mapping[str, float]
     scale: float
 
     @classmethod
-    def from_diagnosis(cls, heart: OtherHeart, against: bool, diagnosis: Diagnosis) -> "Judged":
+    def from_diagnosis(cls, heart: OtherHeart, recording: str, diagnosis: Diagnosis) -> "Judged":
         """Judge a diagnosis."""
         misfit = {
             trace.curve: float(np.sqrt(np.mean(((trace.measured - trace.none) / trace.noise) ** 2)))
             for trace in diagnosis.traces
         }
         finding = ScoredDiagnosis.of(diagnosis, 0.0)
-        return cls(heart, against, finding, misfit, diagnosis.structural_scale)
+        return cls(heart, recording, finding, misfit, diagnosis.structural_scale)
 
     @property
     def kind(self) -> str:
@@ -52,11 +52,6 @@ class Judged:
         if self.heart.expected:
             return MECHANISM
         return PARAMETERS if self.heart.illness else HEALTHY
-
-    @property
-    def recording(self) -> str:
-        """ALONE or AGAINST."""
-        return AGAINST if self.against else ALONE
 
     @property
     def outcome(self) -> str:
@@ -76,15 +71,30 @@ def outcomes_table(judged: Sequence[Judged]) -> pd.DataFrame:
         for one in judged:
             if simulator in (ALL, one.heart.world):
                 groups.setdefault((one.recording, simulator, one.kind), []).append(one)
-    rows = sorted(groups.items(), key=lambda entry: entry[0][0] != ALONE)
-    return pd.DataFrame([_outcomes(*row) for row in rows])
+    columns = ("recording", "simulator", "hearts")
+    return pd.DataFrame(
+        [_outcomes(dict(zip(columns, key, strict=True)), group) for key, group in groups.items()]
+    )
 
 
-def _outcomes(key: tuple[str, str, str], group: Sequence[Judged]) -> dict[str, object]:
+def changes_table(judged: Sequence[Judged]) -> pd.DataFrame:
+    """Return outcomes of ill hearts against their healthy beats by severity and illness; then sums."""
+    groups: dict[tuple[str, str], list[Judged]] = {}
+    for one in judged:
+        severity, illness = one.heart.severity, one.heart.illness
+        for key in ((severity, illness), (severity, one.kind), (ALL, one.kind), (ALL, ALL)):
+            groups.setdefault(key, []).append(one)
+    order = {illness: place for place, illness in enumerate((*EXPECTED, PARAMETERS, MECHANISM, ALL))}
+    rows = sorted(groups.items(), key=lambda row: (row[0][0] == ALL, row[0][0], order[row[0][1]]))
+    return pd.DataFrame(
+        [_outcomes({"severity": severity, "illness": illness}, group) for (severity, illness), group in rows]
+    )
+
+
+def _outcomes(names: Mapping[str, str], group: Sequence[Judged]) -> dict[str, object]:
     counts = {outcome: sum(one.outcome == outcome for one in group) for outcome in OUTCOMES}
     share = Share.from_count(counts["right"], len(group))
     interval = f"{100.0 * share.low:.0f} to {100.0 * share.high:.0f}"
-    names = dict(zip(("recording", "simulator", "hearts"), key, strict=True))
     return {**names, "number": len(group), **counts, "right (%), 95 % CI": interval}
 
 
@@ -104,6 +114,22 @@ def _fits(world: str, group: Sequence[Judged]) -> dict[str, object]:
     }
     scale = _median(one.scale for one in group)
     return {"simulator": world, "healthy hearts": len(group), **misfits, "scale of the structure": scale}
+
+
+def functions_table(misfits: Sequence[tuple[str, Mapping[str, float]]]) -> pd.DataFrame:
+    """Return medians of the misfits by curve, over the noise, of pairs of simulator and misfits."""
+    groups: dict[str, list[Mapping[str, float]]] = {}
+    for world, misfit in misfits:
+        groups.setdefault(world, []).append(misfit)
+    rows = [
+        {
+            "simulator": world,
+            "healthy hearts": len(group),
+            **{f"{CURVES[curve]}, over noise": _median(one[curve] for one in group) for curve in group[0]},
+        }
+        for world, group in groups.items()
+    ]
+    return pd.DataFrame(rows)
 
 
 def _median(values: Iterable[float]) -> str:

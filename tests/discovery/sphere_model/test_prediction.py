@@ -11,10 +11,10 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Block, Data, Noise
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.sphere_model import held_out as module
-from heartfit.discovery.sphere_model.baseline import SphereProblem
 from heartfit.discovery.sphere_model.forward_model import Candidate, SphereForwardModel
 from heartfit.discovery.sphere_model.held_out import predict_condition, predict_unseen
 from heartfit.discovery.sphere_model.nominal_heart import ADULT
+from heartfit.discovery.sphere_model.problem import SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
 
 PERIOD = 0.8

@@ -1,18 +1,11 @@
-"""The structural discrepancy: phases between landmarks, its covariance, and what an earlier recording tells of it."""
+"""The structural discrepancy: phases between landmarks, and its covariance."""
 
 import numpy as np
 import pytest
 
 from heartfit.discovery.inference.data import Block, Noise
-from heartfit.discovery.sphere_model.structure import (
-    FALL,
-    PHASES,
-    SHARED,
-    SHRINKAGE,
-    Frame,
-    Landmarks,
-    Structure,
-)
+from heartfit.discovery.sphere_model.landmarks import FALL, PHASES, Frame, Landmarks
+from heartfit.discovery.sphere_model.structure import SHRINKAGE, Structure
 
 PERIOD = 0.8
 MARKS = Landmarks(0.1, 0.4, PERIOD)
@@ -63,33 +56,8 @@ def test_of_a_curve_that_no_residual_has_nothing_is_learnt() -> None:
 def test_the_covariance_keeps_the_variances_and_shrinks_all_else() -> None:
     structure = Structure.from_residuals(RESIDUALS)
     empirical = RESIDUALS.T @ RESIDUALS / 7
-    assert not structure.mean.any(), "the next simulator may err to the other side"
     assert np.diag(structure.covariance) == pytest.approx(np.diag(empirical))
     across = structure.covariance[:PHASES, PHASES:]
     assert across == pytest.approx((1.0 - SHRINKAGE) * empirical[:PHASES, PHASES:])
     assert np.linalg.eigvalsh(structure.covariance).min() > -1e-12
     assert np.linalg.matrix_rank(structure.covariance) > 40, "of 7 hearts"
-
-
-def test_an_earlier_recording_tells_what_the_joint_gaussian_tells() -> None:
-    """Two recordings of one heart: discrepancies with covariance s^2 S and correlation beta between them."""
-    structure, scale = Structure.from_residuals(RESIDUALS), 0.5
-    weights = np.random.default_rng(3).standard_normal((30, 2 * PHASES))
-    noise = np.diag(np.random.default_rng(4).uniform(0.5, 2.0, 30))
-    residual = np.random.default_rng(5).standard_normal(30)
-    prior = scale**2 * structure.covariance
-    cross = SHARED * prior @ weights.T
-    inverse = np.linalg.inv(noise + weights @ prior @ weights.T)
-    after = structure.after(weights, noise, residual, scale)
-    assert after.mean == pytest.approx(cross @ inverse @ residual)
-    assert after.covariance == pytest.approx(prior - cross @ inverse @ cross.T)
-    assert after.scales == (1.0,), "the earlier recording has told the scale"
-
-
-def test_a_perfect_earlier_recording_leaves_what_is_not_shared() -> None:
-    structure = Structure.from_residuals(RESIDUALS)
-    whole, exact = np.eye(2 * PHASES), 1e-9 * np.eye(2 * PHASES)
-    after = structure.after(whole, exact, RESIDUALS[0], 1.0)
-    assert after.mean == pytest.approx(SHARED * RESIDUALS[0], abs=1e-5)
-    left = np.diag(after.covariance) / np.diag(structure.covariance)
-    assert left == pytest.approx(np.full(2 * PHASES, 1.0 - SHARED**2), rel=1e-4)

@@ -1,9 +1,11 @@
-"""Mutants of the structural discrepancy: its covariance, what an earlier recording tells, and the rules beside it."""
+"""Mutants of the structural discrepancy, of functions inside the equations, and of the rules beside them."""
 
 from tests.mutations.mutant import changes
 
 STRUCTURE = "tests/discovery/sphere_model/test_structure.py"
-BASELINE = "tests/discovery/sphere_model/test_baseline.py"
+PROBLEM = "tests/discovery/sphere_model/test_problem.py"
+EARLIER = "tests/discovery/sphere_model/test_earlier.py"
+PLACES = "tests/places/test_places.py"
 WHITENING = "tests/discovery/inference/test_whitening.py"
 SEARCH = "tests/discovery/inference/test_search.py"
 WITHDRAWAL = "tests/discovery/sphere_model/test_withdrawal.py"
@@ -13,13 +15,10 @@ STRUCTURE_MUTANTS = (
         "discovery/sphere_model/structure.py",
         STRUCTURE,
         ("nothing is shrunk", "(1.0 - SHRINKAGE) * empirical", "empirical"),
-        ("two recordings share all", "prior - SHARED**2 * cross.T", "prior - cross.T"),
-        (
-            "the earlier residual is not carried over",
-            "mean = SHARED * cross.T @",
-            "mean = 0.0 * cross.T @",
-        ),
-        ("the scale of the earlier recording is forgotten", "prior = scale**2 * self", "prior = self"),
+    ),
+    *changes(
+        "discovery/sphere_model/landmarks.py",
+        STRUCTURE,
         ("phases ignore the length of systole", "FALL * since / systole", "since / self.period"),
     ),
     *changes(
@@ -39,12 +38,47 @@ STRUCTURE_MUTANTS = (
     ),
     *changes(
         "discovery/inference/decide.py",
-        BASELINE,
+        PROBLEM,
         ("structure raises no threshold", "if scale == 0.0:", "if scale >= 0.0:"),
     ),
     *changes(
+        "discovery/inference/decide.py",
+        EARLIER,
+        (
+            "a change needs what structure asks for",
+            "CHANGE_RULES = Rules(detected_beside_structure=5.0, ",
+            "CHANGE_RULES = Rules(",
+        ),
+    ),
+    *changes(
+        "discovery/sphere_model/earlier.py",
+        EARLIER,
+        ("the functions are forgotten", "heart=_with_places(heart, z), stands_for", "stands_for"),
+        (
+            "a change may have any level of noise",
+            "levels = self.levels.get(block.curve, block.noise.levels)",
+            "levels = block.noise.levels",
+        ),
+        (
+            "the covariance is that of the parameters",
+            "model.jacobian(at, predicted, BASE)",
+            "model.jacobian(at, predicted)[:, :BASE]",
+        ),
+    ),
+    *changes(
+        "places/periodic.py",
+        PLACES,
+        ("the mean varies as a wave", "np.where(k > 0, 2.0, 1.0)", "2.0"),
+        ("sines are cosines", "np.sin(angle)", "np.cos(angle)"),
+    ),
+    *changes(
+        "places/wall_pressure.py",
+        PLACES,
+        ("the right ventricle is pressed, too", ' if ventricle == "lv" else Load()', ""),
+    ),
+    *changes(
         "discovery/sphere_model/forward_model.py",
-        BASELINE,
+        EARLIER,
         ("instruments change between recordings", 'stands_for == "change":', 'stands_for == "chance":'),
     ),
     *changes(

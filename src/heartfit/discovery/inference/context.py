@@ -24,7 +24,7 @@ from scipy.special import logsumexp
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Block, Data, Whitening
-from heartfit.discovery.inference.evidence import Explanation, Fit, fit, linear_posterior
+from heartfit.discovery.inference.evidence import SIMULATION_LIMIT, Explanation, Fit, fit, linear_posterior
 from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
 
 DISCREPANCY_SIZES = (0.4, 1.0, 2.5)
@@ -106,10 +106,11 @@ class FitContext:
         slopes: Floats | None = None,
         trusted: int = 0,
         target: float = np.inf,
+        limit: int = SIMULATION_LIMIT,
     ) -> Explanation | None:
         """Fit the hypothesis as :func:`fit` does; None where its simulations fail."""
         model = CountedHypothesis(hypothesis)
-        fitted = fit(model, self.data.values, self.whitening, start, slopes, trusted, target)
+        fitted = fit(model, self.data.values, self.whitening, start, slopes, trusted, target, limit)
         self.simulations += model.runs
         return None if fitted is None else Explanation.from_fit(fitted, self.data.values, self.whitening)
 

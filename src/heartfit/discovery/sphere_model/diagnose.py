@@ -3,9 +3,9 @@
 from collections.abc import Mapping, Sequence
 
 from heartfit.discovery.inference.decide import CHANGE_RULES, DEFAULT_RULES, Effects, Rules, Verdict
-from heartfit.discovery.sphere_model.baseline import learn_from_earlier
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.consistency import implausible
+from heartfit.discovery.sphere_model.earlier import EarlierHeart
 from heartfit.discovery.sphere_model.held_out import (
     HeldOutPrediction,
     predict_condition,
@@ -13,9 +13,9 @@ from heartfit.discovery.sphere_model.held_out import (
 )
 from heartfit.discovery.sphere_model.limits import RECORD_PRESSURE, next_measurement
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
+from heartfit.discovery.sphere_model.problem import DiscrepancyPrior
 from heartfit.discovery.sphere_model.recording import UNSEARCHED, Recording
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording, traces
-from heartfit.discovery.sphere_model.structure import Structure
 
 
 def diagnose(
@@ -24,7 +24,7 @@ def diagnose(
     nominal: NominalHeart | None = None,
     rules: Rules = DEFAULT_RULES,
     unseen: Recording | None = None,
-    structure: Structure | None = None,
+    structure: DiscrepancyPrior | None = None,
 ) -> Diagnosis:
     """Diagnose the effects that the model of the heart lacks to explain the recording.
 
@@ -42,14 +42,15 @@ def diagnose(
     return conclude(case, conditions or {}, warnings)
 
 
-def diagnose_change(after: Recording, before: Recording, structure: Structure) -> Diagnosis:
+def diagnose_change(after: Recording, before: Recording) -> Diagnosis:
     """Diagnose what has changed between two recordings of one heart: parameters, or a mechanism.
 
-    The sphere is fitted to the earlier recording within the ``structure`` of healthy hearts. What it leaves there it is
-    expected to leave in the later one, up to the part that two recordings do not share.
+    The sphere is fitted to the earlier recording with free functions inside its equations, which the later one keeps up
+    to small changes. Raises InputError as :func:`diagnose` does.
     """
-    heart, shared = learn_from_earlier(before, structure)
-    return diagnose(after, nominal=heart.at_period(after.period), rules=CHANGE_RULES, structure=shared)
+    earlier = EarlierHeart.from_recording(before)
+    nominal = earlier.at_period(after.period)
+    return diagnose(after, nominal=nominal, rules=CHANGE_RULES, structure=earlier)
 
 
 def conclude(

@@ -35,13 +35,11 @@ CACHED_BEATS = 256
 class SphereForwardModel:
     """Predictions of curves at their ``times`` [s after the trigger], by name.
 
-    offsets: known discrepancies of curves [SI] at these times, which are added; simulations: number of beats that were
-    run; an instrument costs none.
+    simulations: number of beats that were run; an instrument costs none.
     """
 
     nominal: NominalHeart
     times: Mapping[str, Floats]
-    offsets: dict[str, Floats] = field(default_factory=dict)
     simulations: int = 0
     _beats: "OrderedDict[bytes, Beat]" = field(default_factory=OrderedDict)
 
@@ -56,11 +54,7 @@ class SphereForwardModel:
         if simulated is None:
             return None
         heart, beat = simulated
-        curves = [
-            observe_curve(beat, heart, name, times) + self.offsets.get(name, 0.0)
-            for name, times in self.times.items()
-        ]
-        return np.concatenate(curves)
+        return np.concatenate([observe_curve(beat, heart, name, times) for name, times in self.times.items()])
 
     def simulate(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Heart, Beat] | None:
         """The heart at the coordinates x (23,) and its beat; None where the simulation fails."""

@@ -17,10 +17,10 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.data import Data, Whitening
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
-from heartfit.discovery.sphere_model.baseline import SphereProblem
 from heartfit.discovery.sphere_model.cause import Gain
 from heartfit.discovery.sphere_model.forward_model import Candidate, SphereForwardModel, hypothesis
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
+from heartfit.discovery.sphere_model.problem import SphereProblem
 
 LOADING = {"circulation.left_atrium": 0.3, "circulation.systemic.R_p": 0.3}
 """Parameters that another condition may change, with the standard deviations of the logarithm of the change."""

@@ -161,7 +161,7 @@ class FreeParameter:
 
 
 SPHERE_PARAMETERS = (
-    FreeParameter(("cavity",), 0.15, 0.20, 0.03),
+    FreeParameter(("cavity",), 0.15, 0.20, 0.15),
     FreeParameter(("spread",), 0.20, 0.30, 0.10),
     FreeParameter(("mitral_inertance",), 0.40, 0.40, 0.10),
     FreeParameter(("aortic_inertance",), 0.40, 0.40, 0.10),
@@ -192,7 +192,7 @@ HEART_PARAMETERS = (
         ("circulation.left_atrium",),
         0.15,
         0.30,
-        0.30,
+        0.40,
         source="wedge pressure at rest 8.0 (sd 2.9) mmHg, Kovacs et al. 2009",
     ),
     FreeParameter(("circulation.mitral.open",), 0.40, 0.40, 0.10),

@@ -11,7 +11,6 @@ from heartfit.discovery.inference.data import Data, Whitening
 from heartfit.discovery.inference.decide import DEFAULT_RULES, Effects, Rules, Verdict
 from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.inference.search import Findings, search
-from heartfit.discovery.sphere_model.baseline import SphereProblem
 from heartfit.discovery.sphere_model.cause import CLEAR_DEVIATIONS, Cause, Change, FittedModel, Trace
 from heartfit.discovery.sphere_model.forward_model import (
     Candidate,
@@ -25,8 +24,8 @@ from heartfit.discovery.sphere_model.nominal_heart import (
     FreeParameter,
     NominalHeart,
 )
+from heartfit.discovery.sphere_model.problem import DiscrepancyPrior, SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.discovery.sphere_model.structure import Structure
 from heartfit.observation.beat import BeatPhases, beat_curves
 
 
@@ -70,7 +69,7 @@ class SearchedRecording:
     findings: Findings
     rules: Rules
     unseen: Recording | None = None
-    structure: Structure | None = None
+    structure: DiscrepancyPrior | None = None
 
     @classmethod
     def search(
@@ -79,7 +78,7 @@ class SearchedRecording:
         nominal: NominalHeart | None = None,
         rules: Rules = DEFAULT_RULES,
         unseen: Recording | None = None,
-        structure: Structure | None = None,
+        structure: DiscrepancyPrior | None = None,
     ) -> "SearchedRecording":
         """Fit every mechanism, pairs and the GP discrepancy to the recording; nominal: a sphere fitted to a
         beat of the 3-D model; the adult's, scaled to the recorded size, if None."""

@@ -1,4 +1,4 @@
-"""A search within the structure of other simulators, and of a change between two recordings of one heart."""
+"""A recording as a problem of inference, and a search within the structure of other simulators."""
 
 from dataclasses import replace
 
@@ -7,20 +7,13 @@ import pytest
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.decide import DEFAULT_RULES
-from heartfit.discovery.sphere_model.baseline import (
-    SphereProblem,
-    healthy_residual,
-    learn_from_controls,
-    learn_from_earlier,
-)
-from heartfit.discovery.sphere_model.diagnose import diagnose, diagnose_change
-from heartfit.discovery.sphere_model.forward_model import candidates
+from heartfit.discovery.sphere_model.diagnose import diagnose
+from heartfit.discovery.sphere_model.landmarks import PHASES
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS, PEOPLE, perturb
+from heartfit.discovery.sphere_model.problem import SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.discovery.sphere_model.structure import PHASES, Structure
+from heartfit.discovery.sphere_model.structure import Structure, healthy_residual, learn_from_controls
 from heartfit.io.structure import read_residuals
-from heartfit.roles import Sensor
-from heartfit.synthetic.campaign import PlantedPlan
 from tests.discovery.sphere_model.hearts import LEAK, healthy, recorded
 
 STRUCTURE = Structure.from_residuals(read_residuals())
@@ -75,24 +68,6 @@ def test_a_leak_in_a_heart_of_our_law_is_named_within_the_structure_of_others() 
     diagnosis = diagnose(recorded(LEAK), structure=STRUCTURE)
     assert {cause.name for cause in diagnosis.mechanisms} == {"MitralRegurgitation"}
     assert all(trace.structure is not None for trace in diagnosis.traces)
-
-
-@pytest.mark.usefixtures("few_mechanisms")
-def test_a_leak_since_an_earlier_recording_is_named_and_its_parameters_stay() -> None:
-    before = recorded(PlantedPlan(1, "none"))
-    diagnosis = diagnose_change(recorded(LEAK), before, STRUCTURE)
-    assert {cause.name for cause in diagnosis.mechanisms} == {"MitralRegurgitation"}
-    unchanged = diagnose_change(before, before, STRUCTURE)
-    assert unchanged.verdict == "none"
-    assert unchanged.mechanisms == ()
-
-
-def test_a_change_is_of_no_instrument_and_beside_it_the_rules_do_not_rise() -> None:
-    heart, shared = learn_from_earlier(healthy(4), STRUCTURE)
-    assert heart.stands_for == "change"
-    problem = SphereProblem.from_recording(healthy(4), heart, shared)
-    assert not [one for one in candidates(problem.model).values() if issubclass(one.kind, Sensor)]
-    assert set(problem.model.offsets) == {"lv_volume", "lv_pressure"}
 
 
 def test_beside_structure_more_is_needed() -> None:

@@ -1,23 +1,30 @@
-"""Fit of the sphere without a mechanism: what it leaves of a healthy heart, and of the same heart at another time."""
+"""A recording as a problem of inference, and the fit of the sphere without a mechanism."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
-from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.context import FitContext
-from heartfit.discovery.inference.data import Data, Whitening
+from heartfit.discovery.inference.data import Data
 from heartfit.discovery.inference.evidence import Explanation, fit
 from heartfit.discovery.inference.hypothesis import CountedHypothesis
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel, hypothesis
-from heartfit.discovery.sphere_model.nominal_heart import ADULT, PEOPLE, NominalHeart, perturb
+from heartfit.discovery.sphere_model.landmarks import FINE, Frame, Landmarks
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, PEOPLE, NominalHeart
 from heartfit.discovery.sphere_model.recording import BIN, Recording, averaged_by_phase, search_data
-from heartfit.discovery.sphere_model.structure import CURVES, FINE, Frame, Landmarks, Structure
 
 NO_BEAT = "baseline: the sphere does not beat about the nominal heart; expected it to"
+
+
+class DiscrepancyPrior(Protocol):
+    """Prior of a difference between the sphere and the source of a recording, which its data may hold."""
+
+    def enter(self, problem: "SphereProblem") -> "SphereProblem":
+        """Return the problem with the covariance of the discrepancy in its data."""
+        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +37,10 @@ class SphereProblem:
 
     @classmethod
     def from_recording(
-        cls, recording: Recording, nominal: NominalHeart | None = None, structure: Structure | None = None
+        cls,
+        recording: Recording,
+        nominal: NominalHeart | None = None,
+        structure: "DiscrepancyPrior | None" = None,
     ) -> "SphereProblem":
         """Pose the problem.
 
@@ -41,19 +51,7 @@ class SphereProblem:
         middle = ADULT if structure is None else PEOPLE
         model = SphereForwardModel.at_samples(nominal or middle.scaled_to(recording), data.blocks)
         problem = cls(recording, data, model)
-        return problem if structure is None else problem._within(structure)
-
-    def _within(self, structure: Structure) -> "SphereProblem":
-        weights = self.frame.weights(self.data.blocks)
-        mean = weights @ structure.mean
-        blocks = zip(self.data.blocks, self.data.rows, strict=True)
-        return replace(
-            self,
-            data=replace(
-                self.data, structure=weights @ structure.covariance @ weights.T, scales=structure.scales
-            ),
-            model=replace(self.model, offsets={block.curve: mean[rows] for block, rows in blocks}),
-        )
+        return problem if structure is None else structure.enter(problem)
 
     @cached_property
     def frame(self) -> Frame:
@@ -90,37 +88,3 @@ class SphereProblem:
         if explained is None:
             raise InputError(NO_BEAT)
         return explained
-
-
-def healthy_residual(recording: Recording) -> Floats:
-    """Return what the sphere leaves of a healthy heart, (2 PHASES,); raises InputError without volume and pressure."""
-    missing = [curve for curve in CURVES if curve not in recording.curves]
-    if missing:
-        raise InputError(
-            f"reference: no {' and '.join(missing)}; expected volume and pressure of every control"
-        )
-    problem = SphereProblem.from_recording(recording, PEOPLE.scaled_to(recording))
-    left = problem.data.values - problem.fit().fit.predicted
-    return problem.frame.residual(problem.data.blocks, [left[rows] for rows in problem.data.rows])
-
-
-def learn_from_controls(controls: Mapping[str, Recording]) -> Structure:
-    """Return the structure of what the sphere leaves of controls, by name; raises InputError that names a control."""
-    residuals = []
-    for name, recording in controls.items():
-        try:
-            residuals.append(healthy_residual(recording))
-        except InputError as error:
-            raise InputError(f"{name}: {error}") from error
-    return Structure.from_residuals(np.array(residuals))
-
-
-def learn_from_earlier(before: Recording, structure: Structure) -> tuple[NominalHeart, Structure]:
-    """Return the heart that was fitted to a recording, and the discrepancy of a second recording of the same heart."""
-    problem = SphereProblem.from_recording(before, structure=structure)
-    data, fitted = problem.data, problem.fit().fit
-    left = data.values - fitted.predicted
-    levels, scale = Whitening.from_data(data).most_probable_levels(left)
-    heart = replace(perturb(problem.model.nominal, fitted.x), stands_for="change")
-    weights = problem.frame.weights(data.blocks)
-    return heart, structure.after(weights, data.noise_covariance(levels), left, scale)

@@ -1,0 +1,150 @@
+r"""A heart at an earlier time: the sphere with free functions inside its equations, fitted to its recording.
+
+The parameters x alone leave of other people's hearts what the law of the muscle and of the circulation lacks. Functions
+of time at the places of :mod:`heartfit.places`, with coordinates z, take it up where it acts:
+
+.. math:: y = f(x, z) + \epsilon, \qquad x \sim N(0, I), \quad z \sim N(0, I) .
+
+Later the same heart has the same functions up to small changes, of which the data see
+
+.. math:: f(x, z + s\, \zeta) \approx f(x, z) + s J \zeta, \quad \zeta \sim N(0, I), \qquad S = J J^T,
+          \quad J = \partial f / \partial z ,
+
+a structural covariance with the scales s. The functions follow the phase of the beat: at another rate they are
+stretched with it. The instruments are the same, and so is the level of their noise.
+
+References: Alvarez, Luengo and Lawrence 2013, doi:10.1109/TPAMI.2013.86; Kennedy and O'Hagan 2001,
+doi:10.1111/1467-9868.00294.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from operator import add
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.data import Block, Data, Whitening
+from heartfit.discovery.inference.evidence import Explanation
+from heartfit.discovery.inference.hypothesis import Coordinate, CountedHypothesis, Hypothesis
+from heartfit.discovery.sphere_model.forward_model import BASE_COORDINATES, SphereForwardModel
+from heartfit.discovery.sphere_model.nominal_heart import PEOPLE, NominalHeart, perturb
+from heartfit.discovery.sphere_model.problem import NO_BEAT, SphereProblem
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.heart.heart import Heart
+from heartfit.places import COEFFICIENTS, PLACES, Place
+
+CHANGE_SCALES = (0.05, 0.1, 0.2)
+"""s: standard deviations of a change of the functions over those of the functions, equally likely."""
+FINE_LEVELS = 3
+"""Number of the lowest levels of noise with which an earlier recording is fitted: at the higher ones what the law lacks
+counts as noise, and the functions stay zero."""
+FIT_LIMIT = 3000
+"""Simulations after which a fit of the functions is given up."""
+BASE = len(BASE_COORDINATES)
+
+
+@dataclass(frozen=True, eq=False)
+class EarlierHeart:
+    """The fitted heart, its functions among its mechanisms.
+
+    coordinates: z (p,) of the functions; levels: standard deviations [SI] of the noise that are possible later, by
+    curve.
+    """
+
+    nominal: NominalHeart
+    coordinates: Floats
+    levels: Mapping[str, tuple[float, ...]]
+
+    @classmethod
+    def from_recording(cls, recording: Recording) -> "EarlierHeart":
+        """Fit the heart to a recording; raises InputError where the sphere does not beat."""
+        problem = SphereProblem.from_recording(recording, PEOPLE.scaled_to(recording))
+        fitted = _fit(replace(problem, data=_with_fine_levels(problem.data))).fit
+        x, z = np.split(fitted.x, [BASE])
+        levels, _ = Whitening.from_data(problem.data).most_probable_levels(
+            problem.data.values - fitted.predicted
+        )
+        blocks = zip(problem.data.blocks, levels, strict=True)
+        heart = perturb(problem.model.nominal, x)
+        return cls(
+            replace(heart, heart=_with_places(heart, z), stands_for="change"),
+            z,
+            {block.curve: block.noise.levels[level : level + 2] for block, level in blocks},
+        )
+
+    def at_period(self, period: float) -> NominalHeart:
+        """Return the heart at another period [s]."""
+        return self.nominal.at_period(period)
+
+    def misfit(self, recording: Recording) -> dict[str, float]:
+        """Return the root mean square residual of the earlier recording over the noise, by curve."""
+        problem = SphereProblem.from_recording(recording, self.nominal)
+        predicted = problem.model.predict(np.zeros(BASE), ())
+        if predicted is None:
+            raise InputError(NO_BEAT)
+        left = problem.data.values - predicted
+        blocks = zip(problem.data.blocks, problem.data.rows, strict=True)
+        return {
+            block.curve: float(np.sqrt(np.mean(left[rows] ** 2))) / self.levels[block.curve][0]
+            for block, rows in blocks
+        }
+
+    def enter(self, problem: SphereProblem) -> SphereProblem:
+        """Return the problem of a later recording, whose data may hold changes of the functions."""
+        model = CountedHypothesis(_hypothesis(problem.model))
+        at = np.concatenate([np.zeros(BASE), self.coordinates])
+        predicted = model(at)
+        if predicted is None:
+            raise InputError(NO_BEAT)
+        jacobian = model.jacobian(at, predicted, BASE)
+        blocks = tuple(map(self._at_earlier_level, problem.data.blocks))
+        data = replace(problem.data, blocks=blocks, structure=jacobian @ jacobian.T, scales=CHANGE_SCALES)
+        return replace(problem, data=data)
+
+    def _at_earlier_level(self, block: Block) -> Block:
+        levels = self.levels.get(block.curve, block.noise.levels)
+        return replace(block, noise=replace(block.noise, levels=levels))
+
+
+def _fit(problem: SphereProblem) -> Explanation:
+    """Fit parameters and functions, from the fit of the parameters alone and from the prior mean."""
+    context, hypothesis = FitContext(problem.data), _hypothesis(problem.model)
+    alone, mean = problem.fit().fit.x, hypothesis.at(0.0)
+    starts = (np.concatenate([alone, mean[BASE:]]), mean)
+    fits = [context.explain(hypothesis, start, limit=FIT_LIMIT) for start in starts]
+    completed = [explained for explained in fits if explained is not None]
+    if not completed:
+        raise InputError(NO_BEAT)
+    return min(completed, key=lambda explained: explained.fit.objective)
+
+
+def _with_fine_levels(data: Data) -> Data:
+    fine = [replace(block.noise, levels=block.noise.levels[:FINE_LEVELS]) for block in data.blocks]
+    blocks = zip(data.blocks, fine, strict=True)
+    return replace(data, blocks=tuple(replace(block, noise=noise) for block, noise in blocks))
+
+
+def _hypothesis(model: SphereForwardModel) -> Hypothesis:
+    """Return the hypothesis without a mechanism whose coordinates are those of the parameters and of the functions."""
+    period = model.nominal.heart.period
+    functions = tuple(
+        Coordinate(f"{place.__name__}.{index}") for place in PLACES for index in range(COEFFICIENTS)
+    )
+
+    def forward(x: Floats) -> Floats | None:
+        return model.predict(x[:BASE], _places(x[BASE:], period))
+
+    return Hypothesis((), BASE_COORDINATES + functions, forward)
+
+
+def _with_places(nominal: NominalHeart, z: Floats) -> Heart:
+    return reduce(add, _places(z, nominal.heart.period), nominal.heart)
+
+
+def _places(z: Floats, period: float) -> Sequence[Place]:
+    parts = np.split(z, len(PLACES))
+    return [place.from_standardised(part, period) for place, part in zip(PLACES, parts, strict=True)]
