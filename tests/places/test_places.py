@@ -15,7 +15,7 @@ from heartfit.places import (
     PeriodicFunction,
     WallPressure,
 )
-from heartfit.places.periodic import HARMONICS, LENGTH, Place, prior_deviations
+from heartfit.places.periodic import LENGTH, Place, prior_deviations
 from heartfit.roles import registered
 from heartfit.roles.laws import Load
 
@@ -30,22 +30,13 @@ def predicted(*places: Place) -> np.ndarray:
     return curves
 
 
-def projected(curve: np.ndarray) -> PeriodicFunction:
-    """The function with the lowest harmonics of a curve at TIMES."""
-    waves = np.fft.rfft(curve) / curve.size
-    return PeriodicFunction(
-        np.concatenate(
-            [waves[:1].real, 2.0 * waves[1 : HARMONICS + 1].real, -2.0 * waves[1 : HARMONICS + 1].imag]
-        )
-    )
-
-
 def test_a_function_is_periodic_and_returns_its_harmonics() -> None:
     z = np.random.default_rng(1).standard_normal(COEFFICIENTS)
     function = PeriodicFunction(z)
     assert function.at(TIMES + 3.0 * PERIOD, PERIOD) == pytest.approx(function.at(TIMES, PERIOD))
-    assert projected(function.at(TIMES, PERIOD)).coefficients == pytest.approx(z)
+    assert PeriodicFunction.from_samples(function.at(TIMES, PERIOD)).coefficients == pytest.approx(z)
     assert function.at(TIMES.reshape(4, 100), PERIOD).shape == (4, 100)
+    assert WallPressure.from_standardised(z, PERIOD).standardised(PERIOD) == pytest.approx(z)
 
 
 def test_the_prior_has_unit_variance_and_the_correlation_of_a_gaussian() -> None:
@@ -89,7 +80,7 @@ def test_a_place_with_the_course_of_a_mechanism_has_its_beat(place: type[Place],
         else law.pressure("aorta", TIMES, PERIOD)
     )
     with_law, alone = predicted(law), predicted()
-    gap = predicted(place(projected(pulse))) - with_law
+    gap = predicted(place(PeriodicFunction.from_samples(pulse))) - with_law
     effect = with_law - alone
     for rows in (slice(0, 400), slice(400, 800)):
         assert np.abs(gap[rows]).max() < 0.02 * np.abs(effect[rows]).max()

@@ -33,6 +33,12 @@ class PeriodicFunction:
         """Return the function of the coordinates z (COEFFICIENTS,), A being the ``amplitude``, T the ``period`` [s]."""
         return cls(amplitude * prior_deviations(period) * z)
 
+    @classmethod
+    def from_samples(cls, values: Floats) -> Self:
+        """Return the lowest harmonics of ``values`` (n,) at equidistant times from 0 over a period."""
+        waves = np.fft.rfft(values)[: HARMONICS + 1] / values.size
+        return cls(np.concatenate([waves[:1].real, 2.0 * waves[1:].real, -2.0 * waves[1:].imag]))
+
     def at(self, time: Floats, period: float) -> Floats:
         """Return the values at ``time`` (any shape) [s]."""
         angle = 2.0 * np.pi / period * np.multiply.outer(np.asarray(time), np.arange(1, HARMONICS + 1))
@@ -65,3 +71,7 @@ class Place(Mechanism):
     def from_standardised(cls, z: Floats, period: float) -> Self:
         """Return the place with the function of the coordinates z (COEFFICIENTS,)."""
         return cls(PeriodicFunction.from_standardised(z, cls.amplitude, period))
+
+    def standardised(self, period: float) -> Floats:
+        """Return the coordinates z (COEFFICIENTS,) of the function."""
+        return self.function.coefficients / (self.amplitude * prior_deviations(period))

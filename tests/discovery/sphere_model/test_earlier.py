@@ -12,8 +12,9 @@ from heartfit.discovery.sphere_model.earlier import BASE, CHANGE_SCALES, Earlier
 from heartfit.discovery.sphere_model.forward_model import candidates
 from heartfit.discovery.sphere_model.problem import SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.heart.heart import Heart
 from heartfit.io.other_worlds import read_other_hearts
-from heartfit.places import COEFFICIENTS, PLACES, Place
+from heartfit.places import PLACES, Place, WallPressure
 from heartfit.roles import Sensor
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.other_worlds import OtherHeart, measure
@@ -67,9 +68,24 @@ def test_functions_fit_the_heart_of_another_simulator_to_its_noise(
 def test_the_fitted_heart_holds_all_functions(earlier: EarlierHeart) -> None:
     kinds = {type(mechanism) for mechanism in earlier.nominal.heart.mechanisms}
     assert kinds >= set(PLACES)
-    assert earlier.coordinates.shape == (len(PLACES) * COEFFICIENTS,)
     assert earlier.nominal.stands_for == "change"
-    assert earlier.at_period(0.7).heart.period == 0.7
+    assert earlier.at_period(earlier.nominal.heart.period) == earlier.nominal
+
+
+def test_at_another_rate_the_functions_follow_the_phases(earlier: EarlierHeart) -> None:
+    """Values at the activation, in the middle and at the end of the action potential, and 50 ms later."""
+    slow, fast = earlier.nominal.heart, earlier.at_period(0.9 * earlier.nominal.heart.period).heart
+
+    def values(heart: Heart) -> np.ndarray:
+        control = heart.tissue.control
+        marks = control.onset + control.duration * np.array([0.0, 0.5, 1.0])
+        times = np.append(marks, marks[-1] + 0.05)
+        (wall,) = (one for one in heart.mechanisms if isinstance(one, WallPressure))
+        return wall.function.at(times, heart.period)
+
+    assert fast.tissue.control.duration < slow.tissue.control.duration
+    assert values(fast) == pytest.approx(values(slow), abs=300.0), "of some 10 kPa, kept by eight harmonics"
+    assert np.ptp(values(slow)) > 3000.0
 
 
 def test_small_changes_of_the_functions_have_the_covariance_of_their_beats(
@@ -83,8 +99,10 @@ def test_small_changes_of_the_functions_have_the_covariance_of_their_beats(
     assert same is not None
     scale, draws, period = 0.02, np.random.default_rng(5), before.period
     squares = np.zeros(same.size)
+    present = {type(one): one for one in earlier.nominal.heart.mechanisms if isinstance(one, Place)}
+    fitted = np.concatenate([present[place].standardised(period) for place in PLACES])
     for _ in range(20):
-        z = earlier.coordinates + scale * draws.standard_normal(earlier.coordinates.size)
+        z = fitted + scale * draws.standard_normal(fitted.size)
         parts = zip(PLACES, np.split(z, len(PLACES)), strict=True)
         changed = problem.model.predict(
             AT_MEAN, [place.from_standardised(part, period) for place, part in parts]

@@ -55,6 +55,11 @@ STRUCTURE_MUTANTS = (
         EARLIER,
         ("the functions are forgotten", "heart=_with_places(heart, z), stands_for", "stands_for"),
         (
+            "functions keep their course at another rate",
+            "place.function.at(times, period)",
+            "place.function.at(times[-1] / (SAMPLES - 1) * np.arange(SAMPLES), times[-1] * SAMPLES / (SAMPLES - 1))",
+        ),
+        (
             "a change may have any level of noise",
             "levels = self.levels.get(block.curve, block.noise.levels)",
             "levels = block.noise.levels",

@@ -10,8 +10,9 @@ Later the same heart has the same functions up to small changes, of which the da
 .. math:: f(x, z + s\, \zeta) \approx f(x, z) + s J \zeta, \quad \zeta \sim N(0, I), \qquad S = J J^T,
           \quad J = \partial f / \partial z ,
 
-a structural covariance with the scales s. The functions follow the phase of the beat: at another rate they are
-stretched with it. The instruments are the same, and so is the level of their noise.
+a structural covariance with the scales s. At another rate the functions follow the phases of the beat: those of systole
+are stretched as the action potential, that of relaxation is not, and diastole takes the rest. The instruments are the
+same, and so is the level of their noise.
 
 References: Alvarez, Luengo and Lawrence 2013, doi:10.1109/TPAMI.2013.86; Kennedy and O'Hagan 2001,
 doi:10.1111/1467-9868.00294.
@@ -35,13 +36,17 @@ from heartfit.discovery.sphere_model.nominal_heart import PEOPLE, NominalHeart, 
 from heartfit.discovery.sphere_model.problem import NO_BEAT, SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.heart import Heart
-from heartfit.places import COEFFICIENTS, PLACES, Place
+from heartfit.places import COEFFICIENTS, PLACES, PeriodicFunction, Place
 
 CHANGE_SCALES = (0.05, 0.1, 0.2)
 """s: standard deviations of a change of the functions over those of the functions, equally likely."""
 FINE_LEVELS = 3
 """Number of the lowest levels of noise with which an earlier recording is fitted: at the higher ones what the law lacks
 counts as noise, and the functions stay zero."""
+RELAXATION = 0.12
+"""Longest time after the action potential [s] at which a function keeps its course at any rate."""
+SAMPLES = 400
+"""Equidistant times between which a function is carried to another rate."""
 FIT_LIMIT = 3000
 """Simulations after which a fit of the functions is given up."""
 BASE = len(BASE_COORDINATES)
@@ -51,12 +56,10 @@ BASE = len(BASE_COORDINATES)
 class EarlierHeart:
     """The fitted heart, its functions among its mechanisms.
 
-    coordinates: z (p,) of the functions; levels: standard deviations [SI] of the noise that are possible later, by
-    curve.
+    levels: standard deviations [SI] of the noise that are possible later, by curve.
     """
 
     nominal: NominalHeart
-    coordinates: Floats
     levels: Mapping[str, tuple[float, ...]]
 
     @classmethod
@@ -72,13 +75,17 @@ class EarlierHeart:
         heart = perturb(problem.model.nominal, x)
         return cls(
             replace(heart, heart=_with_places(heart, z), stands_for="change"),
-            z,
             {block.curve: block.noise.levels[level : level + 2] for block, level in blocks},
         )
 
     def at_period(self, period: float) -> NominalHeart:
-        """Return the heart at another period [s]."""
-        return self.nominal.at_period(period)
+        """Return the heart at another period [s], its functions stretched with the phases of the beat."""
+        nominal = self.nominal.at_period(period)
+        if period == self.nominal.heart.period:
+            return nominal
+        times = _phase_times(nominal.heart, self.nominal.heart, period * np.arange(SAMPLES) / SAMPLES)
+        carried = (_carried(place, times, self.nominal.heart.period) for place in _places(nominal.heart))
+        return replace(nominal, heart=reduce(add, carried, nominal.heart))
 
     def misfit(self, recording: Recording) -> dict[str, float]:
         """Return the root mean square residual of the earlier recording over the noise, by curve."""
@@ -96,7 +103,7 @@ class EarlierHeart:
     def enter(self, problem: SphereProblem) -> SphereProblem:
         """Return the problem of a later recording, whose data may hold changes of the functions."""
         model = CountedHypothesis(_hypothesis(problem.model))
-        at = np.concatenate([np.zeros(BASE), self.coordinates])
+        at = np.concatenate([np.zeros(BASE), _coordinates(problem.model.nominal.heart)])
         predicted = model(at)
         if predicted is None:
             raise InputError(NO_BEAT)
@@ -136,15 +143,43 @@ def _hypothesis(model: SphereForwardModel) -> Hypothesis:
     )
 
     def forward(x: Floats) -> Floats | None:
-        return model.predict(x[:BASE], _places(x[BASE:], period))
+        return model.predict(x[:BASE], _standardised_places(x[BASE:], period))
 
     return Hypothesis((), BASE_COORDINATES + functions, forward)
 
 
 def _with_places(nominal: NominalHeart, z: Floats) -> Heart:
-    return reduce(add, _places(z, nominal.heart.period), nominal.heart)
+    return reduce(add, _standardised_places(z, nominal.heart.period), nominal.heart)
 
 
-def _places(z: Floats, period: float) -> Sequence[Place]:
+def _standardised_places(z: Floats, period: float) -> Sequence[Place]:
     parts = np.split(z, len(PLACES))
     return [place.from_standardised(part, period) for place, part in zip(PLACES, parts, strict=True)]
+
+
+def _places(heart: Heart) -> Sequence[Place]:
+    """Return the places of a heart in the order of PLACES."""
+    present = {type(one): one for one in heart.mechanisms if isinstance(one, Place)}
+    return [present[place] for place in PLACES]
+
+
+def _coordinates(heart: Heart) -> Floats:
+    return np.concatenate([place.standardised(heart.period) for place in _places(heart)])
+
+
+def _carried(place: Place, times: Floats, period: float) -> Place:
+    """Return a place with the values that its function has at ``times`` of its own period [s]."""
+    return type(place)(PeriodicFunction.from_samples(place.function.at(times, period)))
+
+
+def _phase_times(heart: Heart, other: Heart, times: Floats) -> Floats:
+    """Times (k,) [s] at which another heart is at the phases of a heart at ``times`` (k,) [s]."""
+    return np.interp(times, _phase_bounds(heart), _phase_bounds(other))
+
+
+def _phase_bounds(heart: Heart) -> Floats:
+    """Begin of atrial systole, activation, end of the action potential, of relaxation, and of the beat [s]."""
+    control = heart.tissue.control
+    end = control.onset + control.duration
+    relaxed = end + min(RELAXATION, 0.5 * (heart.period - end))
+    return np.array([0.0, control.onset, end, relaxed, heart.period])
