@@ -5,13 +5,10 @@ beside which the rules were set. Prints a line per heart and stores docs/measure
 other_worlds_change_hearts.tsv. Twenty-five minutes of two cores.
 """
 
-import sys
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-from itertools import zip_longest
 from pathlib import Path
 
-from benchmarks.other_worlds.score import BANK, PROCESSES, store_table
+from benchmarks.other_worlds.score import judged_in_turn, simulators, store_table
 from heartfit.discovery.sphere_model.diagnose import diagnose_change
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.io.other_worlds import read_other_hearts
@@ -24,17 +21,9 @@ Pair = tuple[OtherHeart, OtherHeart]
 
 def main() -> None:
     """Search the pairs of all simulators and store the tables."""
-    judged: list[Judged] = []
-    by_simulator = [list(pairs(path)) for path in sorted(BANK.glob("*.csv"))]
-    in_turn = [pair for some in zip_longest(*by_simulator) for pair in some if pair is not None]
-    with ProcessPoolExecutor(PROCESSES) as pool:
-        for one in pool.map(searched, in_turn):
-            judged.append(one)
-            sys.stdout.write(f"{' | '.join(map(str, hearts_table([one]).iloc[0]))}\n")
-            sys.stdout.flush()
-            ordered = sorted(judged, key=lambda one: one.heart.world)
-            store_table("changes", changes_table(ordered), "changes")
-            store_table("change_hearts", hearts_table(ordered), "changes")
+    for judged in judged_in_turn(searched, map(pairs, simulators())):
+        store_table("changes", changes_table(judged), "changes")
+        store_table("change_hearts", hearts_table(judged), "changes")
 
 
 def pairs(path: Path) -> Iterator[Pair]:

@@ -5,10 +5,11 @@ heart and stores docs/measured/other_worlds_*.tsv. Twenty-five minutes of two co
 """
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from itertools import zip_longest
 from pathlib import Path
+from typing import TypeVar
 
 import pandas as pd
 
@@ -33,19 +34,32 @@ ROOT = Path(__file__).resolve().parents[2]
 BANK, MEASURED = ROOT / "resources" / "other_worlds", ROOT / "docs" / "measured"
 HEALTHY = 4
 Task = tuple[OtherHeart, Structure]
+T = TypeVar("T")
 
 
 def main() -> None:
     """Search the hearts of all simulators and store the tables."""
+    for judged in judged_in_turn(searched, map(tasks, simulators())):
+        store(judged)
+
+
+def simulators() -> list[Path]:
+    """Return the files of the bank."""
+    return sorted(BANK.glob("*.csv"))
+
+
+def judged_in_turn(
+    search: Callable[[T], Judged], by_simulator: Iterable[Iterable[T]]
+) -> Iterator[list[Judged]]:
+    """Search one heart of each simulator after the other; print each, and yield all so far by simulator."""
+    tasks = [task for some in zip_longest(*by_simulator) for task in some if task is not None]
     judged: list[Judged] = []
-    by_simulator = [list(tasks(path)) for path in sorted(BANK.glob("*.csv"))]
-    in_turn = [task for some in zip_longest(*by_simulator) for task in some if task is not None]
     with ProcessPoolExecutor(PROCESSES) as pool:
-        for one in pool.map(searched, in_turn):
+        for one in pool.map(search, tasks):
             judged.append(one)
             sys.stdout.write(f"{' | '.join(map(str, hearts_table([one]).iloc[0]))}\n")
             sys.stdout.flush()
-            store(sorted(judged, key=lambda judged_heart: judged_heart.heart.world))
+            yield sorted(judged, key=lambda judged_heart: judged_heart.heart.world)
 
 
 def store(judged: list[Judged]) -> None:
