@@ -6,11 +6,10 @@ python -m benchmarks.other_worlds.learn   the first HEARTS healthy hearts of eac
 import sys
 from concurrent.futures import ProcessPoolExecutor
 
-from benchmarks.other_worlds.score import BANK, PROCESSES
+from benchmarks.other_worlds.score import PROCESSES, healthy_hearts, simulators
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import healthy_residual
-from heartfit.io.other_worlds import read_other_hearts
 from heartfit.io.structure import HEALTHY_RESIDUALS, write_residuals
 from heartfit.synthetic.other_worlds import OtherHeart, noise_free
 
@@ -20,11 +19,7 @@ HEARTS = 16
 
 def main() -> None:
     """Fit all hearts and write the residuals."""
-    hearts = [
-        heart
-        for path in sorted(BANK.glob("*.csv"))
-        for heart in [heart for heart in read_other_hearts(path) if not heart.illness][:HEARTS]
-    ]
+    hearts = [heart for path in simulators() for heart in healthy_hearts(path)[:HEARTS]]
     with ProcessPoolExecutor(PROCESSES) as pool:
         residuals = list(pool.map(residual, hearts))
     keys = [(heart.world, heart.seed) for heart in hearts]

@@ -11,15 +11,15 @@ from pathlib import Path
 from benchmarks.other_worlds.score import (
     HEALTHY,
     Task,
+    healthy_hearts,
     judged_in_turn,
     searched,
+    searched_alone,
     simulators,
     store_table,
-    tasks,
 )
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure, learn_from_controls
-from heartfit.io.other_worlds import read_other_hearts
 from heartfit.results.other_worlds import outcomes_table
 from heartfit.synthetic.other_worlds import measure
 
@@ -35,13 +35,12 @@ def main() -> None:
 def tasks_within_controls(path: Path) -> Iterator[Task]:
     """Yield the hearts of a simulator that are searched alone, and the structure of its controls."""
     structure = learnt(path)
-    return ((heart, structure) for heart, _ in tasks(path))
+    return ((heart, structure) for heart in searched_alone(path))
 
 
 def learnt(path: Path) -> Structure:
     """Return the structure of the controls of a simulator, which come after the healthy hearts that are searched."""
-    healthy = [heart for heart in read_other_hearts(path) if not heart.illness]
-    controls = healthy[HEALTHY : HEALTHY + CONTROLS]
+    controls = healthy_hearts(path)[HEALTHY : HEALTHY + CONTROLS]
     return learn_from_controls({str(heart.seed): Recording.from_curves(measure(heart)) for heart in controls})
 
 

@@ -85,12 +85,19 @@ def store_table(name: str, table: pd.DataFrame, module: str) -> None:
 
 def tasks(path: Path) -> Iterator[Task]:
     """Yield hearts and the structure of the other simulators."""
-    hearts = read_other_hearts(path)
     structure = Structure.from_residuals(read_residuals(leave_out=(path.stem,)))
-    healthy = [heart for heart in hearts if not heart.illness]
-    ill = {heart.illness: heart for heart in reversed(hearts) if heart.severity == "severe"}
-    for heart in (*healthy[:HEALTHY], *ill.values()):
-        yield heart, structure
+    return ((heart, structure) for heart in searched_alone(path))
+
+
+def searched_alone(path: Path) -> list[OtherHeart]:
+    """Return the hearts of a simulator that are searched alone."""
+    ill = {heart.illness: heart for heart in reversed(read_other_hearts(path)) if heart.severity == "severe"}
+    return [*healthy_hearts(path)[:HEALTHY], *ill.values()]
+
+
+def healthy_hearts(path: Path) -> list[OtherHeart]:
+    """Return the healthy hearts of a simulator."""
+    return [heart for heart in read_other_hearts(path) if not heart.illness]
 
 
 def searched(task: Task) -> Judged:

@@ -94,7 +94,7 @@ def test_changes_are_counted_by_severity_and_illness_with_sums() -> None:
 
 
 def test_misfits_with_functions_are_medians_by_simulator() -> None:
-    table = functions_table([("one", {"lv_volume": size}) for size in (1.0, 3.0, 5.0)])
+    table = functions_table({"one": [{"lv_volume": size} for size in (1.0, 3.0, 5.0)]})
     (row,) = table.to_dict("records")
     assert (row["healthy hearts"], row["left ventricular volume, over noise"]) == (3, "3.0")
 

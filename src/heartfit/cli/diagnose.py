@@ -16,6 +16,7 @@ from heartfit.io.fingerprint import fingerprint
 from heartfit.roles import registered
 
 if TYPE_CHECKING:
+    from heartfit.discovery.sphere_model.recording import Recording
     from heartfit.discovery.sphere_model.structure import Structure
 
 
@@ -115,7 +116,6 @@ def diagnose(arguments: argparse.Namespace) -> int:
     from heartfit.core.validation import validate
     from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES
     from heartfit.discovery.sphere_model import diagnose as diagnosis
-    from heartfit.discovery.sphere_model.consistency import implausible
     from heartfit.io.causes import write_cause_card
     from heartfit.io.pressures import read_pressure
     from heartfit.io.recordings import read_conditions, read_recording
@@ -134,12 +134,10 @@ def diagnose(arguments: argparse.Namespace) -> int:
         recording = recording.with_pressure(read_pressure(source, recording.period).curve)
     conditions = read_conditions(arguments.condition, recording.period)
     require_writable(arguments.output)
-    for line in implausible(recording, str(arguments.measured)):
-        print(f"{arguments.measured}: warning: {line}", file=sys.stderr)
+    _warn(recording, arguments.measured)
     if arguments.against:
         before = read_recording(arguments.against)
-        for line in implausible(before, str(arguments.against)):
-            print(f"{arguments.against}: warning: {line}", file=sys.stderr)
+        _warn(before, arguments.against)
         conclusion = diagnosis.diagnose_change(recording, before)
     else:
         rules = STRICT_RULES if arguments.strict else DEFAULT_RULES
@@ -151,6 +149,14 @@ def diagnose(arguments: argparse.Namespace) -> int:
         f"{verdict_sentence(conclusion)} See {arguments.output / 'cause.md'} and {arguments.output / 'cause.png'}."
     )
     return 0
+
+
+def _warn(recording: "Recording", file: Path) -> None:
+    """Print what is implausible about a recording."""
+    from heartfit.discovery.sphere_model.consistency import implausible
+
+    for line in implausible(recording, str(file)):
+        print(f"{file}: warning: {line}", file=sys.stderr)
 
 
 def _structure(arguments: argparse.Namespace) -> "Structure":

@@ -2,17 +2,12 @@
 
 from dataclasses import dataclass
 
-from heartfit.core.arrays import Floats
-from heartfit.places.periodic import Place
-from heartfit.roles import Pressure
+from heartfit.places.periodic import AddedPressure
 
 
 @dataclass(frozen=True)
-class AorticPressure(Place, Pressure):
+class AorticPressure(AddedPressure):
     """Pressure [Pa] added to that of the Windkessel, as by waves, or lost in the aortic valve."""
 
     compartments = ("aorta",)
     amplitude = 3000.0
-
-    def pressure(self, compartment: str, time: Floats, period: float) -> Floats:  # noqa: ARG002
-        return self.function.at(time, period)

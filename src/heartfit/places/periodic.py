@@ -13,7 +13,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from heartfit.core.arrays import Floats
-from heartfit.roles import Mechanism
+from heartfit.roles import Mechanism, Pressure
 
 HARMONICS = 8
 COEFFICIENTS = 2 * HARMONICS + 1
@@ -27,11 +27,6 @@ class PeriodicFunction:
     """The Fourier coefficients (COEFFICIENTS,) of a function: constant, cosines, sines, in the unit of its values."""
 
     coefficients: Floats
-
-    @classmethod
-    def from_standardised(cls, z: Floats, amplitude: float, period: float) -> Self:
-        """Return the function of the coordinates z (COEFFICIENTS,), A being the ``amplitude``, T the ``period`` [s]."""
-        return cls(amplitude * prior_deviations(period) * z)
 
     @classmethod
     def from_samples(cls, values: Floats) -> Self:
@@ -70,8 +65,16 @@ class Place(Mechanism):
     @classmethod
     def from_standardised(cls, z: Floats, period: float) -> Self:
         """Return the place with the function of the coordinates z (COEFFICIENTS,)."""
-        return cls(PeriodicFunction.from_standardised(z, cls.amplitude, period))
+        return cls(PeriodicFunction(cls.amplitude * prior_deviations(period) * z))
 
     def standardised(self, period: float) -> Floats:
         """Return the coordinates z (COEFFICIENTS,) of the function."""
         return self.function.coefficients / (self.amplitude * prior_deviations(period))
+
+
+@dataclass(frozen=True)
+class AddedPressure(Place, Pressure):
+    """A free function of time [Pa] that is added to the pressure of its compartments."""
+
+    def pressure(self, compartment: str, time: Floats, period: float) -> Floats:  # noqa: ARG002
+        return self.function.at(time, period)

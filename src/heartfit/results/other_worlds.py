@@ -108,28 +108,20 @@ def fits_table(judged: Sequence[Judged]) -> pd.DataFrame:
 
 
 def _fits(world: str, group: Sequence[Judged]) -> dict[str, object]:
-    misfits = {
-        f"{CURVES[curve]}, over noise": _median(one.misfit[curve] for one in group)
-        for curve in group[0].misfit
-    }
     scale = _median(one.scale for one in group)
-    return {"simulator": world, "healthy hearts": len(group), **misfits, "scale of the structure": scale}
+    return {**_misfits(world, [one.misfit for one in group]), "scale of the structure": scale}
 
 
-def functions_table(misfits: Sequence[tuple[str, Mapping[str, float]]]) -> pd.DataFrame:
-    """Return medians of the misfits by curve, over the noise, of pairs of simulator and misfits."""
-    groups: dict[str, list[Mapping[str, float]]] = {}
-    for world, misfit in misfits:
-        groups.setdefault(world, []).append(misfit)
-    rows = [
-        {
-            "simulator": world,
-            "healthy hearts": len(group),
-            **{f"{CURVES[curve]}, over noise": _median(one[curve] for one in group) for curve in group[0]},
-        }
-        for world, group in groups.items()
-    ]
-    return pd.DataFrame(rows)
+def functions_table(misfits: Mapping[str, Sequence[Mapping[str, float]]]) -> pd.DataFrame:
+    """Return medians of the misfits by curve, over the noise, of the healthy hearts of each simulator."""
+    return pd.DataFrame([_misfits(world, group) for world, group in misfits.items()])
+
+
+def _misfits(world: str, group: Sequence[Mapping[str, float]]) -> dict[str, object]:
+    medians = {
+        f"{CURVES[curve]}, over noise": _median(misfit[curve] for misfit in group) for curve in group[0]
+    }
+    return {"simulator": world, "healthy hearts": len(group), **medians}
 
 
 def _median(values: Iterable[float]) -> str:

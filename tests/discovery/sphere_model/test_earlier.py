@@ -141,4 +141,5 @@ def test_a_leak_of_another_simulator_is_named_against_its_healthy_beat(
     assert {cause.name for cause in ill.mechanisms} == {"MitralRegurgitation"}
     unchanged = diagnose(before, nominal=nominal, rules=CHANGE_RULES, structure=earlier)
     assert unchanged.verdict == "none"
+    assert unchanged.mechanisms == ()
     assert unchanged.changes == ()

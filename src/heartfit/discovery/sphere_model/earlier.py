@@ -114,7 +114,7 @@ class EarlierHeart:
 
     def _at_earlier_level(self, block: Block) -> Block:
         levels = self.levels.get(block.curve, block.noise.levels)
-        return replace(block, noise=replace(block.noise, levels=levels))
+        return _with_levels(block, levels)
 
 
 def _fit(problem: SphereProblem) -> Explanation:
@@ -130,9 +130,12 @@ def _fit(problem: SphereProblem) -> Explanation:
 
 
 def _with_fine_levels(data: Data) -> Data:
-    fine = [replace(block.noise, levels=block.noise.levels[:FINE_LEVELS]) for block in data.blocks]
-    blocks = zip(data.blocks, fine, strict=True)
-    return replace(data, blocks=tuple(replace(block, noise=noise) for block, noise in blocks))
+    fine = (_with_levels(block, block.noise.levels[:FINE_LEVELS]) for block in data.blocks)
+    return replace(data, blocks=tuple(fine))
+
+
+def _with_levels(block: Block, levels: tuple[float, ...]) -> Block:
+    return replace(block, noise=replace(block.noise, levels=levels))
 
 
 def _hypothesis(model: SphereForwardModel) -> Hypothesis:
