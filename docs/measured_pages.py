@@ -40,6 +40,7 @@ PAGES = {
             "reproducible",
             "sensitivity",
             "study",
+            "unknown_places",
         )
     },
 }

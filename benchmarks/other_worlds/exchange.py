@@ -1,7 +1,7 @@
 """Search hearts of our own law with trust and within structure: python -m benchmarks.other_worlds.exchange
 
 Hearts of the benchmark's generator, a third of them healthy, the others with one effect of SCALES scales, on seeds that
-nothing else uses. Stores docs/measured/other_worlds_exchange.tsv. Ten minutes of two cores.
+nothing else uses. Stores docs/measured/other_worlds_exchange.tsv. Half an hour of two cores.
 """
 
 import sys
@@ -21,12 +21,13 @@ NAMES = (
     "MitralRegurgitation", "AorticRegurgitation", "MitralStenosis", "AorticStenosis", "DelayedActivation",
     "SlowRelaxation", "LengthDependence", "CatheterOffset", "CatheterDelay", "RateMismatch",
 )  # fmt: skip
-HEALTHY = 6
+EACH, HEALTHY = 3, 15
+"""Number of hearts with each effect, and of healthy ones."""
 
 
 def main() -> None:
     """Search all hearts twice and store the table."""
-    effects = [*((name,) for name in NAMES), *[()] * HEALTHY]
+    effects = [*((name,) for name in NAMES * EACH), *[()] * HEALTHY]
     plans = [
         PlantedPlan(SEED + place, "single" if names else "none", names, SCALES if names else 0.0)
         for place, names in enumerate(effects)

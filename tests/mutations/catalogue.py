@@ -10,6 +10,7 @@ from tests.mutations.mutants.judging import JUDGING_MUTANTS
 from tests.mutations.mutants.mechanisms import MECHANISM_MUTANTS
 from tests.mutations.mutants.muscle import MUSCLE_MUTANTS
 from tests.mutations.mutants.observation import OBSERVATION_MUTANTS
+from tests.mutations.mutants.places import PLACE_MUTANTS
 from tests.mutations.mutants.planting import PLANTING_MUTANTS
 from tests.mutations.mutants.proof import PROOF_MUTANTS
 from tests.mutations.mutants.recentring import RECENTRING_MUTANTS
@@ -33,6 +34,7 @@ MUTANTS = (
     *CONSISTENCY_MUTANTS,
     *JUDGING_MUTANTS,
     *STRUCTURE_MUTANTS,
+    *PLACE_MUTANTS,
     *WITHDRAWAL_MUTANTS,
     *RECENTRING_MUTANTS,
     *REFIT_MUTANTS,

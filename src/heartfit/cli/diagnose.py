@@ -89,6 +89,18 @@ def diagnose_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--strict", action="store_true", help="name nothing below a ln Bayes factor of 10 instead of 5"
     )
+    _structure_arguments(command)
+    command.add_argument(
+        "--write-mechanism",
+        type=Path,
+        metavar="PY",
+        help="write the law of an unknown effect as a file that --mechanism takes",
+    )
+    command.add_argument("-o", "--output", type=Path, default=Path("cause"), help="folder of the cause card")
+
+
+def _structure_arguments(command: argparse.ArgumentParser) -> None:
+    """Add the arguments that say what the simulation may leave of a healthy heart."""
     structure = command.add_mutually_exclusive_group()
     structure.add_argument(
         "--against",
@@ -107,7 +119,6 @@ def diagnose_arguments(command: argparse.ArgumentParser) -> None:
         action="store_true",
         help="for data of this simulator: allow for no difference between it and the source of the curves",
     )
-    command.add_argument("-o", "--output", type=Path, default=Path("cause"), help="folder of the cause card")
 
 
 def diagnose(arguments: argparse.Namespace) -> int:
@@ -117,10 +128,12 @@ def diagnose(arguments: argparse.Namespace) -> int:
     from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES
     from heartfit.discovery.sphere_model import diagnose as diagnosis
     from heartfit.io.causes import write_cause_card
+    from heartfit.io.files import write_text
     from heartfit.io.pressures import read_pressure
     from heartfit.io.recordings import read_conditions, read_recording
     from heartfit.results.cause_card import verdict_sentence
     from heartfit.results.cause_figure import render_cause
+    from heartfit.results.mechanism_file import mechanism_file
     from heartfit.study.case import RecordedPressure
 
     if arguments.against and (arguments.condition or arguments.strict):
@@ -148,6 +161,8 @@ def diagnose(arguments: argparse.Namespace) -> int:
     print(
         f"{verdict_sentence(conclusion)} See {arguments.output / 'cause.md'} and {arguments.output / 'cause.png'}."
     )
+    if arguments.write_mechanism:
+        write_text(arguments.write_mechanism, mechanism_file(conclusion, arguments.measured.stem))
     return 0
 
 

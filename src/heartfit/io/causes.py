@@ -14,12 +14,14 @@ from pydantic import TypeAdapter, ValidationError
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.decide import Verdict
 from heartfit.discovery.sphere_model.cause import (
+    ActingPlace,
     Cause,
     Change,
     Departure,
     Diagnosis,
     FittedModel,
     Gain,
+    PlaceFunction,
     Refitted,
     Trace,
     departures,
@@ -35,16 +37,17 @@ UNITS = {"times": "s", "volumes": "m^3", "pressures": "Pa"}
 
 @dataclass(frozen=True, eq=False)
 class TraceFile:
-    """Content of traces.json: period [s], phases of the beat if it has them, and curves of a diagnosis."""
+    """Content of traces.json: period [s], phases of the beat if it has them, curves and functions of a diagnosis."""
 
     period: float
     phases: BeatPhases | None
     traces: tuple[Trace, ...]
+    functions: tuple[PlaceFunction, ...] = ()
 
 
 def write_traces(path: Path, diagnosis: Diagnosis, fingerprint: str) -> None:
     """Write period, phases and curves of a diagnosis."""
-    traces = TraceFile(diagnosis.period, diagnosis.phases, diagnosis.traces)
+    traces = TraceFile(diagnosis.period, diagnosis.phases, diagnosis.traces, diagnosis.functions)
     write_result(path, traces, fingerprint, UNITS)
 
 
@@ -83,6 +86,7 @@ class CauseFile:
     warnings: tuple[str, ...] = ()
     structural_scale: float = 0.0
     changes: tuple[Change, ...] = ()
+    acting: tuple[ActingPlace, ...] = ()
     made_by: str = ""
 
     @classmethod

@@ -1,80 +1,68 @@
-r"""A free periodic function of time with a Gaussian prior, and the places that hold one.
+r"""A free periodic function of time with a Gaussian prior.
 
 .. math:: f(t) = A \Bigl[ s_0 z_0 + \sum_{k=1}^{8} s_k \bigl(z_k \cos \tfrac{2 \pi k t}{T}
           + z_{8+k} \sin \tfrac{2 \pi k t}{T}\bigr) \Bigr], \qquad z \sim N(0, I),
           \quad s_k^2 \propto (2 - \delta_{k0})\, e^{-\frac12 (2 \pi k \ell / T)^2}, \quad \sum_k s_k^2 = 1 .
 
-f is a Gaussian process of standard deviation A whose values are correlated over the length l = 50 ms.
+f is a Gaussian process of standard deviation A whose values are correlated over the length l.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 
 from heartfit.core.arrays import Floats
-from heartfit.roles import Mechanism, Pressure
 
 HARMONICS = 8
 COEFFICIENTS = 2 * HARMONICS + 1
 """Number of the coefficients z."""
-LENGTH = 0.05
-"""l [s]."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PeriodicFunction:
-    """The Fourier coefficients (COEFFICIENTS,) of a function: constant, cosines, sines, in the unit of its values."""
+    """The Fourier coefficients (COEFFICIENTS,) of a function: constant, cosines, sines, in the unit of its values.
+
+    period: T [s].
+    """
 
     coefficients: Floats
+    period: float
 
     @classmethod
-    def from_samples(cls, values: Floats) -> Self:
-        """Return the lowest harmonics of ``values`` (n,) at equidistant times from 0 over a period."""
+    def from_samples(cls, values: Floats, period: float) -> Self:
+        """Return the lowest harmonics of ``values`` (n,) at equidistant times from 0 over a period [s]."""
         waves = np.fft.rfft(values)[: HARMONICS + 1] / values.size
-        return cls(np.concatenate([waves[:1].real, 2.0 * waves[1:].real, -2.0 * waves[1:].imag]))
+        return cls(np.concatenate([waves[:1].real, 2.0 * waves[1:].real, -2.0 * waves[1:].imag]), period)
 
-    def at(self, time: Floats, period: float) -> Floats:
+    def at(self, time: Floats) -> Floats:
         """Return the values at ``time`` (any shape) [s]."""
-        angle = 2.0 * np.pi / period * np.multiply.outer(np.asarray(time), np.arange(1, HARMONICS + 1))
-        waves = np.concatenate([np.cos(angle), np.sin(angle)], axis=-1)
-        values: Floats = self.coefficients[0] + waves @ self.coefficients[1:]
+        values: Floats = waves_at(time, self.period) @ self.coefficients
         return values
+
+    def integral(self, time: Floats) -> Floats:
+        """Return the integrals over [0, ``time``], a time of any shape [s]."""
+        rate = 2.0 * np.pi / self.period * np.arange(1, HARMONICS + 1)
+        angle = np.multiply.outer(np.asarray(time), rate)
+        constant, cosines, sines = np.split(self.coefficients, [1, HARMONICS + 1])
+        waves = (np.sin(angle) / rate) @ cosines + ((1.0 - np.cos(angle)) / rate) @ sines
+        total: Floats = constant[0] * np.asarray(time) + waves
+        return total
 
     def __repr__(self) -> str:
         """All digits, which tell two functions apart."""
-        return f"PeriodicFunction({self.coefficients.tolist()})"
+        return f"PeriodicFunction({self.coefficients.tolist()}, {self.period!r})"
 
 
-def prior_deviations(period: float) -> Floats:
-    """Return the standard deviations s (COEFFICIENTS,) of the coefficients of a function of unit variance."""
+def waves_at(time: Floats, period: float) -> Floats:
+    """Return the constant, the cosines and the sines (..., COEFFICIENTS) at ``time`` (...) [s]."""
+    angle = 2.0 * np.pi / period * np.multiply.outer(np.asarray(time), np.arange(1, HARMONICS + 1))
+    return np.concatenate([np.ones((*np.shape(time), 1)), np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def wave_deviations(period: float, length: float) -> Floats:
+    """Return the standard deviations s (COEFFICIENTS,) of the coefficients, of unit variance and the length l [s]."""
     k = np.arange(HARMONICS + 1)
-    variance = np.where(k > 0, 2.0, 1.0) * np.exp(-0.5 * (2.0 * np.pi * k * LENGTH / period) ** 2)
+    variance = np.where(k > 0, 2.0, 1.0) * np.exp(-0.5 * (2.0 * np.pi * k * length / period) ** 2)
     sd = np.sqrt(variance / variance.sum())
     return np.concatenate([sd, sd[1:]])
-
-
-@dataclass(frozen=True)
-class Place(Mechanism):
-    """A mechanism that is a free function of time instead of a law."""
-
-    function: PeriodicFunction
-    amplitude: ClassVar[float]
-    """A in the unit of the function [SI]."""
-
-    @classmethod
-    def from_standardised(cls, z: Floats, period: float) -> Self:
-        """Return the place with the function of the coordinates z (COEFFICIENTS,)."""
-        return cls(PeriodicFunction(cls.amplitude * prior_deviations(period) * z))
-
-    def standardised(self, period: float) -> Floats:
-        """Return the coordinates z (COEFFICIENTS,) of the function."""
-        return self.function.coefficients / (self.amplitude * prior_deviations(period))
-
-
-@dataclass(frozen=True)
-class AddedPressure(Place, Pressure):
-    """A free function of time [Pa] that is added to the pressure of its compartments."""
-
-    def pressure(self, compartment: str, time: Floats, period: float) -> Floats:  # noqa: ARG002
-        return self.function.at(time, period)

@@ -14,6 +14,7 @@ from heartfit.discovery.sphere_model.cause import (
     Refitted,
     departures,
 )
+from heartfit.results.acting_places import acting_section, acting_sentence, separating_measurement
 from heartfit.results.text import printed_curve_unit
 
 CURVES = {
@@ -36,9 +37,18 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
         "named": f"Missing mechanism: {named}.",
         "two": f"Missing mechanisms: {named}.",
         "group": f"Missing mechanism: one of {_mechanism_names(diagnosis)}; these data do not distinguish them.",
-        "unknown": "Unknown missing mechanism: no mechanism of the library explains the misfit.",
+        "unknown": _unknown(diagnosis),
         "insufficient": "Insufficient data: no conclusion about a missing mechanism.",
     }[diagnosis.verdict]
+
+
+def _unknown(diagnosis: Diagnosis) -> str:
+    where = (
+        acting_sentence(diagnosis.acting)
+        if diagnosis.acting
+        else "No mechanism of the library explains the misfit."
+    )
+    return f"Unknown missing mechanism. {where}"
 
 
 def _explained_recording(diagnosis: Diagnosis) -> str:
@@ -73,6 +83,7 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
         *([_warnings(diagnosis.warnings)] if diagnosis.warnings else []),
         "## Misfit of the simulation\n\n" + "\n".join(misfits),
         *([structure_text(diagnosis)] if diagnosis.structural_scale else []),
+        *([acting_section(diagnosis.acting)] if diagnosis.acting else []),
         *([_changes(diagnosis.changes)] if diagnosis.changes else []),
         "## Evidence for each mechanism\n\n" + _ranking_table(diagnosis),
         "## Alternative explanations\n\n" + alternatives_text(diagnosis),
@@ -163,6 +174,8 @@ def unsearched_sentences(diagnosis: Diagnosis) -> list[str]:
 
 def next_measurement_text(diagnosis: Diagnosis) -> str:
     """Return the measurement that would decide between the alternatives, if one is needed."""
+    if diagnosis.acting:
+        return separating_measurement(diagnosis.acting)
     return diagnosis.next_measurement or "None: the data decide."
 
 
@@ -212,6 +225,8 @@ def _final_sizes(causes: Sequence[Cause]) -> str:
 
 def gain_subject(diagnosis: Diagnosis) -> str:
     """Return "the named mechanism", or the extension that was refitted although none is named."""
+    if diagnosis.acting:
+        return "a free function at the best place"
     if diagnosis.mechanisms or not diagnosis.refitted:
         return "the named mechanism"
     refitted = " and ".join(spaced_name(cause.name) for cause in diagnosis.refitted.extension)

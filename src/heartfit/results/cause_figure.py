@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.cause import CLEAR_DEVIATIONS, Departure, Diagnosis, Trace, departures
 from heartfit.observation.beat import BeatPhases
+from heartfit.results.acting_figure import plot_functions
 from heartfit.results.cause_card import (
     CURVES,
     departure_sentences,
@@ -32,11 +33,16 @@ def plot_cause(diagnosis: Diagnosis) -> Figure:
 
     Both over the phases of the beat; the discrepancy has its 95 % band, and the phase of its largest departure is
     shaded and named; a blue band is what structure lets the simulation err. Bars: ln Bayes factors over baseline with
-    the detection threshold (dashed).
+    the detection threshold (dashed). Of an unknown effect a last row shows the function at its place, with its 95 %
+    band, and its best law (dashed).
     """
     rows = len(diagnosis.traces)
-    figure = Figure(figsize=(12.5, 1.4 + 2.6 * rows), layout="constrained")
-    left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(3.1, 1))[0]
+    figure = Figure(figsize=(12.5, 1.4 + 2.6 * (rows + bool(diagnosis.functions))), layout="constrained")
+    above = figure
+    if diagnosis.functions:
+        above, below = figure.subfigures(2, 1, squeeze=False, height_ratios=(rows, 1.2))[:, 0]
+        plot_functions(below, diagnosis)
+    left, right = above.subfigures(1, 2, squeeze=False, width_ratios=(3.1, 1))[0]
     panels = left.subplots(rows, 2, squeeze=False, sharex=True)
     for row, trace, departure in zip(panels, diagnosis.traces, departures(diagnosis), strict=True):
         _curves(row[0], trace, diagnosis)

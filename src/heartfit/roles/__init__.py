@@ -9,6 +9,7 @@ from heartfit.roles.elastic_atrium import ElasticAtrium
 from heartfit.roles.interfaces import (
     COMPARTMENTS,
     Amendment,
+    Attachment,
     Availability,
     Chamber,
     Contraction,
@@ -30,6 +31,7 @@ __all__ = [
     "COMPARTMENTS",
     "ROLES",
     "Amendment",
+    "Attachment",
     "Availability",
     "Chamber",
     "Contraction",

@@ -1,8 +1,8 @@
 """Roles of mechanisms: a role fixes the place at which an effect enters the equations of the heart.
 
-Amendment, Availability, Delay, Relaxation and Stress act on the muscle: on its constants, fibres, control and
-elasticity. The ventricles are made of :attr:`heartfit.heart.heart.Heart.muscle`, the tissue as these mechanisms change
-it. Flow, Dynamics, Narrowing, Pressure, Contraction, Chamber and External act on the blood, and a Sensor on the
+Amendment, Attachment, Availability, Delay, Relaxation and Stress act on the muscle: on its constants, fibres, control
+and elasticity. The ventricles are made of :attr:`heartfit.heart.heart.Heart.muscle`, the tissue as these mechanisms
+change it. Flow, Dynamics, Narrowing, Pressure, Contraction, Chamber and External act on the blood, and a Sensor on the
 measurement alone.
 """
 
@@ -61,6 +61,14 @@ class Delay(Mechanism):
     @abstractmethod
     def delay(self) -> Floats:
         """Delay (18,) [s], >= 0, of the activation of the right ventricular wall and of each AHA segment."""
+
+
+class Attachment(Mechanism):
+    """A changed attachment of the bridges: a share of the rate k_ATP is added at some times after activation."""
+
+    @abstractmethod
+    def added_integral(self, time: Floats) -> Floats:
+        """Integral [s] of the added share over [0, ``time``] after activation (any shape); no rate is negative."""
 
 
 class Relaxation(Mechanism):

@@ -2,11 +2,11 @@ r"""Laws of circuit branches and of outside loads, as coefficients that Python a
 
 A branch of the circuit has the flow
 
-.. math:: q(\Delta p) = K \Delta p + A \sqrt{2/\rho}\, \Delta p\, (\Delta p^2 + \epsilon^2)^{-1/4},
+.. math:: q(\Delta p) = K \Delta p + A \sqrt{2/\rho}\, \Delta p\, (\Delta p^2 + \epsilon^2)^{-1/4} + q_0,
 
 a conductance K beside an orifice of area A, each with one value for forward (:math:`\Delta p > 0`) and one for
-backward flow. The orifice is Bernoulli's, its root smoothed over :math:`\epsilon` = 20 Pa. A narrowing in series takes
-:math:`b q^2` of the forward drop, which leaves a conductance
+backward flow, and a source that no pressure drives. The orifice is Bernoulli's, its root smoothed over
+:math:`\epsilon` = 20 Pa. A narrowing in series takes :math:`b q^2` of the forward drop, which leaves a conductance
 
 .. math:: q = \frac{2 K \Delta p}{1 + \sqrt{1 + 4 b K^2 \Delta p}}
 
@@ -48,8 +48,8 @@ SMOOTHING = 20.0
 class Branch(NamedTuple):
     """Coefficients of a branch: conductances [m^3/(s Pa)] and orifice areas [m^2], forward and backward.
 
-    ``loss`` [Pa s^2/m^6] is the b of a narrowing in series with the forward conductance. Each is a number, or an array
-    over times.
+    ``loss`` [Pa s^2/m^6] is the b of a narrowing in series with the forward conductance, ``source`` [m^3/s] a flow
+    that no pressure drives. Each is a number, or an array over times.
     """
 
     conductance: float | Floats = 0.0
@@ -57,6 +57,7 @@ class Branch(NamedTuple):
     back_conductance: float | Floats = 0.0
     back_area: float | Floats = 0.0
     loss: float | Floats = 0.0
+    source: float | Floats = 0.0
 
     def flow(self, drop: float) -> tuple[float, float]:
         """Flow [m^3/s] at the pressure drop [Pa], and its derivative by the drop."""
@@ -79,7 +80,7 @@ class Branch(NamedTuple):
 
 @njit(cache=True, error_model="numpy", inline="always")
 def branch_flow(laws, t, k, drop):  # type: ignore[no-untyped-def]
-    """Flow and slope of branch k at time t of the ``laws`` (.., .., 5); increases with the drop."""
+    """Flow and slope of branch k at time t of the ``laws`` (.., .., 6); does not fall with the drop."""
     way = 0 if drop > 0.0 else 2
     conductance, area = laws[t, k, way], laws[t, k, way + 1]
     flow, slope = conductance * drop, conductance
@@ -92,7 +93,7 @@ def branch_flow(laws, t, k, drop):  # type: ignore[no-untyped-def]
         root = factor / np.sqrt(np.sqrt(smooth))
         flow += root * drop
         slope += root * (0.5 * drop * drop + SMOOTHING * SMOOTHING) / smooth
-    return flow, slope
+    return flow + laws[t, k, 5], slope
 
 
 class Leaflets(NamedTuple):

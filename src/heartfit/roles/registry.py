@@ -8,6 +8,7 @@ from typing import TypeVar
 
 from heartfit.roles.interfaces import (
     Amendment,
+    Attachment,
     Availability,
     Chamber,
     Contraction,
@@ -24,7 +25,7 @@ from heartfit.roles.interfaces import (
 )
 
 ROLES: tuple[type[Mechanism], ...] = (
-    *(Amendment, Availability, Delay, Relaxation, Stress),
+    *(Amendment, Attachment, Availability, Delay, Relaxation, Stress),
     *(Flow, Dynamics, Narrowing, Contraction, Pressure, Chamber, External),
     Sensor,
 )

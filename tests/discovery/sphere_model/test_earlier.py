@@ -14,7 +14,7 @@ from heartfit.discovery.sphere_model.problem import SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.heart import Heart
 from heartfit.io.other_worlds import read_other_hearts
-from heartfit.places import PLACES, Place, WallPressure
+from heartfit.places import EARLIER_PLACES, Place, WallPressure
 from heartfit.roles import Sensor
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.other_worlds import OtherHeart, measure
@@ -67,7 +67,7 @@ def test_functions_fit_the_heart_of_another_simulator_to_its_noise(
 
 def test_the_fitted_heart_holds_all_functions(earlier: EarlierHeart) -> None:
     kinds = {type(mechanism) for mechanism in earlier.nominal.heart.mechanisms}
-    assert kinds >= set(PLACES)
+    assert kinds >= set(EARLIER_PLACES)
     assert earlier.nominal.stands_for == "change"
     assert earlier.at_period(earlier.nominal.heart.period) == earlier.nominal
 
@@ -100,10 +100,10 @@ def test_small_changes_of_the_functions_have_the_covariance_of_their_beats(
     scale, draws, period = 0.02, np.random.default_rng(5), before.period
     squares = np.zeros(same.size)
     present = {type(one): one for one in earlier.nominal.heart.mechanisms if isinstance(one, Place)}
-    fitted = np.concatenate([present[place].standardised(period) for place in PLACES])
+    fitted = np.concatenate([present[place].standardised() for place in EARLIER_PLACES])
     for _ in range(20):
         z = fitted + scale * draws.standard_normal(fitted.size)
-        parts = zip(PLACES, np.split(z, len(PLACES)), strict=True)
+        parts = zip(EARLIER_PLACES, np.split(z, len(EARLIER_PLACES)), strict=True)
         changed = problem.model.predict(
             AT_MEAN, [place.from_standardised(part, period) for place, part in parts]
         )

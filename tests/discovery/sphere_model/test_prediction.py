@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import cast
 
 import numpy as np
@@ -56,6 +57,7 @@ def measured(times: dict[str, Floats], nominal: object, x: Floats, period: float
     return Data(model_of(SphereForwardModel(nominal, times), EFFECT).forward(x), blocks)  # type: ignore[arg-type]
 
 
+EXTENSION = partial(model_of, effects=EFFECT)
 RESTING = ADULT.at_period(PERIOD)
 ONE_BEAT = {"lv_volume": np.arange(24) * PERIOD / 24, "lv_pressure": (np.arange(80) + 0.5) * PERIOD / 80}
 TRUTH = np.array([0.2, 0.3])
@@ -64,7 +66,7 @@ TRUTH = np.array([0.2, 0.3])
 def test_unseen_samples_are_predicted_as_the_models_were_fitted() -> None:
     data = measured(ONE_BEAT, RESTING, TRUTH)
     unseen = SphereProblem(cast("Recording", None), data, SphereForwardModel(RESTING, ONE_BEAT))
-    prediction = predict_unseen(unseen, EFFECT, np.array([0.1]), TRUTH)
+    prediction = predict_unseen(unseen, EXTENSION, np.array([0.1]), TRUTH)
     assert prediction is not None
     assert prediction.extended == pytest.approx(data.values)
     assert prediction.baseline == pytest.approx(
@@ -81,10 +83,12 @@ def test_another_condition_changes_rate_and_loading_and_nothing_else() -> None:
     times = {name: at * 0.6 / PERIOD for name, at in ONE_BEAT.items()}
     data = measured(times, raised, TRUTH, 0.6)
     close = 2e-3 * np.abs(data.values).max()
-    prediction = predict_condition("legs raised", RESTING, data, EFFECT, TRUTH[:1], TRUTH)
+    prediction = predict_condition("legs raised", RESTING, data, EXTENSION, TRUTH[:1], TRUTH)
     assert prediction is not None
     assert prediction.extended == pytest.approx(data.values, abs=close)
     assert prediction.helps()
-    larger = predict_condition("legs raised", RESTING, data, EFFECT, TRUTH[:1], TRUTH + np.array([0.0, 0.5]))
+    larger = predict_condition(
+        "legs raised", RESTING, data, EXTENSION, TRUTH[:1], TRUTH + np.array([0.0, 0.5])
+    )
     assert larger is not None
     assert not larger.helps(), "the size of an effect is not fitted to another condition"

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from types import SimpleNamespace
 from typing import cast
 
@@ -10,6 +11,7 @@ import pytest
 
 from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES, Decision, Effects, Rules, Verdict
 from heartfit.discovery.sphere_model import diagnose as module
+from heartfit.discovery.sphere_model import held_out
 from heartfit.discovery.sphere_model import searched_recording as searching
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
 from heartfit.discovery.sphere_model.diagnose import conclude, predict_explanation
@@ -209,8 +211,14 @@ def test_half_of_a_recording_withdraws_a_group_with_its_best_member(monkeypatch:
 @pytest.fixture
 def judges(monkeypatch: pytest.MonkeyPatch) -> None:
     """Predictions that return their kind and the data that they judge by."""
-    monkeypatch.setattr(module, "predict_unseen", lambda data, *fits: ("unseen", data, fits))
-    monkeypatch.setattr(module, "predict_condition", lambda name, _, data, *fits: (name, data, fits))
+
+    def effects(extension: partial[object], *fits: str) -> tuple[object, ...]:
+        return (extension.keywords["effects"], *fits)
+
+    monkeypatch.setattr(held_out, "predict_unseen", lambda data, *fits: ("unseen", data, effects(*fits)))
+    monkeypatch.setattr(
+        held_out, "predict_condition", lambda name, _, data, *fits: (name, data, effects(*fits))
+    )
 
 
 @pytest.mark.usefixtures("judges")

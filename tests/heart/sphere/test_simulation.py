@@ -32,7 +32,8 @@ from heartfit.mechanisms.scar import Scar
 from heartfit.mechanisms.septal_load import SeptalLoad
 from heartfit.mechanisms.slow_relaxation import SlowRelaxation
 from heartfit.mechanisms.wall_viscosity import WallViscosity
-from heartfit.roles import Flow
+from heartfit.places import PLACES
+from heartfit.roles import Flow, Sensor
 from heartfit.roles.laws import Branch
 from tests.printed import numbers_in
 
@@ -94,6 +95,25 @@ def test_the_compiled_beat_is_that_of_the_coupled_path(
     assert compiled.diagnostics["drift"] == pytest.approx(coupled.diagnostics["drift"], rel=1e-4)
     assert (compiled.time == coupled.time).all()
     assert (compiled.period, compiled.trigger) == (coupled.period, coupled.trigger)
+
+
+def test_a_function_at_every_place_acts_alike_on_both_paths(
+    spherical_heart: Heart, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The coupled path is that of the 3-D heart: a place acts there as it does in the search."""
+    monkeypatch.setattr(unloading, "INFLATION_FORCE_TOLERANCE", 1e-9)
+    rng, heart = np.random.default_rng(6), spherical_heart
+    for place in PLACES:
+        if not issubclass(place, Sensor):
+            z = 0.1 * rng.standard_normal(place.size)
+            heart = heart + place.from_standardised(abs(z) if place.one_sided else z, heart.period)
+    numerics = replace(TWO_BEATS, tolerances=TIGHT)
+    coupled = simulate(heart, SphericalBody(LEFT, RIGHT, heart.muscle), numerics)
+    compiled = simulate_spheres(heart, [LEFT, RIGHT], numerics)
+    assert {"LeakFlow_flow", "BackflowPassage_flow"} <= compiled.signals().keys()
+    assert max(departures(compiled, coupled).values()) < 2e-6, "the law of the wall is tabulated"
+    plain = simulate_spheres(spherical_heart, [LEFT, RIGHT], numerics)
+    assert np.ptp(compiled.volume["lv"] - plain.volume["lv"]) > 1e-6
 
 
 @BOTH

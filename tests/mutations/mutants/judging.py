@@ -20,8 +20,8 @@ HELD_OUT_MUTANTS = (
         PREDICTION,
         (
             "unseen samples are predicted without the cause",
-            "(((), baseline), (effects, extended))]",
-            "(((), baseline), ((), baseline))]",
+            "extension(model).forward(extended)",
+            "hypothesis(model).forward(baseline)",
         ),
         (
             "another condition keeps the loading",

@@ -58,6 +58,60 @@ class Trace:
 
 
 @dataclass(frozen=True)
+class RankedLaw:
+    """A law that the function of a place may follow: its size [unit], its shape and formula (LaTeX).
+
+    ln_likelihood: beside that of the best law, along the posterior of the function.
+    """
+
+    name: str
+    formula: str
+    size: float
+    unit: str
+    ln_likelihood: float
+    shape: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class ActingPlace:
+    """A region on which something acts that the library lacks, by its best place.
+
+    slot: words for the slot of that place; ln_bayes_factor: over the model without it; spans: phases in which the
+    function of time is clear; laws: what it may follow, the best first.
+    """
+
+    region: str
+    place: str
+    slot: str
+    ln_bayes_factor: float
+    spans: "tuple[ClearSpan, ...]" = ()
+    laws: tuple[RankedLaw, ...] = ()
+
+
+@dataclass(frozen=True)
+class ClearSpan:
+    """A span [s after the trigger] in which a function is clear, with its largest value there and its deviation."""
+
+    start: float
+    end: float
+    size: float
+    sd: float
+    unit: str
+
+
+@dataclass(frozen=True, eq=False)
+class PlaceFunction:
+    """A function at a place [unit] at ``times`` (k,) [s after the trigger]: mean, deviation and best law (k,)."""
+
+    region: str
+    unit: str
+    times: Floats
+    mean: Floats
+    sd: Floats
+    law: Floats
+
+
+@dataclass(frozen=True)
 class Change:
     """A parameter after over before, with its 95 % interval: a ratio or, in s or 1, a difference."""
 
@@ -127,6 +181,8 @@ class Diagnosis:
       judged; empty where there is one half only.
     - structural_scale: the most probable scale of the structural covariance beside the baseline, 0 where the model is
       trusted; changes: parameters that changed since an earlier recording of the same heart, empty without one.
+    - acting: of an unknown effect the regions on which it may act, the most probable first; functions: what acts there,
+      one for each; both empty where no place is detected.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
     """
 
@@ -151,6 +207,8 @@ class Diagnosis:
     warnings: tuple[str, ...] = ()
     structural_scale: float = 0.0
     changes: tuple[Change, ...] = ()
+    acting: tuple[ActingPlace, ...] = ()
+    functions: tuple[PlaceFunction, ...] = ()
 
 
 CLEAR_DEVIATIONS = 2.0

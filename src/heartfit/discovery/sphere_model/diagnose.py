@@ -1,21 +1,21 @@
 """The diagnosis of a recording: search on the sphere, held-out tests, and the next measurement."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 from heartfit.discovery.inference.decide import CHANGE_RULES, DEFAULT_RULES, Effects, Rules, Verdict
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.consistency import implausible
 from heartfit.discovery.sphere_model.earlier import EarlierHeart
-from heartfit.discovery.sphere_model.held_out import (
-    HeldOutPrediction,
-    predict_condition,
-    predict_unseen,
-)
+from heartfit.discovery.sphere_model.forward_model import hypothesis
+from heartfit.discovery.sphere_model.held_out import HeldOutPrediction, predict_extension
 from heartfit.discovery.sphere_model.limits import RECORD_PRESSURE, next_measurement
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
 from heartfit.discovery.sphere_model.problem import DiscrepancyPrior
 from heartfit.discovery.sphere_model.recording import UNSEARCHED, Recording
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording, traces
+from heartfit.discovery.sphere_model.unknown_place import locate
+from heartfit.places import PLACES, Place
 
 
 def diagnose(
@@ -25,21 +25,22 @@ def diagnose(
     rules: Rules = DEFAULT_RULES,
     unseen: Recording | None = None,
     structure: DiscrepancyPrior | None = None,
+    places: Sequence[type[Place]] = PLACES,
 ) -> Diagnosis:
     """Diagnose the effects that the model of the heart lacks to explain the recording.
 
     conditions: recordings of the same heart under other loading, by name; only the loading is fitted to them. nominal:
     a sphere that was fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None. unseen:
     samples of the same beat, which judge a name and do not choose it. structure: of the discrepancy between the sphere
-    and the source of the recording; None where the model is trusted. Without them and without conditions the search
-    sees half of the recording, and the other half judges. Raises InputError where the nominal heart does not beat, and
-    for a loop of pressure and volume that runs clockwise.
+    and the source of the recording; None where the model is trusted. places: where an unknown effect may act. Without
+    unseen samples and conditions the search sees half of the recording, and the other half judges. Raises InputError
+    where the nominal heart does not beat, and for a loop of pressure and volume that runs clockwise.
     """
     warnings = implausible(recording)
     if unseen is None and not conditions:
         recording, unseen = recording.halves()
     case = SearchedRecording.search(recording, nominal, rules, unseen, structure)
-    return conclude(case, conditions or {}, warnings)
+    return locate(conclude(case, conditions or {}, warnings), case, conditions or {}, places)
 
 
 def diagnose_change(after: Recording, before: Recording) -> Diagnosis:
@@ -50,7 +51,7 @@ def diagnose_change(after: Recording, before: Recording) -> Diagnosis:
     """
     earlier = EarlierHeart.from_recording(before)
     nominal = earlier.at_period(after.period)
-    return diagnose(after, nominal=nominal, rules=CHANGE_RULES, structure=earlier)
+    return diagnose(after, nominal=nominal, rules=CHANGE_RULES, structure=earlier, places=())
 
 
 def conclude(
@@ -111,15 +112,8 @@ def predict_explanation(
     Empty for a recording too short for two halves, without another condition: then nothing judges.
     """
     added = tuple(case.library[name] for name in effects)
-    fits = case.findings.survey.baseline.fit.x, case.findings.explanation(effects).fit.x
-    nominal = case.model.nominal
-    tests: list[HeldOutPrediction | None] = [
-        predict_condition(name, nominal, case.problem(condition).data, added, *fits)
-        for name, condition in conditions.items()
-    ]
-    if case.unseen_problem is not None:
-        tests.append(predict_unseen(case.unseen_problem, added, *fits))
-    return tests
+    fitted = case.findings.explanation(effects).fit.x
+    return predict_extension(case, partial(hypothesis, effects=added), fitted, conditions)
 
 
 def _condition_gain(tests: Sequence[HeldOutPrediction | None], conditions: Mapping[str, Recording]) -> float:

@@ -36,7 +36,7 @@ from heartfit.discovery.sphere_model.nominal_heart import PEOPLE, NominalHeart, 
 from heartfit.discovery.sphere_model.problem import NO_BEAT, SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.heart import Heart
-from heartfit.places import COEFFICIENTS, PLACES, PeriodicFunction, Place
+from heartfit.places import COEFFICIENTS, EARLIER_PLACES, FunctionOfTime, PeriodicFunction
 
 CHANGE_SCALES = (0.05, 0.1, 0.2)
 """s: standard deviations of a change of the functions over those of the functions, equally likely."""
@@ -84,7 +84,7 @@ class EarlierHeart:
         if period == self.nominal.heart.period:
             return nominal
         times = _phase_times(nominal.heart, self.nominal.heart, period * np.arange(SAMPLES) / SAMPLES)
-        carried = (_carried(place, times, self.nominal.heart.period) for place in _places(nominal.heart))
+        carried = (_carried(place, times, period) for place in _places(nominal.heart))
         return replace(nominal, heart=reduce(add, carried, nominal.heart))
 
     def misfit(self, recording: Recording) -> dict[str, float]:
@@ -142,7 +142,7 @@ def _hypothesis(model: SphereForwardModel) -> Hypothesis:
     """Return the hypothesis without a mechanism whose coordinates are those of the parameters and of the functions."""
     period = model.nominal.heart.period
     functions = tuple(
-        Coordinate(f"{place.__name__}.{index}") for place in PLACES for index in range(COEFFICIENTS)
+        Coordinate(f"{place.__name__}.{index}") for place in EARLIER_PLACES for index in range(COEFFICIENTS)
     )
 
     def forward(x: Floats) -> Floats | None:
@@ -155,24 +155,24 @@ def _with_places(nominal: NominalHeart, z: Floats) -> Heart:
     return reduce(add, _standardised_places(z, nominal.heart.period), nominal.heart)
 
 
-def _standardised_places(z: Floats, period: float) -> Sequence[Place]:
-    parts = np.split(z, len(PLACES))
-    return [place.from_standardised(part, period) for place, part in zip(PLACES, parts, strict=True)]
+def _standardised_places(z: Floats, period: float) -> Sequence[FunctionOfTime]:
+    parts = np.split(z, len(EARLIER_PLACES))
+    return [place.from_standardised(part, period) for place, part in zip(EARLIER_PLACES, parts, strict=True)]
 
 
-def _places(heart: Heart) -> Sequence[Place]:
-    """Return the places of a heart in the order of PLACES."""
-    present = {type(one): one for one in heart.mechanisms if isinstance(one, Place)}
-    return [present[place] for place in PLACES]
+def _places(heart: Heart) -> Sequence[FunctionOfTime]:
+    """Return the places of a heart in the order of EARLIER_PLACES."""
+    present = {type(one): one for one in heart.mechanisms if isinstance(one, FunctionOfTime)}
+    return [present[place] for place in EARLIER_PLACES]
 
 
 def _coordinates(heart: Heart) -> Floats:
-    return np.concatenate([place.standardised(heart.period) for place in _places(heart)])
+    return np.concatenate([place.standardised() for place in _places(heart)])
 
 
-def _carried(place: Place, times: Floats, period: float) -> Place:
-    """Return a place with the values that its function has at ``times`` of its own period [s]."""
-    return type(place)(PeriodicFunction.from_samples(place.function.at(times, period)))
+def _carried(place: FunctionOfTime, times: Floats, period: float) -> FunctionOfTime:
+    """Return a place of a period [s] with the values that its function has at ``times`` of its own period [s]."""
+    return type(place)(PeriodicFunction.from_samples(place.function.at(times), period))
 
 
 def _phase_times(heart: Heart, other: Heart, times: Floats) -> Floats:

@@ -8,6 +8,7 @@ The interval of the error ratio comes from a bootstrap over eighths of the beat:
 independent.
 """
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import exp
 
@@ -18,9 +19,11 @@ from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.data import Data, Whitening
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.sphere_model.cause import Gain
-from heartfit.discovery.sphere_model.forward_model import Candidate, SphereForwardModel, hypothesis
+from heartfit.discovery.sphere_model.forward_model import SphereForwardModel, hypothesis
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
 from heartfit.discovery.sphere_model.problem import SphereProblem
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 
 LOADING = {"circulation.left_atrium": 0.3, "circulation.systemic.R_p": 0.3}
 """Parameters that another condition may change, with the standard deviations of the logarithm of the change."""
@@ -72,45 +75,54 @@ def error_ratio(phase: Floats, baseline: Floats, extended: Floats) -> tuple[floa
     return float(np.sqrt(sums[1].sum() / sums[0].sum())), (low, high)
 
 
+Extension = Callable[[SphereForwardModel], Hypothesis]
+"""The hypothesis of a cause about a forward model."""
+
+
 def predict_unseen(
-    unseen: SphereProblem, effects: tuple[Candidate, ...], baseline: Floats, extended: Floats
+    unseen: SphereProblem, extension: Extension, baseline: Floats, extended: Floats
 ) -> HeldOutPrediction | None:
     """Prediction of data that the search has not seen, by both models as they were fitted; None where a beat fails."""
     model = unseen.model
-    predictions = [hypothesis(model, added).forward(x) for added, x in (((), baseline), (effects, extended))]
-    if predictions[0] is None or predictions[1] is None:
+    without, within = hypothesis(model).forward(baseline), extension(model).forward(extended)
+    if without is None or within is None:
         return None
-    return HeldOutPrediction(
-        "samples that the search has not seen", unseen.data, predictions[0], predictions[1]
-    )
+    return HeldOutPrediction("samples that the search has not seen", unseen.data, without, within)
 
 
 def predict_condition(
-    name: str,
-    nominal: NominalHeart,
-    data: Data,
-    effects: tuple[Candidate, ...],
-    baseline: Floats,
-    extended: Floats,
+    name: str, nominal: NominalHeart, data: Data, extension: Extension, baseline: Floats, extended: Floats
 ) -> HeldOutPrediction | None:
     """Prediction of another condition by both fitted models with refitted loading; None where a fit fails."""
     paced = nominal.at_period(data.blocks[0].period)
-    models = (((), baseline), (effects, extended))
-    predictions = [_fit_loading(paced, data, added, x) for added, x in models]
-    if predictions[0] is None or predictions[1] is None:
+    without = _fit_loading(paced, data, hypothesis, baseline)
+    within = _fit_loading(paced, data, extension, extended)
+    if without is None or within is None:
         return None
-    return HeldOutPrediction(name, data, predictions[0], predictions[1])
+    return HeldOutPrediction(name, data, without, within)
 
 
-def _fit_loading(
-    nominal: NominalHeart, data: Data, effects: tuple[Candidate, ...], x: Floats
-) -> Floats | None:
+def _fit_loading(nominal: NominalHeart, data: Data, extension: Extension, x: Floats) -> Floats | None:
     def forward(change: Floats) -> Floats | None:
         pairs = zip(LOADING.items(), change.tolist(), strict=True)
         changed = {path: nominal.values[path] * exp(sd * z) for (path, sd), z in pairs}
         loaded = replace(nominal, heart=nominal.heart.with_parameters(changed))
-        return hypothesis(SphereForwardModel.at_samples(loaded, data.blocks), effects).forward(x)
+        return extension(SphereForwardModel.at_samples(loaded, data.blocks)).forward(x)
 
     loading = Hypothesis((), tuple(Coordinate(path) for path in LOADING), forward)
     explanation = FitContext(data).explain(loading, loading.at(0.0))
     return None if explanation is None else explanation.fit.predicted
+
+
+def predict_extension(
+    case: SearchedRecording, extension: Extension, fitted: Floats, conditions: Mapping[str, Recording]
+) -> list[HeldOutPrediction | None]:
+    """Predictions of conditions and unseen samples without and with an extension at its ``fitted`` coordinates (d,)."""
+    fits, nominal = (case.findings.survey.baseline.fit.x, fitted), case.model.nominal
+    tests: list[HeldOutPrediction | None] = [
+        predict_condition(name, nominal, case.problem(condition).data, extension, *fits)
+        for name, condition in conditions.items()
+    ]
+    if case.unseen_problem is not None:
+        tests.append(predict_unseen(case.unseen_problem, extension, *fits))
+    return tests

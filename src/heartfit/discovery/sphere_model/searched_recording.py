@@ -1,6 +1,6 @@
 """A recording with everything that a search on the sphere found in it."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -79,12 +79,16 @@ class SearchedRecording:
         rules: Rules = DEFAULT_RULES,
         unseen: Recording | None = None,
         structure: DiscrepancyPrior | None = None,
+        left_out: Collection[str] = (),
     ) -> "SearchedRecording":
-        """Fit every mechanism, pairs and the GP discrepancy to the recording; nominal: a sphere fitted to a
-        beat of the 3-D model; the adult's, scaled to the recorded size, if None."""
+        """Fit every mechanism, pairs and the GP discrepancy to the recording.
+
+        nominal: a sphere fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None.
+        left_out: mechanisms of the library that are not tried.
+        """
         problem = SphereProblem.from_recording(recording, nominal, structure)
         data, model = problem.data, problem.model
-        library = candidates(model)
+        library = {name: one for name, one in candidates(model).items() if name not in left_out}
         if recording.searched == VOLUME_ALONE:
             rules = replace(rules, detected=max(rules.detected, VOLUME_ONLY_THRESHOLD))
         findings = search(

@@ -137,7 +137,7 @@ class Network:
         self.atria = chamber_table(mechanisms, sides)
 
     def laws(self, time: Floats | float) -> Floats:
-        """Coefficients (..., branches, 5) of the branches at ``time`` (...) [s]; see ``Branch``."""
+        """Coefficients (..., branches, 6) of the branches at ``time`` (...) [s]; see ``Branch``."""
         time = np.asarray(time)
         laws = [*self._valves, *(leak.law(time) for leak in self._leaks)]
         result = np.empty((*time.shape, len(laws), len(Branch._fields)))
@@ -258,7 +258,7 @@ def net_outflow(ends, laws, branch_states, atria, t, p, out, slope):  # type: ig
     """Fill row 0 of ``out`` with the net outflow (n,) of v ventricles and their arteries, and its Jacobian ``slope``.
 
     p (n,) are their pressures, n = 2 v, followed by those of the atria, n = 3 v, if one of them has a volume;
-    ``atria`` (t, v) and ``laws`` (t, k, 5) are the prescribed atrial pressures and the coefficients of the branches
+    ``atria`` (t, v) and ``laws`` (t, k, 6) are the prescribed atrial pressures and the coefficients of the branches
     with the ``ends`` (k, 2) at many times, of which row t applies. ``branch_states`` (7, k) has the rows of
     :mod:`heartfit.roles.laws`; those at the end of the step are filled.
     """

@@ -5,9 +5,9 @@ The control switches between contraction and relaxation,
 .. math:: u(X, t) = +k_{ATP} \text{ for } T_d(X) \le t - t_0 < T_d(X) + APD, \quad -k_{RS} \text{ otherwise}
 
 periodic with the heart period. A step of the time scheme uses the exact means of |u| and |u|_+ over the step, so that
-the sum over a mesh does not depend on the position of T_d between the time levels. A tail removes a share of k_RS at
-some times after repolarisation. The length dependence is that of :class:`Starling`. Source: Marchesseau et al., MICCAI
-2012, section 2.
+the sum over a mesh does not depend on the position of T_d between the time levels. A gain adds a share of k_ATP at some
+times after activation, a tail removes a share of k_RS at some times after repolarisation. The length dependence is that
+of :class:`Starling`. Source: Marchesseau et al., MICCAI 2012, section 2.
 """
 
 from dataclasses import dataclass
@@ -20,6 +20,13 @@ from heartfit.core.arrays import Floats
 from heartfit.core.parameter import parameter, require_admissible
 
 
+class AddedAttachment(Protocol):
+    """Faster or slower contraction."""
+
+    def added_integral(self, time: Floats) -> Floats:
+        """Integral [s] of the added share of k_ATP over [0, ``time``] after activation."""
+
+
 class Tail(Protocol):
     """Slower relaxation."""
 
@@ -29,7 +36,7 @@ class Tail(Protocol):
 
 @dataclass(frozen=True)
 class Control:
-    """Rates and timing of the electrical control; ``tails`` slow the relaxation."""
+    """Rates and timing of the electrical control; ``gains`` change the contraction, ``tails`` slow the relaxation."""
 
     k_ATP: float = parameter(6.0, unit="1/s", symbol="k_{ATP}", meaning="rate of contraction", sd=0.25)
     k_RS: float = parameter(14.0, unit="1/s", symbol="k_{RS}", meaning="rate of relaxation", sd=0.25)
@@ -48,6 +55,7 @@ class Control:
         meaning="ECG trigger (R wave) after the earliest activation, negative before it",
         low=-0.2,
     )
+    gains: tuple[AddedAttachment, ...] = ()
     tails: tuple[Tail, ...] = ()
 
     def __post_init__(self) -> None:
@@ -66,7 +74,10 @@ class Control:
                 f"action potential of {self.duration:g} s: expected less than the period, {period:g} s"
             )
         depolarised = self._depolarised(start, dt, activation, period)
-        attach = self.k_ATP * depolarised
+        attached = depolarised
+        for gain in self.gains:
+            attached = attached + self._mean_added_share(gain, start, dt, activation, period)
+        attach = self.k_ATP * (np.maximum(attached, 0.0) if self.gains else attached)
         rate = attach + self.k_RS * (1.0 - depolarised)
         for tail in self.tails:
             rate = rate - self.k_RS * self._mean_missing_share(tail, start, dt, activation, period)
@@ -84,6 +95,20 @@ class Control:
         cycles, rest = np.divmod(time, period)
         spent: Floats = cycles * self.duration + np.minimum(rest, self.duration)
         return spent
+
+    def _mean_added_share(
+        self, gain: AddedAttachment, start: Floats | float, dt: float, activation: Floats, period: float
+    ) -> Floats:
+        """Mean over the step of the share that the gain adds to k_ATP."""
+        elapsed = np.mod(start - self.onset - activation, period)
+        upper, lower = (self._added_time(gain, time, period) for time in (elapsed + dt, elapsed))
+        mean: Floats = (upper - lower) / dt
+        return mean
+
+    def _added_time(self, gain: AddedAttachment, time: Floats, period: float) -> Floats:
+        """Integral [s] of the share that the gain adds within [0, time], counted from the activation."""
+        cycles, rest = np.divmod(time, period)
+        return cycles * gain.added_integral(np.asarray(period)) + gain.added_integral(rest)
 
     def _mean_missing_share(
         self, tail: Tail, start: Floats | float, dt: float, activation: Floats, period: float

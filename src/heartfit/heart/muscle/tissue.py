@@ -24,7 +24,7 @@ from heartfit.heart.muscle.control import Control
 from heartfit.heart.muscle.passive import MooneyRivlin, Passive
 from heartfit.heart.muscle.right import SAME_MUSCLE, RightVentricle
 from heartfit.heart.muscle.stiffened import Stiffened
-from heartfit.roles import Amendment, Availability, Delay, Mechanism, Relaxation, Stress
+from heartfit.roles import Amendment, Attachment, Availability, Delay, Mechanism, Relaxation, Stress
 
 
 @dataclass(frozen=True)
@@ -149,12 +149,13 @@ class Tissue:
 
     def _with_parts(self, mechanisms: Sequence[Mechanism]) -> "Tissue":
         stresses = tuple(m for m in mechanisms if isinstance(m, Stress))
+        gains = tuple(m for m in mechanisms if isinstance(m, Attachment))
         tails = tuple(m for m in mechanisms if isinstance(m, Relaxation))
         regional = tuple(m for m in mechanisms if isinstance(m, Availability | Delay))
         return replace(
             self,
             passive=Stiffened(self.passive, stresses) if stresses else self.passive,
-            control=replace(self.control, tails=tails) if tails else self.control,
+            control=replace(self.control, gains=gains, tails=tails) if gains or tails else self.control,
             regional=regional,
         )
 

@@ -38,7 +38,7 @@ class StepInputs(NamedTuple):
     """Prescribed inputs of n steps of equal ``length`` [s], for v sides, m fibres and k branches.
 
     Means over the steps: ``rate`` |u| and ``attach`` |u|_+ (n, m) [1/s]. Values at their ends: pressures ``atria`` (n,
-    v) and ``waves`` (n, v) in the arteries [Pa], coefficients ``loads`` (n, l, v, 4) and ``laws`` (n, k, 5) of the
+    v) and ``waves`` (n, v) in the arteries [Pa], coefficients ``loads`` (n, l, v, 4) and ``laws`` (n, k, 6) of the
     branches, which connect the compartments ``ends`` (k, 2). Atria with a volume take the active elastances and
     pressures ``walls`` (n, 2, v) [Pa/m^3], [Pa] instead.
     """

@@ -1,0 +1,122 @@
+"""Search hearts for effects that the library lacks: python -m benchmarks.unknown_places
+
+Hearts of the benchmark's generator on seeds that nothing else uses: sound ones, effects from outside the library,
+mechanisms whose entry is removed from it, and the same with the complete library. Prints a line per heart and stores
+docs/measured/unknown_places*.tsv. Half an hour of two cores.
+"""
+
+import sys
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+
+import pandas as pd
+
+from benchmarks.ventricles import ROOT
+from heartfit.discovery.sphere_model.diagnose import conclude
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
+from heartfit.discovery.sphere_model.unknown_place import locate
+from heartfit.io.files import write_text
+from heartfit.places import PLACES, regions_of
+from heartfit.results.unknown_places import (
+    COMPLETE,
+    OUTSIDE,
+    REMOVED,
+    SOUND,
+    PlaceTrial,
+    forms_table,
+    hearts_table,
+    names_table,
+    places_table,
+)
+from heartfit.synthetic.campaign import Kind, PlantedPlan, plantable
+from heartfit.synthetic.case import REST, plant
+from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
+
+PROCESSES = 2
+SEED = 340000
+SOUND_HEARTS, SCALES, EACH = 40, (3.0, 4.0), 2
+"""Number of sound hearts; sizes of effects from outside the library, and hearts of each."""
+REMOVED_SCALES = 3.0
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A planned heart of a group, and the entries that are removed from the library."""
+
+    group: str
+    plan: PlantedPlan
+    left_out: tuple[str, ...] = ()
+
+
+def main() -> None:
+    """Search all hearts and store the tables."""
+    searched: list[PlaceTrial] = []
+    with ProcessPoolExecutor(PROCESSES) as pool:
+        for one in pool.map(search, trials()):
+            searched.append(one)
+            sys.stdout.write(f"{' | '.join(map(str, hearts_table([one]).iloc[0]))}\n")
+            sys.stdout.flush()
+            store(searched)
+
+
+def trials() -> list[Trial]:
+    """Return the trials; those of a group follow each other by turns, so that a stopped run has some of each."""
+    left = [name for name, kind in plantable().items() if regions_of(kind)]
+    sound = _planned(SOUND, 0, "none", [()] * SOUND_HEARTS, 0.0)
+    effects = [(kind.__name__,) for kind in OUT_OF_LIBRARY] * EACH
+    outside = [
+        trial
+        for place, scales in enumerate(SCALES)
+        for trial in _planned(OUTSIDE, 100 * (place + 1), "outside", effects, scales)
+    ]
+    removed = _planned(REMOVED, 400, "single", [(name,) for name in left], REMOVED_SCALES)
+    complete = _planned(COMPLETE, 500, "single", [(name,) for name in left], REMOVED_SCALES)
+    return _by_turns([sound, outside, removed, complete])
+
+
+def _planned(
+    group: str, first: int, kind: Kind, effects: Sequence[tuple[str, ...]], scales: float
+) -> list[Trial]:
+    return [
+        Trial(
+            group, PlantedPlan(SEED + first + place, kind, names, scales), names if group == REMOVED else ()
+        )
+        for place, names in enumerate(effects)
+    ]
+
+
+def _by_turns(groups: Sequence[Sequence[Trial]]) -> list[Trial]:
+    longest = max(map(len, groups))
+    return [group[place] for place in range(longest) for group in groups if place < len(group)]
+
+
+def search(trial: Trial) -> PlaceTrial:
+    """Diagnose a planted heart without and with places."""
+    plan = trial.plan
+    first, unseen = Recording.from_curves(plant(plan).curves[REST]).halves()
+    case = SearchedRecording.search(first, unseen=unseen, left_out=trial.left_out)
+    before = conclude(case, {})
+    after = locate(before, case, {}, PLACES)
+    return PlaceTrial(plan.seed, trial.group, "".join(plan.names), plan.scales, before, after)
+
+
+def store(searched: Sequence[PlaceTrial]) -> None:
+    """Write the tables of the hearts that are searched so far, and that of the places."""
+    _store("unknown_places_forms", forms_table())
+    _store("unknown_places", places_table(searched))
+    _store("unknown_places_names", names_table(searched))
+    _store("unknown_places_hearts", hearts_table(searched))
+
+
+def _store(name: str, table: pd.DataFrame) -> None:
+    text = table.to_csv(sep="\t", index=False)
+    write_text(
+        ROOT / "docs" / "measured" / f"{name}.tsv",
+        f"# made by: python -m benchmarks.unknown_places\n{text}",
+    )
+
+
+if __name__ == "__main__":
+    main()

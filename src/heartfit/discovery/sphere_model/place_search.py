@@ -1,0 +1,183 @@
+r"""The search for the place at which something unknown acts.
+
+Every place of :mod:`heartfit.places` is a hypothesis: its function, of coefficients z, beside the free parameters. All
+are linearised about the fit without a place; those of the largest predicted evidence are fitted, each also from
+the parameters of the best one. The evidence is averaged over the priors of the function, N(0, D^2), the model linear
+about the fit:
+
+.. math:: \ln Z = \ln \frac1n \sum_D Z(x / D, J D) - \max\{0, \ell_D - 1\} ,
+
+less what the linear model promises of ln likelihood beyond the fit, in excess of 1: a fit that has not converged, or a
+place that was not fitted, would invent evidence. The evidence of a region is that of its best place.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import logsumexp
+
+from heartfit.core.arrays import Floats
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.evidence import Explanation, Fit, posterior
+from heartfit.discovery.inference.hypothesis import Coordinate, CountedHypothesis, Hypothesis
+from heartfit.discovery.sphere_model.forward_model import BASE_COORDINATES, SphereForwardModel
+from heartfit.places import PLACES, Place, Region
+
+BASE = len(BASE_COORDINATES)
+FEWEST_FITTED, MOST_FITTED = 3, 7
+"""Numbers of places that are fitted in every search, and at most, where the linear model predicts a gain."""
+PREDICTED_GAIN = 1.0
+"""ln evidence over that without a place above which further places are fitted."""
+PROMISE = 1.0
+"""Largest ln likelihood beyond a fit that counts."""
+SWITCHED_ON = 1.0
+"""Coefficients from which a place of one-sided coefficients is fitted once more."""
+FIT_LIMIT = 1200
+"""Simulations after which a fit of a place is given up."""
+
+
+@dataclass(frozen=True, eq=False)
+class FittedPlace:
+    """A place, its fit or linear model, and its ln evidence over that without a place."""
+
+    kind: type[Place]
+    explanation: Explanation
+    ln_bayes_factor: float
+    fitted: bool = True
+
+    @property
+    def region(self) -> Region:
+        return self.kind.region
+
+
+def place_hypothesis(model: SphereForwardModel, kind: type[Place]) -> Hypothesis:
+    """Return the hypothesis of a place about a forward model."""
+    period = model.nominal.heart.period
+    own = tuple(Coordinate(f"{kind.__name__}.{index}", kind.one_sided) for index in range(kind.size))
+
+    def forward(x: Floats) -> Floats | None:
+        return model.predict(x[:BASE], (kind.from_standardised(x[BASE:], period),))
+
+    return Hypothesis((kind.__name__,), BASE_COORDINATES + own, forward)
+
+
+@dataclass(frozen=True, eq=False)
+class PlaceSearch:
+    """The places about a fit without one."""
+
+    context: FitContext
+    model: SphereForwardModel
+    baseline: Explanation
+
+    def run(self, kinds: Sequence[type[Place]] = PLACES) -> tuple[FittedPlace, ...]:
+        """Return all places in descending evidence; one whose simulations fail is left out."""
+        screened = [place for place in map(self._screened, kinds) if place is not None]
+        screened.sort(key=self._predicted, reverse=True)
+        least = self.baseline.log_evidence + PREDICTED_GAIN
+        promising = [
+            place
+            for rank, place in enumerate(screened[:MOST_FITTED])
+            if rank < FEWEST_FITTED or self._predicted(place) > least
+        ]
+        fitted = [self._fitted(place) for place in promising]
+        best = _ranked(fitted)[0]
+        again = [place if place.region == best.region else self._from_best(place, best) for place in fitted]
+        return _ranked([*again, *(place for place in screened if place not in promising)])
+
+    @property
+    def period(self) -> float:
+        """Period of the beat [s]."""
+        return self.model.nominal.heart.period
+
+    def fitted_beside(self, kind: type[Place], other: FittedPlace) -> FittedPlace:
+        """Return a place fitted from the parameters of another one; its linear model where its simulations fail."""
+        screened = self._screened(kind)
+        if screened is None:
+            raise ValueError(f"{kind.__name__} acts on no recorded curve")
+        return self._from_best(self._fitted(screened), other)
+
+    def _screened(self, kind: type[Place]) -> FittedPlace | None:
+        """Return the linear model of a place about the fit without one."""
+        hypothesis = place_hypothesis(self.model, kind)
+        x = np.concatenate([self.baseline.fit.x, np.zeros(kind.size)])
+        counted = CountedHypothesis(hypothesis)
+        columns = counted.jacobian(x, self.baseline.fit.predicted, BASE)
+        self.context.simulations += counted.runs
+        if not columns.any():
+            return None
+        jacobian = np.column_stack([self.baseline.fit.jacobian, columns])
+        unfitted = Fit(hypothesis, x, self.baseline.fit.predicted, jacobian, np.inf, converged=False)
+        return self._judged(kind, self._explained(unfitted), fitted=False)
+
+    def _fitted(self, place: FittedPlace) -> FittedPlace:
+        start, slopes = place.explanation.fit.x, place.explanation.fit.jacobian
+        explained = self._fit(place, start, slopes)
+        if place.kind.one_sided:
+            switched = np.concatenate([start[:BASE], np.full(place.kind.size, SWITCHED_ON)])
+            explained = _better(explained, self._fit(place, switched, None))
+        return place if explained is None else self._judged(place.kind, explained)
+
+    def _from_best(self, place: FittedPlace, best: FittedPlace) -> FittedPlace:
+        """Return the better of a place's fit and one that starts from the parameters of the best place."""
+        shared = best.explanation.fit.x[:BASE]
+        start = np.concatenate([shared, place.explanation.fit.x[BASE:]])
+        other = self._fit(place, start, place.explanation.fit.jacobian)
+        again = place.explanation if place.fitted else None
+        explained = _better(again, other)
+        return place if explained is None else self._judged(place.kind, explained)
+
+    def _fit(self, place: FittedPlace, start: Floats, slopes: Floats | None) -> Explanation | None:
+        hypothesis = place.explanation.fit.hypothesis
+        return self.context.explain(hypothesis, start, slopes, limit=FIT_LIMIT)
+
+    def _explained(self, fit: Fit) -> Explanation:
+        return Explanation.from_fit(fit, self.context.data.values, self.context.whitening)
+
+    def _judged(self, kind: type[Place], explained: Explanation, fitted: bool = True) -> FittedPlace:
+        evidences = [
+            evidence - max(0.0, promised - PROMISE)
+            for evidence, promised in self._evidences(explained.fit, kind.deviations(self.period))
+        ]
+        mean = float(logsumexp(evidences) - np.log(len(evidences)))
+        return FittedPlace(kind, explained, mean - self.baseline.log_evidence, fitted)
+
+    def _predicted(self, place: FittedPlace) -> float:
+        """ln evidence of the linear model, with all that it promises."""
+        evidences = [
+            one for one, _ in self._evidences(place.explanation.fit, place.kind.deviations(self.period))
+        ]
+        return float(logsumexp(evidences) - np.log(len(evidences)))
+
+    def _evidences(self, fit: Fit, deviations: Floats) -> Iterable[tuple[float, float]]:
+        """Yield ln evidence and the promised ln likelihood under every prior of the function.
+
+        The linear model stands at the function zero, where its coefficients are the same under all priors.
+        """
+        left, whitening = self.context.data.values - fit.predicted, self.context.whitening
+        now = whitening.log_likelihood(left)
+        x = np.concatenate([fit.x[:BASE], np.zeros(fit.x.size - BASE)])
+        residual = left + fit.jacobian @ (fit.x - x)
+        for row in deviations:
+            jacobian = fit.jacobian * np.concatenate([np.ones(BASE), row])
+            linear = posterior(whitening, x, residual, jacobian, fit.hypothesis.one_sided)
+            bounded = np.maximum(linear.mean, fit.hypothesis.lower)
+            beyond = whitening.log_likelihood(residual - jacobian @ (bounded - x)) - now
+            yield linear.log_evidence, beyond
+
+
+def _better(one: Explanation | None, other: Explanation | None) -> Explanation | None:
+    fits = [explained for explained in (one, other) if explained is not None]
+    return min(fits, key=lambda explained: explained.fit.objective, default=None)
+
+
+def _ranked(places: Iterable[FittedPlace]) -> tuple[FittedPlace, ...]:
+    return tuple(sorted(places, key=lambda place: place.ln_bayes_factor, reverse=True))
+
+
+def by_region(places: Iterable[FittedPlace]) -> dict[Region, FittedPlace]:
+    """Return the best place of each region, the best region first."""
+    regions: dict[Region, FittedPlace] = {}
+    for place in _ranked(places):
+        regions.setdefault(place.region, place)
+    return regions

@@ -1,0 +1,44 @@
+"""The functions at the places on which something unknown acts, as panels of a figure."""
+
+from matplotlib.axes import Axes
+from matplotlib.figure import FigureBase
+
+from heartfit.discovery.sphere_model.cause import ActingPlace, Diagnosis, PlaceFunction
+from heartfit.results.acting_places import REGIONS, UNITS, law_text
+from heartfit.results.figures import ARTERY, CALIBRATED, REFERENCE, clean
+
+
+def plot_functions(figure: FigureBase, diagnosis: Diagnosis) -> None:
+    """Plot one panel for each region: the function of time with its 95 % band, and the best law (dashed)."""
+    panels = figure.subplots(1, len(diagnosis.functions), squeeze=False)[0]
+    for axes, function, acting in zip(panels, diagnosis.functions, diagnosis.acting, strict=True):
+        _plot_function(axes, function, acting)
+
+
+def _plot_function(axes: Axes, function: PlaceFunction, acting: ActingPlace) -> None:
+    unit, factor = UNITS[function.unit]
+    mean, reach = factor * function.mean, 2.0 * factor * function.sd
+    axes.axhline(0.0, color="black", linewidth=0.6)
+    axes.fill_between(
+        function.times,
+        mean - reach,
+        mean + reach,
+        color=REFERENCE,
+        alpha=0.35,
+        linewidth=0,
+        label="95 % band",
+    )
+    axes.plot(function.times, mean, color=CALIBRATED, linewidth=1.6, label="free function")
+    axes.plot(
+        function.times,
+        factor * function.law,
+        "--",
+        color=ARTERY,
+        linewidth=1.4,
+        label=law_text(acting.laws[0]),
+    )
+    axes.set_title(f"acts on {REGIONS[acting.region]}", fontsize=10, fontweight="bold")  # type: ignore[index]
+    axes.set_xlabel("time after trigger (s)")
+    axes.set_ylabel(f"added ({unit})" if unit else "added share", fontsize=9)
+    axes.legend(frameon=False, fontsize=8)
+    clean(axes)

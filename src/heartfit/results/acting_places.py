@@ -1,0 +1,102 @@
+"""Sentences on the regions on which something unknown acts."""
+
+from collections.abc import Mapping, Sequence
+
+from heartfit.discovery.sphere_model.cause import ActingPlace, ClearSpan, RankedLaw
+from heartfit.places import Region
+
+REGIONS: Mapping[Region, str] = {
+    "filling": "the left atrium or the mitral valve",
+    "ejection": "the aorta or the aortic valve",
+    "leak": "a leak out of the left ventricle",
+    "backflow": "a backflow from the aorta into the left ventricle",
+    "wall": "the wall of the left ventricle",
+    "muscle": "the muscle",
+    "images": "the images",
+    "catheter": "the catheter",
+}
+EQUIVALENT: Mapping[Region, str] = {
+    "filling": "a pressure of the atrium and a loss in the valve",
+    "ejection": "a pressure of the aorta and a loss in the valve",
+    "leak": "where the blood goes, to the atrium or to the right ventricle",
+    "backflow": "how the blood passes the valve",
+    "wall": "a pressure around the wall and the wall's own elasticity",
+    "muscle": "the parts of the muscle",
+    "images": "scanner, segmentation and registration",
+    "catheter": "line, transducer and amplifier",
+}
+"""Causes within a region that volume and pressure of the left ventricle do not tell apart."""
+SEPARATED_BY: Mapping[Region, str] = {
+    "filling": "a left atrial or wedge pressure",
+    "ejection": "an aortic pressure",
+    "leak": "the flow through the mitral valve by Doppler or phase contrast",
+    "backflow": "the flow in the aortic root by phase contrast",
+    "wall": "the same heart with raised legs",
+    "muscle": "the same heart at another rate",
+    "images": "a second reading of the images",
+    "catheter": "a second catheter, or the aortic pressure",
+}
+"""The measurement that shows whether something acts on a region."""
+UNITS = {
+    "Pa": ("kPa", 1e-3), "m^3": ("mL", 1e6), "m^3/s": ("mL/s", 1e6), "m^2": ("cm²", 1e4), "s": ("ms", 1e3),
+    "m^3/(s Pa)": ("mL/(s kPa)", 1e9), "1/m^4": ("1/cm⁴", 1e-8), "1": ("", 1.0),
+}  # fmt: skip
+"""Printed unit, and the factor from SI, by SI unit."""
+
+
+def acting_sentence(acting: Sequence[ActingPlace]) -> str:
+    """Return "Something that the library lacks acts on REGION: SIZE, TIMES; it follows LAW.", or names of several."""
+    if len(acting) > 1:
+        names = " or ".join(REGIONS[one.region] for one in acting)  # type: ignore[index]
+        return f"Something that the library lacks acts on {names}; these data do not tell which."
+    (one,) = acting
+    size = f": {span_text(one.spans[0])}" if one.spans else ""
+    law = f"; it follows {law_text(one.laws[0])}" if one.laws else ""
+    return f"Something that the library lacks acts on {REGIONS[one.region]}{size}{law}."  # type: ignore[index]
+
+
+def span_text(span: ClearSpan) -> str:
+    """Return "91 ± 11 mL/s, 230 to 380 ms after the trigger"."""
+    unit, factor = UNITS[span.unit]
+    size = f"{factor * span.size:.2g} ± {factor * span.sd:.2g} {unit}".strip()
+    return f"{size}, {1e3 * span.start:.0f} to {1e3 * span.end:.0f} ms after the trigger"
+
+
+def law_text(law: RankedLaw) -> str:
+    """Return "an orifice law of 0.27 cm²", or "a pulse law of ..." with its shape."""
+    unit, factor = UNITS[law.unit]
+    article = "an" if law.name[0] in "aeiou" else "a"
+    size = f"{factor * law.size:.2g} {unit}".strip()
+    return f"{article} {law.name} law of {size}"
+
+
+def acting_section(acting: Sequence[ActingPlace]) -> str:
+    """Return the section of the card: each region with its evidence, sizes, laws and what is not told apart."""
+    return "## Where it acts\n\n" + "\n\n".join(map(_paragraph, acting))
+
+
+def _paragraph(one: ActingPlace) -> str:
+    region: Region = one.region  # type: ignore[assignment]
+    spans = "; ".join(map(span_text, one.spans[:3])) or "no time at which it is clear"
+    name = REGIONS[region]
+    return (
+        f"**{name[0].upper()}{name[1:]}**: ln Bayes factor {one.ln_bayes_factor:.1f}, by {one.slot}. "
+        f"Clear: {spans}. Not told apart: {EQUIVALENT[region]}.\n\n{_laws_table(one.laws)}"
+    )
+
+
+def _laws_table(laws: Sequence[RankedLaw]) -> str:
+    rows = [f"| {law.name} | ${law.formula}$ | {_law_size(law)} | {law.ln_likelihood:.1f} |" for law in laws]
+    return "| law | formula | size | ln likelihood beside the best |\n|---|---|---|---|\n" + "\n".join(rows)
+
+
+def _law_size(law: RankedLaw) -> str:
+    unit, factor = UNITS[law.unit]
+    return f"{factor * law.size:.2g} {unit}".strip()
+
+
+def separating_measurement(acting: Sequence[ActingPlace]) -> str:
+    """Return the measurement that shows on which of the regions something acts, or what the region leaves open."""
+    return (
+        f"{SEPARATED_BY[acting[0].region]}: it shows whether something acts on {REGIONS[acting[0].region]}."  # type: ignore[index]
+    )
