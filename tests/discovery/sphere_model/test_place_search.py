@@ -65,12 +65,14 @@ def test_places_are_ranked_and_what_was_not_fitted_promises_little(leaking) -> N
     assert all(place.ln_bayes_factor <= PROMISE + 0.1 for place in places if not place.fitted)
 
 
-def test_a_linear_model_that_was_not_fitted_counts_little_of_what_it_promises(leaking) -> None:  # type: ignore[no-untyped-def]
+def test_a_linear_model_that_was_not_fitted_counts_less_than_it_promises(leaking) -> None:  # type: ignore[no-untyped-def]
+    """It promises ln likelihood, which is taken off, and a gain in the prior of the parameters, which counts."""
     search, _ = leaking
     screened = search._screened(LeakPassage)
     assert screened is not None
-    assert search._predicted(screened) > search.baseline.log_evidence + 5.0
-    assert screened.ln_bayes_factor < PROMISE + 0.1
+    predicted = search._predicted(screened) - search.baseline.log_evidence
+    assert predicted > 5.0
+    assert screened.ln_bayes_factor < predicted - 1.0
 
 
 def test_a_fitted_place_explains_no_less_than_the_model_without_it(leaking) -> None:  # type: ignore[no-untyped-def]

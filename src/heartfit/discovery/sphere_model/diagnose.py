@@ -32,15 +32,17 @@ def diagnose(
     conditions: recordings of the same heart under other loading, by name; only the loading is fitted to them. nominal:
     a sphere that was fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None. unseen:
     samples of the same beat, which judge a name and do not choose it. structure: of the discrepancy between the sphere
-    and the source of the recording; None where the model is trusted. places: where an unknown effect may act. Without
-    unseen samples and conditions the search sees half of the recording, and the other half judges. Raises InputError
-    where the nominal heart does not beat, and for a loop of pressure and volume that runs clockwise.
+    and the source of the recording; None where the model is trusted. places: where an unknown effect may act, tried
+    where the model is trusted. Without unseen samples and conditions the search sees half of the recording, and the
+    other half judges. Raises InputError where the nominal heart does not beat, and for a loop of pressure and volume
+    that runs clockwise.
     """
     warnings = implausible(recording)
     if unseen is None and not conditions:
         recording, unseen = recording.halves()
     case = SearchedRecording.search(recording, nominal, rules, unseen, structure)
-    return locate(conclude(case, conditions or {}, warnings), case, conditions or {}, places)
+    trusted = places if structure is None else ()
+    return locate(conclude(case, conditions or {}, warnings), case, conditions or {}, trusted)
 
 
 def diagnose_change(after: Recording, before: Recording) -> Diagnosis:
@@ -51,7 +53,7 @@ def diagnose_change(after: Recording, before: Recording) -> Diagnosis:
     """
     earlier = EarlierHeart.from_recording(before)
     nominal = earlier.at_period(after.period)
-    return diagnose(after, nominal=nominal, rules=CHANGE_RULES, structure=earlier, places=())
+    return diagnose(after, nominal=nominal, rules=CHANGE_RULES, structure=earlier)
 
 
 def conclude(
