@@ -21,6 +21,7 @@ from heartfit.results import acting_places
 from heartfit.results.acting_places import acting_section, acting_sentence, law_text, span_text
 from heartfit.results.cause_card import gain_subject, next_measurement_text, verdict_sentence
 from heartfit.results.cause_figure import plot_cause, render_cause
+from heartfit.results.text import AMPLITUDE_UNITS
 from heartfit.results.unknown_places import (
     COMPLETE,
     OUTSIDE,
@@ -86,7 +87,7 @@ def test_sizes_have_printed_units() -> None:
         == "-2 ± 0.3 kPa, 100 to 200 ms after the trigger"
     )
     assert law_text(RankedLaw("gain", "g", -0.05, "1", 0.0, {})) == "a gain law of -0.05"
-    assert {place.unit for place in PLACES} <= set(acting_places.UNITS)
+    assert {place.unit for place in PLACES} <= set(AMPLITUDE_UNITS)
 
 
 @pytest.mark.parametrize(

@@ -131,6 +131,7 @@ def diagnose(arguments: argparse.Namespace) -> int:
     from heartfit.io.files import write_text
     from heartfit.io.pressures import read_pressure
     from heartfit.io.recordings import read_conditions, read_recording
+    from heartfit.places import PLACES
     from heartfit.results.cause_card import verdict_sentence
     from heartfit.results.cause_figure import render_cause
     from heartfit.results.mechanism_file import mechanism_file
@@ -155,7 +156,10 @@ def diagnose(arguments: argparse.Namespace) -> int:
     else:
         rules = STRICT_RULES if arguments.strict else DEFAULT_RULES
         structure = None if arguments.trust_simulator else _structure(arguments)
-        conclusion = diagnosis.diagnose(recording, conditions, rules=rules, structure=structure)
+        places = PLACES if arguments.trust_simulator else ()
+        conclusion = diagnosis.diagnose(
+            recording, conditions, rules=rules, structure=structure, places=places
+        )
     code = fingerprint(Path(diagnosis.__file__))
     write_cause_card(arguments.output, render_cause(conclusion, arguments.measured.stem), code)
     print(

@@ -2,22 +2,14 @@
 
 from dataclasses import dataclass
 
-from heartfit.core.arrays import Floats
-from heartfit.places.place import FunctionOfTime
-from heartfit.roles import Flow
-from heartfit.roles.laws import Branch
+from heartfit.places.place import AddedFlow
 
 
 @dataclass(frozen=True)
-class Backflow(FunctionOfTime, Flow):
+class Backflow(AddedFlow):
     """Flow [m^3/s] from the aorta into the left ventricle, past the valve."""
 
     region = "backflow"
     slot = "a flow from the aorta into the left ventricle"
-    unit = "m^3/s"
-    amplitude = 60e-6
     upstream = "aorta"
     downstream = "lv"
-
-    def law(self, time: Floats) -> Branch:
-        return Branch(source=self.function.at(time))

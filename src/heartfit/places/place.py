@@ -9,7 +9,8 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.places.cosines import COSINES, CosineFunction, cosine_deviations
 from heartfit.places.periodic import COEFFICIENTS, PeriodicFunction, wave_deviations, waves_at
-from heartfit.roles import Mechanism, Pressure
+from heartfit.roles import Flow, Mechanism, Pressure
+from heartfit.roles.laws import Branch
 
 Region = Literal["filling", "ejection", "leak", "backflow", "wall", "muscle", "images", "catheter"]
 """Parts of a heart and of its measurement that volume and pressure tell apart.
@@ -108,3 +109,14 @@ class AddedPressure(FunctionOfTime, Pressure):
 
     def pressure(self, compartment: str, time: Floats, period: float) -> Floats:  # noqa: ARG002
         return self.function.at(time)
+
+
+@dataclass(frozen=True)
+class AddedFlow(FunctionOfTime, Flow):
+    """A free function of time [m^3/s]: a flow between two compartments that no pressure drives."""
+
+    unit = "m^3/s"
+    amplitude = 60e-6
+
+    def law(self, time: Floats) -> Branch:
+        return Branch(source=self.function.at(time))

@@ -4,8 +4,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
 
 from heartfit.discovery.sphere_model.cause import ActingPlace, Diagnosis, PlaceFunction
-from heartfit.results.acting_places import REGIONS, UNITS, law_text
+from heartfit.results.acting_places import REGIONS, law_text
 from heartfit.results.figures import ARTERY, CALIBRATED, REFERENCE, clean
+from heartfit.results.text import AMPLITUDE_UNITS
 
 
 def plot_functions(figure: FigureBase, diagnosis: Diagnosis) -> None:
@@ -16,7 +17,7 @@ def plot_functions(figure: FigureBase, diagnosis: Diagnosis) -> None:
 
 
 def _plot_function(axes: Axes, function: PlaceFunction, acting: ActingPlace) -> None:
-    unit, factor = UNITS[function.unit]
+    unit, factor = AMPLITUDE_UNITS[function.unit]
     mean, reach = factor * function.mean, 2.0 * factor * function.sd
     axes.axhline(0.0, color="black", linewidth=0.6)
     axes.fill_between(
@@ -37,7 +38,7 @@ def _plot_function(axes: Axes, function: PlaceFunction, acting: ActingPlace) -> 
         linewidth=1.4,
         label=law_text(acting.laws[0]),
     )
-    axes.set_title(f"acts on {REGIONS[acting.region]}", fontsize=10, fontweight="bold")  # type: ignore[index]
+    axes.set_title(f"acts on {REGIONS[acting.region]}", fontsize=10, fontweight="bold")
     axes.set_xlabel("time after trigger (s)")
     axes.set_ylabel(f"added ({unit})" if unit else "added share", fontsize=9)
     axes.legend(frameon=False, fontsize=8)

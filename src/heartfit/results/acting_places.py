@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from heartfit.discovery.sphere_model.cause import ActingPlace, ClearSpan, RankedLaw
 from heartfit.places import Region
+from heartfit.results.text import AMPLITUDE_UNITS
 
 REGIONS: Mapping[Region, str] = {
     "filling": "the left atrium or the mitral valve",
@@ -37,34 +38,29 @@ SEPARATED_BY: Mapping[Region, str] = {
     "catheter": "a second catheter, or the aortic pressure",
 }
 """The measurement that shows whether something acts on a region."""
-UNITS = {
-    "Pa": ("kPa", 1e-3), "m^3": ("mL", 1e6), "m^3/s": ("mL/s", 1e6), "m^2": ("cm²", 1e4), "s": ("ms", 1e3),
-    "m^3/(s Pa)": ("mL/(s kPa)", 1e9), "1/m^4": ("1/cm⁴", 1e-8), "1": ("", 1.0),
-}  # fmt: skip
-"""Printed unit, and the factor from SI, by SI unit."""
 
 
 def acting_sentence(acting: Sequence[ActingPlace]) -> str:
     """Return "Something that the library lacks acts on REGION: SIZE, TIMES; it follows LAW.", or names of several."""
     if len(acting) > 1:
-        names = " or ".join(REGIONS[one.region] for one in acting)  # type: ignore[index]
+        names = " or ".join(REGIONS[one.region] for one in acting)
         return f"Something that the library lacks acts on {names}; these data do not tell which."
     (one,) = acting
     size = f": {span_text(one.spans[0])}" if one.spans else ""
     law = f"; it follows {law_text(one.laws[0])}" if one.laws else ""
-    return f"Something that the library lacks acts on {REGIONS[one.region]}{size}{law}."  # type: ignore[index]
+    return f"Something that the library lacks acts on {REGIONS[one.region]}{size}{law}."
 
 
 def span_text(span: ClearSpan) -> str:
     """Return "91 ± 11 mL/s, 230 to 380 ms after the trigger"."""
-    unit, factor = UNITS[span.unit]
+    unit, factor = AMPLITUDE_UNITS[span.unit]
     size = f"{factor * span.size:.2g} ± {factor * span.sd:.2g} {unit}".strip()
     return f"{size}, {1e3 * span.start:.0f} to {1e3 * span.end:.0f} ms after the trigger"
 
 
 def law_text(law: RankedLaw) -> str:
     """Return "an orifice law of 0.27 cm²", or "a pulse law of ..." with its shape."""
-    unit, factor = UNITS[law.unit]
+    unit, factor = AMPLITUDE_UNITS[law.unit]
     article = "an" if law.name[0] in "aeiou" else "a"
     size = f"{factor * law.size:.2g} {unit}".strip()
     return f"{article} {law.name} law of {size}"
@@ -76,7 +72,7 @@ def acting_section(acting: Sequence[ActingPlace]) -> str:
 
 
 def _paragraph(one: ActingPlace) -> str:
-    region: Region = one.region  # type: ignore[assignment]
+    region = one.region
     spans = "; ".join(map(span_text, one.spans[:3])) or "no time at which it is clear"
     name = REGIONS[region]
     return (
@@ -91,12 +87,12 @@ def _laws_table(laws: Sequence[RankedLaw]) -> str:
 
 
 def _law_size(law: RankedLaw) -> str:
-    unit, factor = UNITS[law.unit]
+    unit, factor = AMPLITUDE_UNITS[law.unit]
     return f"{factor * law.size:.2g} {unit}".strip()
 
 
 def separating_measurement(acting: Sequence[ActingPlace]) -> str:
     """Return the measurement that shows on which of the regions something acts, or what the region leaves open."""
     return (
-        f"{SEPARATED_BY[acting[0].region]}: it shows whether something acts on {REGIONS[acting[0].region]}."  # type: ignore[index]
+        f"{SEPARATED_BY[acting[0].region]}: it shows whether something acts on {REGIONS[acting[0].region]}."
     )

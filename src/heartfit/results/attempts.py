@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heartfit.discovery.sphere_model.cause import Attempt, Gain, Trace
-from heartfit.results.cause_card import UNITS, spaced_name
+from heartfit.results.cause_card import spaced_name
 from heartfit.results.figures import ARTERY, CALIBRATED, MEASURED, REFERENCE, clean
-from heartfit.results.text import printed_ratio
+from heartfit.results.text import AMPLITUDE_UNITS, printed_ratio
 
 GAIN_LABELS = {
     "lv_volume": "LV volume, other frames",
@@ -38,7 +38,7 @@ def attempts_table(attempts: Sequence[Attempt]) -> pd.DataFrame:
 
 def _attempt_row(attempt: Attempt) -> dict[str, str | float]:
     (size,) = attempt.refitted.extension
-    unit, factor = UNITS.get(size.unit, (size.unit, 1.0))
+    unit, factor = AMPLITUDE_UNITS.get(size.unit, (size.unit, 1.0))
     values = [f"{factor * value:.3g}" for value in (size.amplitude, *size.interval)]
     return {
         "mechanism": spaced_name(size.name),

@@ -15,7 +15,7 @@ from heartfit.discovery.sphere_model.cause import (
     departures,
 )
 from heartfit.results.acting_places import acting_section, acting_sentence, separating_measurement
-from heartfit.results.text import printed_curve_unit
+from heartfit.results.text import AMPLITUDE_UNITS, printed_curve_unit
 
 CURVES = {
     "lv_volume": "left ventricular volume",
@@ -23,8 +23,6 @@ CURVES = {
     "aorta_pressure": "aortic pressure",
     "rv_volume": "right ventricular volume",
 }
-UNITS = {"m^2": ("cm²", 1e4), "m^3": ("mL", 1e6), "Pa": ("kPa", 1e-3), "s": ("ms", 1e3), "1": ("", 1.0)}
-"""Printed unit of an amplitude and the factor from SI, by SI unit."""
 
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
@@ -60,7 +58,7 @@ def _explained_recording(diagnosis: Diagnosis) -> str:
 
 def mechanism_with_size(cause: Cause) -> str:
     """Return a mechanism with its size, such as "mitral regurgitation, 0.31 cm² (95 % CI 0.24 to 0.39)"."""
-    unit, factor = UNITS.get(cause.unit, (cause.unit, 1.0))
+    unit, factor = AMPLITUDE_UNITS.get(cause.unit, (cause.unit, 1.0))
     value, low, high = (f"{factor * amplitude:.3g}" for amplitude in (cause.amplitude, *cause.interval))
     return f"{spaced_name(cause.name)}, {f'{value} {unit}'.strip()} (95 % CI {low} to {high})"
 

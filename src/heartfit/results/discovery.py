@@ -10,9 +10,16 @@ import numpy as np
 import pandas as pd
 
 from heartfit.discovery.sphere_model.cause import Cause, Departure, Diagnosis, Gain, departures
-from heartfit.results.cause_card import CURVES, UNITS, direction_and_phase, spaced_name
+from heartfit.results.cause_card import CURVES, direction_and_phase, spaced_name
 from heartfit.results.errors import root_mean_square
-from heartfit.results.text import RenderedTable, printed_curve_unit, printed_ratio, to_latex, to_markdown
+from heartfit.results.text import (
+    AMPLITUDE_UNITS,
+    RenderedTable,
+    printed_curve_unit,
+    printed_ratio,
+    to_latex,
+    to_markdown,
+)
 from heartfit.synthetic.campaign import Effect
 
 NAN = float("nan")
@@ -116,7 +123,7 @@ def _hidden_effect(effect: Effect) -> str:
 
 
 def _amplitude(value: float, unit: str) -> str:
-    printed, factor = UNITS.get(unit, (unit, 1.0))
+    printed, factor = AMPLITUDE_UNITS.get(unit, (unit, 1.0))
     return f"{factor * value:.3g} {printed}".strip()
 
 
@@ -137,7 +144,7 @@ def _departure(departure: Departure) -> Entry:
 
 def _size(name: str, unit: str) -> tuple[str, float]:
     """Return the heading of a mechanism's size, and the factor from SI to the printed unit."""
-    printed, factor = UNITS.get(unit, (unit, 1.0))
+    printed, factor = AMPLITUDE_UNITS.get(unit, (unit, 1.0))
     return f"size of {spaced_name(name)}{f' ({printed})' if printed else ''}", factor
 
 

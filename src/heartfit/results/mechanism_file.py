@@ -37,8 +37,8 @@ def mechanism_file(diagnosis: Diagnosis, title: str) -> str:
     law = acting.laws[0]
     name = f"Suggested{acting.region.capitalize()}{law.name.capitalize()}"
     return _text(
-        name, law, TEMPLATES[acting.region][law.name], REGIONS[acting.region], title, diagnosis.period  # type: ignore[index]
-    )  # fmt: skip
+        name, law, TEMPLATES[acting.region][law.name], REGIONS[acting.region], title, diagnosis.period
+    )
 
 
 def _text(

@@ -118,6 +118,13 @@ def printed_curve_unit(curve: str) -> tuple[str, float]:
     return DISPLAY[curve_unit(curve)]
 
 
+AMPLITUDE_UNITS = {
+    "Pa": ("kPa", 1e-3), "m^3": ("mL", 1e6), "m^3/s": ("mL/s", 1e6), "m^2": ("cm²", 1e4), "s": ("ms", 1e3),
+    "m^3/(s Pa)": ("mL/(s kPa)", 1e9), "1/m^4": ("1/cm⁴", 1e-8), "1": ("", 1.0),
+}  # fmt: skip
+"""Printed unit of an amplitude and the factor from SI, by SI unit."""
+
+
 def printed_ratio(ratio: float, interval: tuple[float, float]) -> str:
     """Return a ratio with its interval, such as "0.80 (0.70 to 0.90)"."""
     low, high = interval

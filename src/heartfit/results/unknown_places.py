@@ -10,8 +10,8 @@ from heartfit.discovery.sphere_model.cause import ActingPlace, Diagnosis
 from heartfit.discovery.sphere_model.unknown_place import LEAD
 from heartfit.observation.noise_model import Share
 from heartfit.places import PLACES, FunctionOfTime, Place, Region, regions_of
-from heartfit.results.acting_places import UNITS
 from heartfit.results.cause_card import spaced_name
+from heartfit.results.text import AMPLITUDE_UNITS
 from heartfit.roles import registered
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 
@@ -93,7 +93,7 @@ def forms_table() -> pd.DataFrame:
 
 
 def _form(place: type[Place]) -> dict[str, object]:
-    unit, factor = UNITS[place.unit]
+    unit, factor = AMPLITUDE_UNITS[place.unit]
     argument = "size" if place.one_sided else "time" if issubclass(place, FunctionOfTime) else "state"
     return {
         "place": spaced_name(place.__name__),

@@ -81,7 +81,7 @@ def test_at_another_rate_the_functions_follow_the_phases(earlier: EarlierHeart) 
         marks = control.onset + control.duration * np.array([0.0, 0.5, 1.0])
         times = np.append(marks, marks[-1] + 0.05)
         (wall,) = (one for one in heart.mechanisms if isinstance(one, WallPressure))
-        return wall.function.at(times, heart.period)
+        return wall.function.at(times)
 
     assert fast.tissue.control.duration < slow.tissue.control.duration
     assert values(fast) == pytest.approx(values(slow), abs=300.0), "of some 10 kPa, kept by eight harmonics"

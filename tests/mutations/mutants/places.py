@@ -19,8 +19,8 @@ PLACE_MUTANTS = (
         PLACES,
         (
             "no bridge attaches late",
-            "attached = attached + self._mean_added_share",
-            "attached = attached + 0.0 * self._mean_added_share",
+            "attached = attached + self._mean(added",
+            "attached = attached + 0.0 * self._mean(added",
         ),
     ),
     *changes(
@@ -46,7 +46,11 @@ PLACE_MUTANTS = (
     *changes(
         "discovery/sphere_model/place_search.py",
         SEARCH,
-        ("a linear model may promise anything", "evidence - max(0.0, promised - PROMISE)", "evidence"),
+        (
+            "a linear model may promise anything",
+            "evidences - np.maximum(0.0, promised - PROMISE)",
+            "evidences",
+        ),
         ("the linear model stands at the fit", "np.zeros(fit.x.size - BASE)", "fit.x[BASE:]"),
     ),
     *changes(

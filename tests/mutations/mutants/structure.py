@@ -56,8 +56,8 @@ STRUCTURE_MUTANTS = (
         ("the functions are forgotten", "heart=_with_places(heart, z), stands_for", "stands_for"),
         (
             "functions keep their course at another rate",
-            "place.function.at(times, period)",
-            "place.function.at(times[-1] / (SAMPLES - 1) * np.arange(SAMPLES), times[-1] * SAMPLES / (SAMPLES - 1))",
+            "place.function.at(times)",
+            "place.function.at(np.arange(SAMPLES) * place.function.period / SAMPLES)",
         ),
         (
             "a change may have any level of noise",
@@ -74,7 +74,7 @@ STRUCTURE_MUTANTS = (
         "places/periodic.py",
         PLACES,
         ("the mean varies as a wave", "np.where(k > 0, 2.0, 1.0)", "2.0"),
-        ("sines are cosines", "np.sin(angle)", "np.cos(angle)"),
+        ("sines are cosines", "np.cos(angle), np.sin(angle)]", "np.cos(angle), np.cos(angle)]"),
     ),
     *changes(
         "places/wall_pressure.py",

@@ -34,6 +34,10 @@ WITHDRAWAL_MUTANTS = (
             "sum(test.log_likelihood_gain() for test in tests if test) if conditions else 0.0",
             "0.0",
         ),
+    ),
+    *changes(
+        "discovery/sphere_model/held_out.py",
+        WITHDRAWAL,
         ("unseen samples do not judge", "if case.unseen_problem is not None:", "if False:"),
     ),
     *changes(

@@ -9,6 +9,7 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import Verdict
 from heartfit.observation.beat import BeatPhases
+from heartfit.places import Region
 
 
 @dataclass(frozen=True)
@@ -80,7 +81,7 @@ class ActingPlace:
     function of time is clear; laws: what it may follow, the best first.
     """
 
-    region: str
+    region: Region
     place: str
     slot: str
     ln_bayes_factor: float
@@ -103,7 +104,7 @@ class ClearSpan:
 class PlaceFunction:
     """A function at a place [unit] at ``times`` (k,) [s after the trigger]: mean, deviation and best law (k,)."""
 
-    region: str
+    region: Region
     unit: str
     times: Floats
     mean: Floats

@@ -15,7 +15,7 @@ from heartfit.discovery.sphere_model.problem import DiscrepancyPrior
 from heartfit.discovery.sphere_model.recording import UNSEARCHED, Recording
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording, traces
 from heartfit.discovery.sphere_model.unknown_place import locate
-from heartfit.places import PLACES, Place
+from heartfit.places import Place
 
 
 def diagnose(
@@ -25,24 +25,23 @@ def diagnose(
     rules: Rules = DEFAULT_RULES,
     unseen: Recording | None = None,
     structure: DiscrepancyPrior | None = None,
-    places: Sequence[type[Place]] = PLACES,
+    places: Sequence[type[Place]] = (),
 ) -> Diagnosis:
     """Diagnose the effects that the model of the heart lacks to explain the recording.
 
     conditions: recordings of the same heart under other loading, by name; only the loading is fitted to them. nominal:
     a sphere that was fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None. unseen:
     samples of the same beat, which judge a name and do not choose it. structure: of the discrepancy between the sphere
-    and the source of the recording; None where the model is trusted. places: where an unknown effect may act, tried
-    where the model is trusted. Without unseen samples and conditions the search sees half of the recording, and the
-    other half judges. Raises InputError where the nominal heart does not beat, and for a loop of pressure and volume
+    and the source of the recording; None where the model is trusted. places: where an unknown effect may act,
+    of a trusted model. Without unseen samples and conditions the search sees half of the recording, and the other half
+    judges. Raises InputError where the nominal heart does not beat, and for a loop of pressure and volume
     that runs clockwise.
     """
     warnings = implausible(recording)
     if unseen is None and not conditions:
         recording, unseen = recording.halves()
     case = SearchedRecording.search(recording, nominal, rules, unseen, structure)
-    trusted = places if structure is None else ()
-    return locate(conclude(case, conditions or {}, warnings), case, conditions or {}, trusted)
+    return locate(conclude(case, conditions or {}, warnings), case, conditions or {}, places)
 
 
 def diagnose_change(after: Recording, before: Recording) -> Diagnosis:

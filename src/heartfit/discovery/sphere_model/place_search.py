@@ -39,12 +39,16 @@ FIT_LIMIT = 1200
 
 @dataclass(frozen=True, eq=False)
 class FittedPlace:
-    """A place, its fit or linear model, and its ln evidence over that without a place."""
+    """A place, its fit or linear model, and its ln evidence over that without a place.
+
+    predicted: the same with all that the linear model promises beyond the fit.
+    """
 
     kind: type[Place]
     explanation: Explanation
     ln_bayes_factor: float
     fitted: bool = True
+    predicted: float = -np.inf
 
     @property
     def region(self) -> Region:
@@ -73,12 +77,11 @@ class PlaceSearch:
     def run(self, kinds: Sequence[type[Place]] = PLACES) -> tuple[FittedPlace, ...]:
         """Return all places in descending evidence; one whose simulations fail is left out."""
         screened = [place for place in map(self._screened, kinds) if place is not None]
-        screened.sort(key=self._predicted, reverse=True)
-        least = self.baseline.log_evidence + PREDICTED_GAIN
+        screened.sort(key=lambda place: place.predicted, reverse=True)
         promising = [
             place
             for rank, place in enumerate(screened[:MOST_FITTED])
-            if rank < FEWEST_FITTED or self._predicted(place) > least
+            if rank < FEWEST_FITTED or place.predicted > PREDICTED_GAIN
         ]
         fitted = [self._fitted(place) for place in promising]
         best = _ranked(fitted)[0]
@@ -135,19 +138,13 @@ class PlaceSearch:
         return Explanation.from_fit(fit, self.context.data.values, self.context.whitening)
 
     def _judged(self, kind: type[Place], explained: Explanation, fitted: bool = True) -> FittedPlace:
-        evidences = [
-            evidence - max(0.0, promised - PROMISE)
-            for evidence, promised in self._evidences(explained.fit, kind.deviations(self.period))
-        ]
-        mean = float(logsumexp(evidences) - np.log(len(evidences)))
-        return FittedPlace(kind, explained, mean - self.baseline.log_evidence, fitted)
-
-    def _predicted(self, place: FittedPlace) -> float:
-        """ln evidence of the linear model, with all that it promises."""
-        evidences = [
-            one for one, _ in self._evidences(place.explanation.fit, place.kind.deviations(self.period))
-        ]
-        return float(logsumexp(evidences) - np.log(len(evidences)))
+        evidences, promised = np.array(list(self._evidences(explained.fit, kind.deviations(self.period)))).T
+        guarded = evidences - np.maximum(0.0, promised - PROMISE)
+        factor, predicted = (
+            float(logsumexp(some) - np.log(some.size)) - self.baseline.log_evidence
+            for some in (guarded, evidences)
+        )
+        return FittedPlace(kind, explained, factor, fitted, predicted)
 
     def _evidences(self, fit: Fit, deviations: Floats) -> Iterable[tuple[float, float]]:
         """Yield ln evidence and the promised ln likelihood under every prior of the function.

@@ -185,7 +185,7 @@ def centred_search(
         except InputError:
             continue
         return _diagnose_after_self_test(recording, nominal, [beat for beat in others if beat], rules, unseen)
-    return diagnose(recording, rules=STRICT_RULES, unseen=unseen, places=())
+    return diagnose(recording, rules=STRICT_RULES, unseen=unseen)
 
 
 def _diagnose_after_self_test(
@@ -197,6 +197,4 @@ def _diagnose_after_self_test(
 ) -> Diagnosis:
     result = self_test(recording, nominal, sound) if sound else None
     applied = rules if result is None or result <= SELF_TEST_LIMIT else STRICT_RULES
-    return replace(
-        diagnose(recording, nominal=nominal, rules=applied, unseen=unseen, places=()), self_test=result
-    )
+    return replace(diagnose(recording, nominal=nominal, rules=applied, unseen=unseen), self_test=result)

@@ -10,7 +10,9 @@ times after activation, a tail removes a share of k_RS at some times after repol
 of :class:`Starling`. Source: Marchesseau et al., MICCAI 2012, section 2.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -76,19 +78,31 @@ class Control:
         depolarised = self._depolarised(start, dt, activation, period)
         attached = depolarised
         for gain in self.gains:
-            attached = attached + self._mean_added_share(gain, start, dt, activation, period)
+            added = partial(self._added_time, gain, period=period)
+            attached = attached + self._mean(added, start, dt, activation, period)
         attach = self.k_ATP * (np.maximum(attached, 0.0) if self.gains else attached)
         rate = attach + self.k_RS * (1.0 - depolarised)
         for tail in self.tails:
-            rate = rate - self.k_RS * self._mean_missing_share(tail, start, dt, activation, period)
+            missing = partial(self._missing_time, tail, period=period)
+            rate = rate - self.k_RS * self._mean(missing, start, dt, activation, period)
         return rate, attach
 
     def _depolarised(self, start: Floats | float, dt: float, activation: Floats, period: float) -> Floats:
         """Fraction of the step during which the points are depolarised."""
+        return self._mean(partial(self._primitive, period=period), start, dt, activation, period)
+
+    def _mean(
+        self,
+        integral: Callable[[Floats], Floats],
+        start: Floats | float,
+        dt: float,
+        activation: Floats,
+        period: float,
+    ) -> Floats:
+        """Mean over the step of a function with this ``integral`` over [0, time], counted from the activation."""
         elapsed = np.mod(start - self.onset - activation, period)
-        upper, lower = self._primitive(elapsed + dt, period), self._primitive(elapsed, period)
-        fraction: Floats = (upper - lower) / dt
-        return fraction
+        mean: Floats = (integral(elapsed + dt) - integral(elapsed)) / dt
+        return mean
 
     def _primitive(self, time: Floats, period: float) -> Floats:
         """Depolarised time [s] within [0, time], counted from the activation."""
@@ -96,28 +110,10 @@ class Control:
         spent: Floats = cycles * self.duration + np.minimum(rest, self.duration)
         return spent
 
-    def _mean_added_share(
-        self, gain: AddedAttachment, start: Floats | float, dt: float, activation: Floats, period: float
-    ) -> Floats:
-        """Mean over the step of the share that the gain adds to k_ATP."""
-        elapsed = np.mod(start - self.onset - activation, period)
-        upper, lower = (self._added_time(gain, time, period) for time in (elapsed + dt, elapsed))
-        mean: Floats = (upper - lower) / dt
-        return mean
-
     def _added_time(self, gain: AddedAttachment, time: Floats, period: float) -> Floats:
         """Integral [s] of the share that the gain adds within [0, time], counted from the activation."""
         cycles, rest = np.divmod(time, period)
         return cycles * gain.added_integral(np.asarray(period)) + gain.added_integral(rest)
-
-    def _mean_missing_share(
-        self, tail: Tail, start: Floats | float, dt: float, activation: Floats, period: float
-    ) -> Floats:
-        """Mean over the step of the share of k_RS that the tail removes."""
-        elapsed = np.mod(start - self.onset - activation, period)
-        upper, lower = (self._missing_time(tail, time, period) for time in (elapsed + dt, elapsed))
-        mean: Floats = (upper - lower) / dt
-        return mean
 
     def _missing_time(self, tail: Tail, time: Floats, period: float) -> Floats:
         """Integral [s] of the share that the tail removes within [0, time], counted from the activation."""
