@@ -2,7 +2,7 @@
 
 Hearts of the benchmark's generator on seeds that nothing else uses: sound ones, effects from outside the library,
 mechanisms whose entry is removed from it, and the same with the complete library. Prints a line per heart and stores
-docs/measured/unknown_places*.tsv. Half an hour of two cores.
+docs/measured/unknown_places*.tsv. An hour and a half of two cores.
 """
 
 import sys
@@ -31,14 +31,14 @@ from heartfit.results.unknown_places import (
     places_table,
 )
 from heartfit.synthetic.campaign import Kind, PlantedPlan, plantable
-from heartfit.synthetic.case import REST, plant
+from heartfit.synthetic.case import RAISED, REST, plant
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 
 PROCESSES = 2
-SEED = 340000
-SOUND_HEARTS, SCALES, EACH = 40, (3.0, 4.0), 2
-"""Number of sound hearts; sizes of effects from outside the library, and hearts of each."""
-REMOVED_SCALES = 3.0
+SEED = 350000
+SOUND_HEARTS, SCALES, EACH = 100, (2.0, 3.0, 4.0), 4
+"""Number of sound hearts; sizes of hidden effects, and hearts of each effect from outside the library."""
+COMPLETE_SCALES = 3.0
 
 
 @dataclass(frozen=True)
@@ -66,40 +66,51 @@ def trials() -> list[Trial]:
     left = [name for name, kind in plantable().items() if regions_of(kind)]
     sound = _planned(SOUND, 0, "none", [()] * SOUND_HEARTS, 0.0)
     effects = [(kind.__name__,) for kind in OUT_OF_LIBRARY] * EACH
-    outside = [
-        trial
+    entries = [(name,) for name in left]
+    hidden = [
+        planned
         for place, scales in enumerate(SCALES)
-        for trial in _planned(OUTSIDE, 100 * (place + 1), "outside", effects, scales)
+        for planned in (
+            _planned(OUTSIDE, 100 * (place + 1), "outside", effects, scales),
+            _planned(REMOVED, 400 + 100 * place, "single", entries, scales),
+        )
     ]
-    removed = _planned(REMOVED, 400, "single", [(name,) for name in left], REMOVED_SCALES)
-    complete = _planned(COMPLETE, 500, "single", [(name,) for name in left], REMOVED_SCALES)
-    return _by_turns([sound, outside, removed, complete])
+    complete = _planned(COMPLETE, 700, "single", entries, COMPLETE_SCALES)
+    return _evenly([sound, *hidden, complete])
 
 
 def _planned(
     group: str, first: int, kind: Kind, effects: Sequence[tuple[str, ...]], scales: float
 ) -> list[Trial]:
+    hidden = group in (OUTSIDE, REMOVED)
     return [
         Trial(
-            group, PlantedPlan(SEED + first + place, kind, names, scales), names if group == REMOVED else ()
+            group,
+            PlantedPlan(SEED + first + place, kind, names, scales, reloaded=hidden),
+            names if group == REMOVED else (),
         )
         for place, names in enumerate(effects)
     ]
 
 
-def _by_turns(groups: Sequence[Sequence[Trial]]) -> list[Trial]:
-    longest = max(map(len, groups))
-    return [group[place] for place in range(longest) for group in groups if place < len(group)]
+def _evenly(groups: Sequence[Sequence[Trial]]) -> list[Trial]:
+    """Return the trials of all groups, each spread evenly, so that a stopped run has the same share of each."""
+    order = [((place + 0.5) / len(group), trial) for group in groups for place, trial in enumerate(group)]
+    return [trial for _, trial in sorted(order, key=lambda entry: entry[0])]
 
 
 def search(trial: Trial) -> PlaceTrial:
-    """Diagnose a planted heart without and with places."""
+    """Diagnose a planted heart without and with places, and a place also by the heart with raised legs."""
     plan = trial.plan
-    first, unseen = Recording.from_curves(plant(plan).curves[REST]).halves()
+    curves = {name: Recording.from_curves(recorded) for name, recorded in plant(plan).curves.items()}
+    first, unseen = curves[REST].halves()
     case = SearchedRecording.search(first, unseen=unseen, left_out=trial.left_out)
     before = conclude(case, {})
     after = locate(before, case, {}, PLACES)
-    return PlaceTrial(plan.seed, trial.group, "".join(plan.names), plan.scales, before, after)
+    raised = (
+        locate(before, case, {RAISED: curves[RAISED]}, PLACES) if after.acting and RAISED in curves else None
+    )
+    return PlaceTrial(plan.seed, trial.group, "".join(plan.names), plan.scales, before, after, raised)
 
 
 def store(searched: Sequence[PlaceTrial]) -> None:

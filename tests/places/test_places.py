@@ -6,6 +6,7 @@ import pytest
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.forward_model import NUMERICS, SphereForwardModel
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
+from heartfit.geometry.territory import ACTIVATION_ORDER, RIGHT_VENTRICLE
 from heartfit.mechanisms.arterial_reflection import ArterialReflection
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.mitral_stenosis import MitralStenosis
@@ -15,6 +16,7 @@ from heartfit.places import (
     COSINES,
     PLACES,
     REGIONS,
+    ActivationDelay,
     AorticPressure,
     AtrialPressure,
     AttachmentRate,
@@ -228,6 +230,23 @@ def test_bridges_that_detach_more_slowly_hold_the_pressure_up() -> None:
     assert DetachmentRate(CosineFunction(slow)).missing_integral(np.array(0.2)) == pytest.approx(
         0.2 * -np.expm1(-0.5)
     )
+
+
+def test_segments_that_are_late_prolong_contraction_and_the_first_stays() -> None:
+    rising = np.zeros(COSINES)
+    rising[1] = -0.03
+    late = ActivationDelay(CosineFunction(rising))
+    delays = late.delay()
+    assert delays[[RIGHT_VENTRICLE, ACTIVATION_ORDER[0]]].tolist() == [0.0, 0.0]
+    assert delays[ACTIVATION_ORDER[-1]] == pytest.approx(0.06)
+    assert np.all(np.diff(delays[ACTIVATION_ORDER]) > 0.0)
+    together = np.zeros(COSINES)
+    together[0] = 0.05
+    assert not ActivationDelay(CosineFunction(together)).delay().any(), (
+        "the onset is a parameter of the heart"
+    )
+    slower = predicted(late)[400:]
+    assert np.gradient(slower).max() < 0.9 * np.gradient(predicted()[400:]).max()
 
 
 def test_the_energy_of_the_wall_has_the_slope_of_its_stress() -> None:

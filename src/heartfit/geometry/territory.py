@@ -24,6 +24,8 @@ BASAL = np.array([2, 1, 6, 5, 4, 3])
 APICAL = np.array([14, 13, 16, 15])
 """Segments in turn from the middle of the septum towards anterior; mid segments have the basal numbers plus 6."""
 
+ACTIVATION_ORDER = [9, 8, 14, 7, 15, 10, 13, 17, 16, 11, 12, 1, 2, 3, 4, 6, 5]
+"""Segments in the order of their activation in health, septum first and lateral base last."""
 
 BORDER = np.deg2rad(45.0)
 """Width [rad] of the border zone in which a territory fades."""

@@ -6,6 +6,7 @@ function instead of a law: of time, or of the slot's own state. Source: latent f
 Lawrence 2013, doi:10.1109/TPAMI.2013.86.
 """
 
+from heartfit.places.activation_delay import ActivationDelay
 from heartfit.places.aortic_loss import AorticLoss
 from heartfit.places.aortic_pressure import AorticPressure
 from heartfit.places.atrial_pressure import AtrialPressure
@@ -33,7 +34,7 @@ from heartfit.places.wall_pressure import WallPressure
 PLACES: tuple[type[Place], ...] = (
     *(AtrialPressure, MitralLoss, AorticPressure, AorticLoss),
     *(LeakFlow, LeakPassage, Backflow, BackflowPassage),
-    *(WallPressure, WallElasticity, AttachmentRate, DetachmentRate),
+    *(WallPressure, WallElasticity, AttachmentRate, DetachmentRate, ActivationDelay),
     *(VolumeError, VolumeScale, VolumeClock),
     *(PressureError, SystolicPressureError, PressureScale, PressureClock),
 )
@@ -48,6 +49,7 @@ __all__ = [
     "EARLIER_PLACES",
     "PLACES",
     "REGIONS",
+    "ActivationDelay",
     "AorticLoss",
     "AorticPressure",
     "AtrialPressure",

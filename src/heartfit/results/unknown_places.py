@@ -42,7 +42,10 @@ TRUE_LAWS: Mapping[str, str] = {
 
 @dataclass(frozen=True, eq=False)
 class PlaceTrial:
-    """A hidden effect, empty in a sound heart, and the diagnoses before and after the search for places."""
+    """A hidden effect, empty in a sound heart, and the diagnoses before and after the search for places.
+
+    raised: the diagnosis of a heart with a place that must also help with raised legs; None where it was not asked.
+    """
 
     seed: int
     group: str
@@ -50,6 +53,7 @@ class PlaceTrial:
     scales: float
     before: Diagnosis
     after: Diagnosis
+    raised: Diagnosis | None = None
 
     @property
     def regions(self) -> frozenset[Region]:
@@ -73,6 +77,12 @@ class PlaceTrial:
     def right_within(self) -> bool:
         """True if a right region is among those that are not told from the best."""
         return any(one.region in self.regions for one in self.acting)
+
+    @property
+    def named_elsewhere(self) -> bool:
+        """True if mechanisms are named of which none acts on a right region; in a sound heart, if any is."""
+        kinds = [registered()[cause.name] for cause in self.after.mechanisms]
+        return bool(kinds) and not any(regions_of(kind) & self.regions for kind in kinds)
 
     @property
     def law_difference(self) -> float:
@@ -121,6 +131,7 @@ def _places(group: str, scales: str, trials: Sequence[PlaceTrial]) -> dict[str, 
     leading = [trial for trial in detected if len(trial.acting) == 1]
     laws = np.array([trial.law_difference for trial in detected])
     known = laws[np.isfinite(laws)]
+    raised = [trial.raised for trial in detected if trial.raised]
     return {
         "hearts": group,
         "scales": scales,
@@ -133,6 +144,8 @@ def _places(group: str, scales: str, trials: Sequence[PlaceTrial]) -> dict[str, 
         f"law within {LEAD:g}": _share(int((known > -LEAD).sum()), known.size),
         "held-out volume": _median(trial.gain("lv_volume") for trial in detected),
         "held-out pressure": _median(trial.gain("lv_pressure") for trial in detected),
+        "helps with raised legs": _share(sum(bool(one.acting) for one in raised), len(raised)),
+        "named elsewhere": _share(sum(trial.named_elsewhere for trial in trials), len(trials)),
     }
 
 

@@ -60,7 +60,7 @@ class Delay(Mechanism):
 
     @abstractmethod
     def delay(self) -> Floats:
-        """Delay (18,) [s], >= 0, of the activation of the right ventricular wall and of each AHA segment."""
+        """Delay (18,) [s] of the activation of the right ventricular wall and of each AHA segment."""
 
 
 class Attachment(Mechanism):

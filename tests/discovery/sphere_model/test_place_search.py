@@ -12,9 +12,8 @@ from heartfit.discovery.inference.hypothesis import Hypothesis
 from heartfit.discovery.sphere_model.place_search import (
     BASE,
     PROMISE,
-    FittedPlace,
     PlaceSearch,
-    by_region,
+    RankedPlaces,
     place_hypothesis,
 )
 from heartfit.discovery.sphere_model.problem import SphereProblem
@@ -36,7 +35,7 @@ LEAKING = PlantedPlan(520, "outside", ("SeptalDefect",), 3.0)
 SOUND = PlantedPlan(604, "none", (), 0.0)
 
 
-def searched(plan: PlantedPlan) -> tuple[PlaceSearch, tuple[FittedPlace, ...]]:
+def searched(plan: PlantedPlan) -> tuple[PlaceSearch, RankedPlaces]:
     recording, _ = Recording.from_curves(plant(plan).curves[REST]).halves()
     problem = SphereProblem.from_recording(recording)
     search = PlaceSearch(FitContext(problem.data), problem.model, problem.fit())
@@ -44,12 +43,12 @@ def searched(plan: PlantedPlan) -> tuple[PlaceSearch, tuple[FittedPlace, ...]]:
 
 
 @pytest.fixture(scope="module")
-def leaking() -> tuple[PlaceSearch, tuple[FittedPlace, ...]]:
+def leaking() -> tuple[PlaceSearch, RankedPlaces]:
     return searched(LEAKING)
 
 
 def test_a_leak_that_no_law_of_the_library_makes_acts_as_a_leak(leaking) -> None:  # type: ignore[no-untyped-def]
-    best, second = list(by_region(leaking[1]).values())[:2]
+    best, second = list(leaking[1].by_region().values())[:2]
     assert best.region == "leak"
     assert best.ln_bayes_factor > 5.0
     assert best.ln_bayes_factor > second.ln_bayes_factor + 3.0
@@ -58,7 +57,7 @@ def test_a_leak_that_no_law_of_the_library_makes_acts_as_a_leak(leaking) -> None
 
 
 def test_places_are_ranked_and_what_was_not_fitted_promises_little(leaking) -> None:  # type: ignore[no-untyped-def]
-    _, places = leaking
+    places = leaking[1].places
     factors = [place.ln_bayes_factor for place in places]
     assert factors == sorted(factors, reverse=True)
     assert {place.kind for place in places} == set(KINDS)
@@ -75,15 +74,47 @@ def test_a_linear_model_that_was_not_fitted_counts_less_than_it_promises(leaking
 
 
 def test_a_fitted_place_explains_no_less_than_the_model_without_it(leaking) -> None:  # type: ignore[no-untyped-def]
-    search, places = leaking
-    best = places[0].explanation.fit
+    search, ranked = leaking
+    best = ranked.places[0].explanation.fit
     assert best.objective < search.baseline.fit.objective - 5.0
     assert search.context.simulations > 100, "counted"
 
 
 def test_a_sound_heart_has_no_place() -> None:
-    _, places = searched(SOUND)
-    assert max(place.ln_bayes_factor for place in places) < 5.0
+    _, ranked = searched(SOUND)
+    assert max(place.ln_bayes_factor for place in ranked.places) < 5.0
+
+
+def test_places_stand_beside_the_better_fit_without_one(leaking) -> None:  # type: ignore[no-untyped-def]
+    """A fit without a place that stopped early gives no place its evidence."""
+    search, ranked = leaking
+    baseline = search.baseline.fit
+    start = baseline.x + 0.5
+    early = search.context.linearise(baseline.hypothesis, start)
+    assert early is not None
+    early = replace(early, fit=replace(early.fit, objective=baseline.objective + 50.0))
+    beside = PlaceSearch(search.context, search.model, early)._beside_base(ranked.places)
+    assert beside.baseline.fit.objective < baseline.objective + 2.0
+    gain = beside.baseline.log_evidence - early.log_evidence
+    best = ranked.places[0]
+    assert beside.places[0].kind is best.kind
+    assert beside.places[0].ln_bayes_factor == pytest.approx(best.ln_bayes_factor - gain)
+
+
+def test_a_place_is_fitted_anew_to_other_samples(leaking) -> None:  # type: ignore[no-untyped-def]
+    search, ranked = leaking
+    best = ranked.places[0]
+    _, unseen = Recording.from_curves(plant(LEAKING).curves[REST]).halves()
+    assert unseen is not None
+    problem = SphereProblem.from_recording(unseen)
+    other = PlaceSearch(FitContext(problem.data), problem.model, problem.fit()).refitted(best)
+    assert other is not None
+    assert other.explanation.fit.predicted.size == problem.data.values.size
+    first, second = (
+        one.kind.from_standardised(one.explanation.fit.x[BASE:], search.period).flow(0.0, 10e3)[0]  # type: ignore[attr-defined]
+        for one in (best, other)
+    )
+    assert second == pytest.approx(first, rel=0.3)
 
 
 def linear(search: PlaceSearch, kind: type[Place], jacobian: Floats) -> Fit:

@@ -1,7 +1,7 @@
 """The verdict on places: which ones withdraw a name, which regions are told apart, and what the card draws of them."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import cast
 
@@ -9,13 +9,16 @@ import numpy as np
 import pytest
 
 from heartfit.discovery.inference.decide import DEFAULT_RULES
+from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.sphere_model import unknown_place as module
 from heartfit.discovery.sphere_model.cause import ActingPlace, Cause, Diagnosis, PlaceFunction
 from heartfit.discovery.sphere_model.law_ranking import FittedLaw
-from heartfit.discovery.sphere_model.place_search import FittedPlace
+from heartfit.discovery.sphere_model.place_search import FittedPlace, RankedPlaces
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
-from heartfit.discovery.sphere_model.unknown_place import ShownPlace, locate
+from heartfit.discovery.sphere_model.shown_place import ShownPlace
+from heartfit.discovery.sphere_model.unknown_place import locate
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
+from heartfit.mechanisms.scar import Scar
 from heartfit.places import (
     PLACES,
     AorticLoss,
@@ -36,25 +39,37 @@ class Gained:
     """Stand-in for a held-out prediction with this gain in ln likelihood."""
 
     gain: float
+    by: str
 
     def helps(self) -> bool:
         return self.gain > 0.0
 
     def gains(self) -> tuple[str, ...]:
-        return (f"gain of {self.gain:g}",)
+        return (f"gain by {self.by}",)
 
 
 @dataclass
 class Searched:
-    """Stand-in for a searched recording of volume and pressure."""
+    """Stand-in for a searched recording of volume and pressure.
+
+    best: the best mechanism on the searched half; factors: ln Bayes factors of mechanisms on all samples.
+    """
 
     searched: tuple[str, ...] = ("lv_volume", "lv_pressure")
+    best: str = "Scar"
+    factors: Mapping[tuple[str, ...], float] = field(default_factory=dict)
     rules: object = DEFAULT_RULES
     data: None = None
-    model: None = None
+    whole_context: None = None
+    explanations: tuple[tuple[str, ...], ...] = (("MitralRegurgitation",),)
     library: Mapping[str, object] = field(
-        default_factory=lambda: {"MitralRegurgitation": SimpleNamespace(kind=MitralRegurgitation)}
+        default_factory=lambda: {
+            "MitralRegurgitation": SimpleNamespace(kind=MitralRegurgitation),
+            "Scar": SimpleNamespace(kind=Scar),
+        }
     )
+    model: object = field(default_factory=lambda: SimpleNamespace(simulations=4))
+    whole: object = field(default_factory=lambda: SimpleNamespace(model=SimpleNamespace(simulations=13)))
 
     @property
     def recording(self) -> SimpleNamespace:
@@ -62,7 +77,20 @@ class Searched:
 
     @property
     def findings(self) -> SimpleNamespace:
-        return SimpleNamespace(survey=SimpleNamespace(baseline=None))
+        return SimpleNamespace(
+            survey=SimpleNamespace(baseline=None),
+            evidences=SimpleNamespace(single=(self.best,)),
+            explanation=lambda effects: SimpleNamespace(fit=SimpleNamespace(x=effects[0])),
+        )
+
+    def refit(self, effects: tuple[str, ...]) -> SimpleNamespace:
+        return SimpleNamespace(log_evidence=self.factors.get(effects, 0.0))
+
+    def cause(self, effects: tuple[str, ...], name: str) -> Cause:
+        return replace(LEAK, name=name, ln_bayes_factor=3.0)
+
+    def sizes_from_all_samples(self, named: list[tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
+        return tuple(named)
 
 
 def diagnosis(verdict: str, *causes: Cause) -> Diagnosis:
@@ -82,19 +110,28 @@ def located(
     monkeypatch: pytest.MonkeyPatch,
     before: Diagnosis,
     places: Mapping[type[Place], float],
-    refuted: tuple[type[Place], ...] = (),
+    refuted: tuple[str, ...] = (),
     case: Searched | None = None,
+    on_half: Mapping[type[Place], float] | None = None,
 ) -> Diagnosis:
-    """Diagnosis with places of these ln Bayes factors, of which the refuted ones do not help on held-out samples."""
+    """Diagnosis with places of these ln Bayes factors on all samples.
+
+    on_half: of the same on the searched half; refuted: names of places and mechanisms that do not help on the other.
+    """
     fitted = tuple(place(kind, factor) for kind, factor in places.items())
+    half = places if on_half is None else on_half
 
     def gained(_: object, __: object, x: str, ___: object) -> list[Gained]:
-        return [Gained(-1.0 if x in {kind.__name__ for kind in refuted} else 2.0)]
+        return [Gained(-1.0 if x in refuted else 2.0, x)]
 
-    search = SimpleNamespace(run=lambda _: fitted)
+    search = SimpleNamespace(
+        run=lambda _: RankedPlaces(cast("Explanation", SimpleNamespace(log_evidence=0.0)), fitted),
+        refitted=lambda one: place(one.kind, half[one.kind]) if one.kind in half else None,
+    )
     monkeypatch.setattr(module, "PlaceSearch", lambda *_: search)
-    monkeypatch.setattr(module, "FitContext", lambda _: SimpleNamespace(simulations=7))
+    monkeypatch.setattr(module, "FitContext", lambda _: None)
     monkeypatch.setattr(module, "predict_extension", gained)
+    monkeypatch.setattr(module, "traces", lambda *_: ())
     monkeypatch.setattr(module.ShownPlace, "from_search", shown)
     return locate(before, cast("SearchedRecording", case or Searched()), {}, PLACES)
 
@@ -107,7 +144,7 @@ def test_without_a_name_the_best_region_is_where_something_acts(monkeypatch: pyt
     diagnosed = located(monkeypatch, diagnosis("none"), {LeakPassage: 12.0, LeakFlow: 9.0, WallPressure: 6.0})
     assert (diagnosed.verdict, regions(diagnosed), diagnosed.simulations) == ("unknown", ["leak"], 17)
     assert diagnosed.acting[0].place == "LeakPassage"
-    assert diagnosed.gain == ("gain of 2",)
+    assert diagnosed.gain == ("gain by LeakPassage",)
     assert diagnosed.alternatives == ()
 
 
@@ -127,9 +164,42 @@ def test_a_weak_place_is_no_finding(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_place_that_does_not_help_on_held_out_samples_is_no_finding(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    diagnosed = located(monkeypatch, diagnosis("none"), {WallPressure: 12.0}, ("WallPressure",))
+    assert (diagnosed.verdict, diagnosed.acting, diagnosed.gain) == ("none", (), ())
+
+
+def test_what_the_searched_half_prefers_predicts_the_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not what all samples prefer: they hold those that judge."""
     places: dict[type[Place], float] = {WallPressure: 12.0, LeakPassage: 7.0}
-    diagnosed = located(monkeypatch, diagnosis("none"), places, (WallPressure,))
-    assert regions(diagnosed) == ["leak"]
+    half: dict[type[Place], float] = {WallPressure: 1.0, LeakPassage: 2.0}
+    diagnosed = located(monkeypatch, diagnosis("none"), places, ("WallPressure",), on_half=half)
+    assert regions(diagnosed) == ["wall"]
+    assert diagnosed.gain == ("gain by LeakPassage",)
+    refuted = located(monkeypatch, diagnosis("none"), places, ("LeakPassage",), on_half=half)
+    assert refuted.acting == ()
+    assert located(monkeypatch, diagnosis("none"), places, on_half={}).acting == ()
+
+
+@pytest.mark.parametrize(
+    ("best", "factor", "refuted", "verdict"),
+    [
+        ("MitralRegurgitation", 10.0, (), "named"),
+        ("MitralRegurgitation", 8.9, (), "unknown"),
+        ("MitralRegurgitation", 10.0, ("MitralRegurgitation",), "unknown"),
+        ("Scar", 10.0, (), "unknown"),
+    ],
+    ids=["as good as the place", "worse than the place", "does not help", "acts elsewhere"],
+)
+def test_all_samples_confirm_the_best_mechanism_of_the_half(
+    monkeypatch: pytest.MonkeyPatch, best: str, factor: float, refuted: tuple[str, ...], verdict: str
+) -> None:
+    case = Searched(best=best, factors={(best,): factor}, explanations=())
+    diagnosed = located(monkeypatch, diagnosis("none"), {LeakPassage: 12.0}, refuted, case)
+    assert diagnosed.verdict == verdict
+    if verdict == "named":
+        assert diagnosed.mechanisms == (replace(LEAK, ln_bayes_factor=factor),)
+        assert (diagnosed.gain, diagnosed.acting) == (("gain by MitralRegurgitation",), ())
+        assert diagnosed.from_all_samples == (("MitralRegurgitation",),)
 
 
 @pytest.mark.parametrize(
@@ -140,7 +210,8 @@ def test_a_place_that_does_not_help_on_held_out_samples_is_no_finding(
 def test_a_name_stands_against_places_of_other_regions(
     monkeypatch: pytest.MonkeyPatch, kind: type[Place], factor: float, verdict: str
 ) -> None:
-    diagnosed = located(monkeypatch, diagnosis("named", LEAK), {kind: factor})
+    case = Searched(factors={("MitralRegurgitation",): 8.0})
+    diagnosed = located(monkeypatch, diagnosis("named", LEAK), {kind: factor}, case=case)
     assert diagnosed.verdict == verdict
     assert diagnosed.withdrawn == (("MitralRegurgitation",) if verdict == "unknown" else ())
     assert diagnosed.mechanisms == (() if verdict == "unknown" else (LEAK,))

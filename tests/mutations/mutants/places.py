@@ -54,6 +54,20 @@ PLACE_MUTANTS = (
         ("the linear model stands at the fit", "np.zeros(fit.x.size - BASE)", "fit.x[BASE:]"),
     ),
     *changes(
+        "discovery/sphere_model/place_search.py",
+        SEARCH,
+        (
+            "places stand beside a fit that stopped early",
+            "return RankedPlaces(baseline, _ranked(place.beside(gain) for place in places))",
+            "return RankedPlaces(self.baseline, _ranked(places))",
+        ),
+    ),
+    *changes(
+        "places/activation_delay.py",
+        PLACES,
+        ("all segments are delayed", "values - values[0]", "values"),
+    ),
+    *changes(
         "discovery/sphere_model/law_ranking.py",
         LAWS,
         ("shapes cost nothing", "logsumexp(likelihoods) - np.log(likelihoods.size)", "likelihoods.max()"),
@@ -76,9 +90,24 @@ PLACE_MUTANTS = (
         ),
         (
             "a weaker place withdraws a name",
-            "least = max(case.rules.detected, _evidence_of_name(diagnosis))",
-            "least = case.rules.detected",
+            "least = max([self.case.rules.detected, *(factors if names else ())])",
+            "least = self.case.rules.detected",
         ),
-        ("far regions are near", "> best - LEAD", "> -best"),
+        (
+            "a name needs less evidence than a place",
+            "near[0].ln_bayes_factor - LEAD):",
+            "-near[0].ln_bayes_factor):",
+        ),
+        (
+            "a mechanism is confirmed where nothing acts",
+            "if not regions_of(self.case.library[name].kind) & {place.region for place in near}:",
+            "if not near:",
+        ),
+        (
+            "all samples choose what predicts the held-out half",
+            "choice = max(refits, key=lambda place: place.ln_bayes_factor)",
+            "choice = refits[0]",
+        ),
+        ("far regions are near", "> detected[0].ln_bayes_factor - LEAD", "> -detected[0].ln_bayes_factor"),
     ),
 )

@@ -12,7 +12,7 @@ place that was not fitted, would invent evidence. The evidence of a region is th
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import logsumexp
@@ -54,6 +54,26 @@ class FittedPlace:
     def region(self) -> Region:
         return self.kind.region
 
+    def beside(self, gain: float) -> "FittedPlace":
+        """Return the place beside a fit without one whose ln evidence is higher by the ``gain``."""
+        factor, predicted = self.ln_bayes_factor - gain, self.predicted - gain
+        return replace(self, ln_bayes_factor=factor, predicted=predicted)
+
+
+@dataclass(frozen=True, eq=False)
+class RankedPlaces:
+    """The fit without a place, and all places in descending evidence."""
+
+    baseline: Explanation
+    places: tuple[FittedPlace, ...]
+
+    def by_region(self) -> dict[Region, FittedPlace]:
+        """Return the best place of each region, the best region first."""
+        regions: dict[Region, FittedPlace] = {}
+        for place in self.places:
+            regions.setdefault(place.region, place)
+        return regions
+
 
 def place_hypothesis(model: SphereForwardModel, kind: type[Place]) -> Hypothesis:
     """Return the hypothesis of a place about a forward model."""
@@ -74,8 +94,8 @@ class PlaceSearch:
     model: SphereForwardModel
     baseline: Explanation
 
-    def run(self, kinds: Sequence[type[Place]] = PLACES) -> tuple[FittedPlace, ...]:
-        """Return all places in descending evidence; one whose simulations fail is left out."""
+    def run(self, kinds: Sequence[type[Place]] = PLACES) -> RankedPlaces:
+        """Return the fits of all places; one whose simulations fail is left out."""
         screened = [place for place in map(self._screened, kinds) if place is not None]
         screened.sort(key=lambda place: place.predicted, reverse=True)
         promising = [
@@ -86,12 +106,25 @@ class PlaceSearch:
         fitted = [self._fitted(place) for place in promising]
         best = _ranked(fitted)[0]
         again = [place if place.region == best.region else self._from_best(place, best) for place in fitted]
-        return _ranked([*again, *(place for place in screened if place not in promising)])
+        return self._beside_base([*again, *(place for place in screened if place not in promising)])
+
+    def _beside_base(self, places: Sequence[FittedPlace]) -> RankedPlaces:
+        """Return the places beside the better of the fit without a place and one that starts from the best place's."""
+        best = _ranked(places)[0].explanation.fit
+        baseline = self.context.improve(self.baseline, best.x[:BASE], best.jacobian[:, :BASE])
+        gain = baseline.log_evidence - self.baseline.log_evidence
+        return RankedPlaces(baseline, _ranked(place.beside(gain) for place in places))
 
     @property
     def period(self) -> float:
         """Period of the beat [s]."""
         return self.model.nominal.heart.period
+
+    def refitted(self, place: FittedPlace) -> FittedPlace | None:
+        """Return a place that was fitted to other samples, fitted to these; None where its simulations fail."""
+        hypothesis, start = place_hypothesis(self.model, place.kind), place.explanation.fit.x
+        explained = self.context.explain(hypothesis, start, limit=FIT_LIMIT)
+        return None if explained is None else self._judged(place.kind, explained)
 
     def fitted_beside(self, kind: type[Place], other: FittedPlace) -> FittedPlace:
         """Return a place fitted from the parameters of another one; its linear model where its simulations fail."""
@@ -170,11 +203,3 @@ def _better(one: Explanation | None, other: Explanation | None) -> Explanation |
 
 def _ranked(places: Iterable[FittedPlace]) -> tuple[FittedPlace, ...]:
     return tuple(sorted(places, key=lambda place: place.ln_bayes_factor, reverse=True))
-
-
-def by_region(places: Iterable[FittedPlace]) -> dict[Region, FittedPlace]:
-    """Return the best place of each region, the best region first."""
-    regions: dict[Region, FittedPlace] = {}
-    for place in _ranked(places):
-        regions.setdefault(place.region, place)
-    return regions

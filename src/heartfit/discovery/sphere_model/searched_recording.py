@@ -1,6 +1,6 @@
 """A recording with everything that a search on the sphere found in it."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -154,19 +154,36 @@ class SearchedRecording:
         """
         if self.unseen is None:
             return ()
-        problem = self.problem(self.recording.merged(self.unseen))
-        return tuple(cause for effects in named for cause in self._refitted(problem, effects))
+        refits = ((effects, self.refit(effects)) for effects in named)
+        return tuple(
+            self._cause(refit, effects, name) for effects, refit in refits if refit for name in effects
+        )
+
+    @cached_property
+    def whole(self) -> SphereProblem:
+        """Both halves of the recording, as data."""
+        return self.problem(self.recording if self.unseen is None else self.recording.merged(self.unseen))
+
+    @cached_property
+    def whole_context(self) -> FitContext:
+        """Fits to both halves of the recording."""
+        return FitContext(self.whole.data)
+
+    @cached_property
+    def _refits(self) -> dict[Effects, Explanation | None]:
+        return {}
+
+    def refit(self, effects: Effects) -> Explanation | None:
+        """Return the explanation by these effects, fitted to both halves; None where its simulations fail."""
+        if effects not in self._refits:
+            added = tuple(self.library[name] for name in effects)
+            start = self.findings.explanation(effects).fit.x
+            self._refits[effects] = self.whole_context.explain(hypothesis(self.whole.model, added), start)
+        return self._refits[effects]
 
     def problem(self, recording: Recording) -> SphereProblem:
         """Pose other samples of the heart to the same model within the same structure."""
         return SphereProblem.from_recording(recording, self.model.nominal, self.structure)
-
-    def _refitted(self, problem: SphereProblem, effects: Effects) -> Iterator[Cause]:
-        added = tuple(self.library[name] for name in effects)
-        start = self.findings.explanation(effects).fit.x
-        explained = FitContext(problem.data).explain(hypothesis(problem.model, added), start)
-        if explained is not None:
-            yield from (self._cause(explained, effects, name) for name in effects)
 
     def changes(self, effects: Effects) -> tuple[Change, ...]:
         """Return the clear changes since an earlier recording, beside these effects, the clearest first."""

@@ -1,8 +1,9 @@
 """The verdict on where an unknown effect acts, beside the names of the library.
 
-A name stands against every place of another region: one that explains the searched samples better, and helps on the
-held-out ones, withdraws it. Without a name, the detected places that help there tell on which region something unknown
-acts, and its function which law it follows.
+All samples choose the places: half of them would miss many. A name stands against every place of another region that
+explains all samples better. Without a name, a detected place tells on which region something acts, and its function
+which law it follows; a mechanism of the library that acts there is named where it explains all samples as well. What is
+detected competes once more on the half that the library's search has seen, and its choice must predict the other half.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,38 +12,25 @@ from functools import partial
 
 import numpy as np
 
-from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.context import FitContext
-from heartfit.discovery.sphere_model.cause import (
-    CLEAR_DEVIATIONS,
-    ActingPlace,
-    ClearSpan,
-    Diagnosis,
-    Gain,
-    PlaceFunction,
-    RankedLaw,
-)
-from heartfit.discovery.sphere_model.held_out import predict_extension
-from heartfit.discovery.sphere_model.law_ranking import FittedLaw, FunctionPosterior
+from heartfit.discovery.inference.decide import Effects
+from heartfit.discovery.inference.evidence import Explanation
+from heartfit.discovery.sphere_model.cause import Diagnosis, Gain
+from heartfit.discovery.sphere_model.forward_model import hypothesis
+from heartfit.discovery.sphere_model.held_out import Extension, predict_extension
 from heartfit.discovery.sphere_model.place_search import (
-    BASE,
     FittedPlace,
     PlaceSearch,
-    by_region,
+    RankedPlaces,
     place_hypothesis,
 )
 from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.discovery.sphere_model.searched_recording import VOLUME_ALONE, SearchedRecording
-from heartfit.heart.beat import Beat
-from heartfit.heart.heart import Heart
-from heartfit.places import Place, Region, regions_of
-from heartfit.places.laws import TIME_FORMS, LawState, laws_of
-from heartfit.places.place import FunctionOfTime
+from heartfit.discovery.sphere_model.searched_recording import VOLUME_ALONE, SearchedRecording, traces
+from heartfit.discovery.sphere_model.shown_place import ShownPlace
+from heartfit.places import Place, regions_of
 
 LEAD = 3.0
 """ln Bayes factor within which another region is not told from the best."""
-SAMPLES = 200
-"""Equidistant times of a function."""
 Conditions = Mapping[str, Recording]
 
 
@@ -53,61 +41,123 @@ def locate(
 
     Without ``kinds`` of places, and for a volume alone, which does not tell regions apart, it stays as it is.
     """
-    if not kinds or case.recording.searched == VOLUME_ALONE:
+    baseline = case.refit(()) if kinds and case.recording.searched != VOLUME_ALONE else None
+    if baseline is None:
         return diagnosis
-    context = FitContext(case.data)
-    search = PlaceSearch(context, case.model, case.findings.survey.baseline)
-    judged = _Judge(case, conditions).judged(by_region(search.run(kinds)), _named_regions(diagnosis, case))
-    least = max(case.rules.detected, _evidence_of_name(diagnosis))
-    acting = [place for place in judged if place.place.ln_bayes_factor >= least]
-    located = replace(diagnosis, simulations=diagnosis.simulations + context.simulations)
-    return _unknown(located, search, acting) if acting else located
+    search = PlaceSearch(case.whole_context, case.whole.model, baseline)
+    ranked = search.run(kinds)
+    competition = _Competition(case, conditions, ranked)
+    located = _concluded(diagnosis, search, competition, competition.detected(diagnosis))
+    beats = case.model.simulations + case.whole.model.simulations
+    return replace(located, simulations=max(beats, diagnosis.simulations))
 
 
-def _named_regions(diagnosis: Diagnosis, case: SearchedRecording) -> frozenset[Region]:
-    kinds = (case.library[cause.name].kind for cause in diagnosis.mechanisms)
-    return frozenset(region for kind in kinds for region in regions_of(kind))
-
-
-def _evidence_of_name(diagnosis: Diagnosis) -> float:
-    return max((cause.ln_bayes_factor for cause in diagnosis.mechanisms), default=-np.inf)
+def _concluded(
+    diagnosis: Diagnosis,
+    search: PlaceSearch,
+    competition: "_Competition",
+    detected: Sequence[FittedPlace],
+) -> Diagnosis:
+    """Return the diagnosis with a confirmed name, or of an unknown effect, where a detected place helps."""
+    if not detected:
+        return diagnosis
+    near = [place for place in detected if place.ln_bayes_factor > detected[0].ln_bayes_factor - LEAD]
+    confirmed = competition.confirmed(near)
+    if confirmed is not None:
+        return _named(diagnosis, competition.case, confirmed)
+    gains = competition.gains(detected)
+    return diagnosis if gains is None else _unknown(diagnosis, search, near, gains)
 
 
 @dataclass(frozen=True, eq=False)
-class _JudgedPlace:
-    """The best place of a region, and its gains on held-out samples."""
+class _Confirmed:
+    """A mechanism that one half prefers and all samples confirm: its ln Bayes factor on all, and its gains."""
 
-    place: FittedPlace
+    name: str
+    ln_bayes_factor: float
     gains: tuple[Gain, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class _Judge:
+class _Competition:
+    """The places of all samples beside the names of the library."""
+
     case: SearchedRecording
     conditions: Conditions
+    ranked: RankedPlaces
 
-    def judged(self, regions: Mapping[Region, FittedPlace], named: frozenset[Region]) -> list[_JudgedPlace]:
-        """Return the detected places of other regions that help on held-out samples, the best first."""
-        detected = [
+    def detected(self, diagnosis: Diagnosis) -> list[FittedPlace]:
+        """Return the best detected place of each region where the name does not act, that explains more than it."""
+        kinds = (self.case.library[cause.name].kind for cause in diagnosis.mechanisms)
+        named = frozenset(region for kind in kinds for region in regions_of(kind))
+        names = {cause.name for cause in diagnosis.mechanisms}
+        factors = [self._factor(effects) for effects in self.case.explanations if names.issuperset(effects)]
+        least = max([self.case.rules.detected, *(factors if names else ())])
+        return [
             place
-            for region, place in regions.items()
-            if region not in named and place.ln_bayes_factor >= self.case.rules.detected
+            for region, place in self.ranked.by_region().items()
+            if region not in named and place.ln_bayes_factor >= least
         ]
-        judged = (self._judged(place) for place in detected)
-        return [place for place in judged if place is not None]
 
-    def _judged(self, place: FittedPlace) -> _JudgedPlace | None:
-        extension = partial(place_hypothesis, kind=place.kind)
-        tests = predict_extension(self.case, extension, place.explanation.fit.x, self.conditions)
+    def _factor(self, effects: Effects) -> float:
+        """Return the ln Bayes factor of effects on all samples."""
+        refit = self.case.refit(effects)
+        return -np.inf if refit is None else refit.log_evidence - self.ranked.baseline.log_evidence
+
+    def confirmed(self, near: Sequence[FittedPlace]) -> _Confirmed | None:
+        """Return the best mechanism of the library's search if it acts on a near region and explains as much."""
+        (name,) = self.case.findings.evidences.single
+        if not regions_of(self.case.library[name].kind) & {place.region for place in near}:
+            return None
+        factor = self._factor((name,))
+        if factor < max(self.case.rules.detected, near[0].ln_bayes_factor - LEAD):
+            return None
+        extension = partial(hypothesis, effects=(self.case.library[name],))
+        gains = self._gains(extension, self.case.findings.explanation((name,)))
+        return None if gains is None else _Confirmed(name, factor, gains)
+
+    def gains(self, detected: Sequence[FittedPlace]) -> tuple[Gain, ...] | None:
+        """Return the gains of the place that the searched half prefers; None where it does not help."""
+        half = PlaceSearch(FitContext(self.case.data), self.case.model, self.case.findings.survey.baseline)
+        refits = [refit for refit in map(half.refitted, detected) if refit is not None]
+        if not refits:
+            return None
+        choice = max(refits, key=lambda place: place.ln_bayes_factor)
+        return self._gains(partial(place_hypothesis, kind=choice.kind), choice.explanation)
+
+    def _gains(self, extension: Extension, explained: Explanation) -> tuple[Gain, ...] | None:
+        """Return the gains of an extension fitted to the searched half; None where a held-out test shows none."""
+        tests = predict_extension(self.case, extension, explained.fit.x, self.conditions)
         if not all(test and test.helps() for test in tests):
             return None
-        return _JudgedPlace(place, tuple(gain for test in tests if test for gain in test.gains()))
+        return tuple(gain for test in tests if test for gain in test.gains())
 
 
-def _unknown(diagnosis: Diagnosis, search: PlaceSearch, acting: Sequence[_JudgedPlace]) -> Diagnosis:
+def _named(diagnosis: Diagnosis, case: SearchedRecording, confirmed: _Confirmed) -> Diagnosis:
+    """Return the diagnosis of a mechanism whose evidence on one half was too small to name it."""
+    effects = (confirmed.name,)
+    cause = replace(case.cause(effects, confirmed.name), ln_bayes_factor=confirmed.ln_bayes_factor)
+    return replace(
+        diagnosis,
+        verdict="named",
+        mechanisms=(cause,),
+        alternatives=(),
+        next_measurement="",
+        gain=confirmed.gains,
+        withdrawn=_withdrawn(diagnosis),
+        traces=traces(case.findings, case.findings.explanation(effects), case.data),
+        from_all_samples=case.sizes_from_all_samples([effects]),
+    )
+
+
+def _withdrawn(diagnosis: Diagnosis) -> tuple[str, ...]:
+    return (*diagnosis.withdrawn, *(cause.name for cause in diagnosis.mechanisms))
+
+
+def _unknown(
+    diagnosis: Diagnosis, search: PlaceSearch, near: Sequence[FittedPlace], gains: tuple[Gain, ...]
+) -> Diagnosis:
     """Return the diagnosis of an unknown effect that acts on the best region, or on one of those near it."""
-    best = acting[0].place.ln_bayes_factor
-    near = [place.place for place in acting if place.place.ln_bayes_factor > best - LEAD]
     shown = [ShownPlace.from_search(search, place) for place in near]
     return replace(
         diagnosis,
@@ -115,108 +165,8 @@ def _unknown(diagnosis: Diagnosis, search: PlaceSearch, acting: Sequence[_Judged
         mechanisms=(),
         alternatives=(),
         from_all_samples=(),
-        withdrawn=(*diagnosis.withdrawn, *(cause.name for cause in diagnosis.mechanisms)),
-        gain=acting[0].gains,
+        withdrawn=_withdrawn(diagnosis),
+        gain=gains,
         acting=tuple(place.acting() for place in shown),
         functions=tuple(place.function() for place in shown),
     )
-
-
-@dataclass(frozen=True, eq=False)
-class ShownPlace:
-    """A place with the function of time of its region: times of the function and after the trigger (k,) [s]."""
-
-    place: FittedPlace
-    kind: type[FunctionOfTime]
-    times: Floats
-    after_trigger: Floats
-    mean: Floats
-    sd: Floats
-    laws: tuple[FittedLaw, ...]
-
-    @classmethod
-    def from_search(cls, search: PlaceSearch, place: FittedPlace) -> "ShownPlace":
-        """Fit the function of time of the place's region, and rank the laws that it may follow."""
-        kind = TIME_FORMS[place.region]
-        fitted = place if place.kind is kind else search.fitted_beside(kind, place)
-        fit, posterior = fitted.explanation.fit, fitted.explanation.posterior
-        simulated = search.model.simulate(
-            fit.x[:BASE], (kind.from_standardised(fit.x[BASE:], search.period),)
-        )
-        if simulated is None:
-            raise ValueError(f"{kind.__name__}: the fitted beat fails")
-        heart, beat = simulated
-        period, zero = search.period, zero_of(kind, heart)
-        times = period * np.arange(SAMPLES) / SAMPLES
-        function = FunctionPosterior(kind, posterior.mean[BASE:], posterior.covariance[BASE:, BASE:], period)
-        state = law_state(beat, times, zero)
-        laws = function.rank(laws_of(place.region, state))
-        return cls(
-            place,
-            kind,
-            times,
-            np.mod(times + zero - heart.trigger, period),
-            *function.values(times),
-            laws,
-        )
-
-    def acting(self) -> ActingPlace:
-        """Return the region, the size of the function and its laws."""
-        best = self.laws[0].ln_likelihood
-        laws = tuple(
-            RankedLaw(
-                one.law.name,
-                one.law.formula,
-                one.size,
-                one.law.unit,
-                one.ln_likelihood - best,
-                dict(one.law.shapes[one.shape]),
-            )
-            for one in self.laws
-        )
-        kind = self.place.kind
-        return ActingPlace(
-            kind.region, kind.__name__, kind.slot, self.place.ln_bayes_factor, self._spans(), laws
-        )
-
-    def function(self) -> PlaceFunction:
-        """Return the curves of the function and of its best law, in the order of the time after the trigger."""
-        order = np.argsort(self.after_trigger)
-        curves = (values[order] for values in (self.after_trigger, self.mean, self.sd, self.laws[0].values))
-        return PlaceFunction(self.kind.region, self.kind.unit, *curves)
-
-    def _spans(self) -> tuple[ClearSpan, ...]:
-        """Return the spans in which the function is clear, the clearest first."""
-        order = np.argsort(self.after_trigger)
-        times, mean, sd = (values[order] for values in (self.after_trigger, self.mean, self.sd))
-        clear = np.abs(mean) > CLEAR_DEVIATIONS * sd
-        edges = np.flatnonzero(np.diff(clear.astype(int), prepend=0, append=0))
-        spans = [
-            (first, last, first + int(np.argmax(np.abs(mean[first:last] / sd[first:last]))))
-            for first, last in edges.reshape(-1, 2)
-        ]
-        spans.sort(key=lambda span: -abs(mean[span[2]] / sd[span[2]]))
-        return tuple(
-            ClearSpan(
-                float(times[first]),
-                float(times[last - 1]),
-                float(mean[peak]),
-                float(sd[peak]),
-                self.kind.unit,
-            )
-            for first, last, peak in spans
-        )
-
-
-def zero_of(kind: type[FunctionOfTime], heart: Heart) -> float:
-    """Return the simulated time [s] at which the time of a function is zero."""
-    return {"beat": 0.0, "activation": heart.tissue.control.onset, "trigger": heart.trigger}[kind.zero]
-
-
-def law_state(beat: Beat, times: Floats, zero: float) -> LawState:
-    """Return the signals of a beat at ``times`` (k,) [s] of a function that is zero at the simulated time ``zero``."""
-    signals = {
-        name: np.interp(times + zero, beat.time, values, period=beat.period)
-        for name, values in beat.signals().items()
-    }
-    return LawState(times, signals, beat.period)

@@ -19,6 +19,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from heartfit.core.arrays import Floats
+from heartfit.geometry.territory import ACTIVATION_ORDER
 from heartfit.heart.finite_elements.body import StepFailed, Tissue
 from heartfit.heart.muscle.bcs import Drive
 from heartfit.heart.muscle.passive import Isotropic, require_isotropic
@@ -26,9 +27,6 @@ from heartfit.heart.time_step import STATIC_STEP, TimeStep
 
 HEALTHY_ACTIVATION = np.linspace(0.0, 0.07, 8)
 """Activation times of the fibre classes in a healthy QRS complex [s]."""
-
-ACTIVATION_ORDER = [9, 8, 14, 7, 15, 10, 13, 17, 16, 11, 12, 1, 2, 3, 4, 6, 5]
-"""AHA segments in the order of their activation in health, septum first and lateral base last, as the fibre classes."""
 
 SMALLEST_STRETCH, LARGEST_STRETCH = 0.4, 2.0
 """Bounds of admissible stretches."""
