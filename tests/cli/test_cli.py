@@ -36,6 +36,11 @@ def test_pages_are_printed(capsys):
         (["simulate", "x.vtu", "--set", "sigma0=1"], "nearest are"),
         (["simulate", "x.vtu", "--set", "sigma_0"], "expected NAME=VALUE"),
         (["diagnose", "nowhere.csv"], "nowhere.csv: no such file"),
+        (
+            ["diagnose", "nowhere.csv", "--without", "MitralRegurgitaton"],
+            "--without: mechanism 'MitralRegurgitaton' is unknown; did you mean MitralRegurgitation?",
+        ),
+        (["diagnose", "a.csv", "--against", "b.csv", "--without", "Scar"], "expected it without --condition"),
         (["diagnose", "resources/plausible_beat.csv", "--rr", "0.9"], "no column time_s"),
     ],
 )

@@ -34,6 +34,7 @@ from heartfit.places import (
     regions_of,
 )
 from heartfit.places.cosines import cosine_deviations
+from heartfit.places.laws import LawState, laws_of
 from heartfit.places.periodic import wave_deviations
 from heartfit.places.place import AMPLITUDES
 from heartfit.roles import Mechanism, registered
@@ -188,6 +189,17 @@ def test_a_place_with_the_course_of_a_mechanism_has_its_beat(place: type[Functio
 )
 def test_a_place_of_one_law_is_that_law(place: Place, law: Mechanism) -> None:
     np.testing.assert_array_equal(predicted(place), predicted(law))
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_the_sizes_of_a_place_are_those_of_laws_of_its_region(place: type[Place]) -> None:
+    heart, beat = SphereForwardModel(ADULT, {}).simulate(AT_MEAN, ()) or (None, None)
+    assert beat is not None
+    assert heart is not None
+    laws = {law.name for law in laws_of(place.region, LawState(beat.time, beat.signals(), beat.period))}
+    sizes = drawn(place).sizes()
+    assert set(sizes) <= laws
+    assert bool(sizes) == place.one_sided
 
 
 def test_a_flow_out_of_the_ventricle_takes_its_blood() -> None:

@@ -64,7 +64,7 @@ def unknown(*acting: ActingPlace, gain: tuple[Gain, ...] = ()) -> Diagnosis:
 
 def test_one_region_is_told_with_size_times_and_law() -> None:
     assert verdict_sentence(unknown(LEAK)) == (
-        "Unknown missing mechanism. Something that the library lacks acts on a leak out of the left ventricle: "
+        "Unknown missing mechanism. Something that the library lacks acts as a leak out of the left ventricle: "
         "91 ± 11 mL/s, 230 to 380 ms after the trigger; it follows an orifice law of 0.27 cm²."
     )
 
@@ -72,7 +72,7 @@ def test_one_region_is_told_with_size_times_and_law() -> None:
 def test_regions_that_are_not_told_apart_are_told_together() -> None:
     sentence = acting_sentence((LEAK, WALL))
     assert (
-        "a leak out of the left ventricle or the wall of the left ventricle; these data do not tell which"
+        "as a leak out of the left ventricle or on the wall of the left ventricle; these data do not tell which"
         in sentence
     )
 
@@ -86,6 +86,7 @@ def test_sizes_have_printed_units() -> None:
         span_text(ClearSpan(0.1, 0.2, -2000.0, 300.0, "Pa"))
         == "-2 ± 0.3 kPa, 100 to 200 ms after the trigger"
     )
+    assert span_text(ClearSpan(0.1, 0.2, 1.23e-4, 9.06e-6, "m^3/s")).startswith("120 ± 9.1 mL/s")
     assert law_text(RankedLaw("gain", "g", -0.05, "1", 0.0, {})) == "a gain law of -0.05"
     assert {place.unit for place in PLACES} <= set(AMPLITUDE_UNITS)
 
@@ -108,8 +109,11 @@ def test_the_card_lists_laws_and_the_measurement_that_shows_the_region() -> None
 
 def test_the_figure_has_a_panel_for_each_function() -> None:
     assert len(plot_cause(unknown(LEAK, WALL)).axes) == len(plot_cause(unknown()).axes) + 2
-    panel = plot_cause(unknown(LEAK)).axes[0]
-    assert panel.get_title() == "acts on a leak out of the left ventricle"
+    figure = plot_cause(unknown(LEAK))
+    labels = {line.get_label() for axes in figure.axes for line in axes.lines}
+    assert {"simulated", "with the free function"} <= labels
+    panel = figure.axes[0]
+    assert panel.get_title() == "acts as a leak out of the left ventricle"
     assert panel.lines[1].get_ydata() == pytest.approx(1e6 * FUNCTION.mean)
     assert panel.lines[2].get_ydata() == pytest.approx(1e6 * FUNCTION.law)
 

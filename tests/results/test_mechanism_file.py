@@ -11,7 +11,7 @@ from heartfit.core.errors import InputError
 from heartfit.discovery.sphere_model.cause import ActingPlace, Diagnosis, RankedLaw
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
-from heartfit.discovery.sphere_model.unknown_place import law_state, zero_of
+from heartfit.discovery.sphere_model.shown_place import law_state, zero_of
 from heartfit.places import REGIONS, PeriodicFunction, Region
 from heartfit.places.laws import TIME_FORMS, Law, laws_of
 from heartfit.results.mechanism_file import TEMPLATES, mechanism_file

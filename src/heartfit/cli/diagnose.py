@@ -13,7 +13,7 @@ from heartfit.cli.pressure import pressure_arguments, stated_pressure
 from heartfit.core.errors import InputError
 from heartfit.io.files import require_writable
 from heartfit.io.fingerprint import fingerprint
-from heartfit.roles import registered
+from heartfit.roles import registered, require_registered
 
 if TYPE_CHECKING:
     from heartfit.discovery.sphere_model.recording import Recording
@@ -87,6 +87,13 @@ def diagnose_arguments(command: argparse.ArgumentParser) -> None:
         help="Python files that declare further mechanisms; they are run",
     )
     command.add_argument(
+        "--without",
+        nargs="+",
+        default=[],
+        metavar="NAME",
+        help="mechanisms of the library that are not tried, as MitralRegurgitation",
+    )
+    command.add_argument(
         "--strict", action="store_true", help="name nothing below a ln Bayes factor of 10 instead of 5"
     )
     _structure_arguments(command)
@@ -137,11 +144,8 @@ def diagnose(arguments: argparse.Namespace) -> int:
     from heartfit.results.mechanism_file import mechanism_file
     from heartfit.study.case import RecordedPressure
 
-    if arguments.against and (arguments.condition or arguments.strict):
-        raise InputError(
-            "--against compares two recordings; expected it without --condition and --strict: leave them out"
-        )
     run_mechanism_files(arguments.mechanism)
+    _require_consistent(arguments)
     recording = read_recording(arguments.measured, arguments.rr)
     if stated := stated_pressure(arguments):
         source = validate(RecordedPressure, stated, "diagnose")
@@ -158,7 +162,12 @@ def diagnose(arguments: argparse.Namespace) -> int:
         structure = None if arguments.trust_simulator else _structure(arguments)
         places = PLACES if arguments.trust_simulator else ()
         conclusion = diagnosis.diagnose(
-            recording, conditions, rules=rules, structure=structure, places=places
+            recording,
+            conditions,
+            rules=rules,
+            structure=structure,
+            places=places,
+            left_out=arguments.without,
         )
     code = fingerprint(Path(diagnosis.__file__))
     write_cause_card(arguments.output, render_cause(conclusion, arguments.measured.stem), code)
@@ -168,6 +177,19 @@ def diagnose(arguments: argparse.Namespace) -> int:
     if arguments.write_mechanism:
         write_text(arguments.write_mechanism, mechanism_file(conclusion, arguments.measured.stem))
     return 0
+
+
+def _require_consistent(arguments: argparse.Namespace) -> None:
+    if arguments.against and (arguments.condition or arguments.strict or arguments.without):
+        raise InputError(
+            "--against compares two recordings; expected it without --condition, --without and --strict: "
+            "leave them out"
+        )
+    for name in arguments.without:
+        try:
+            require_registered(name)
+        except KeyError as unknown:
+            raise InputError(f"--without: {unknown.args[0]}") from unknown
 
 
 def _warn(recording: "Recording", file: Path) -> None:

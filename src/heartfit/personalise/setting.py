@@ -1,7 +1,6 @@
 """Settings: model, estimated parameters and prior."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from difflib import get_close_matches
 from functools import cache
 from typing import Annotated, Any, Literal, Self
 
@@ -13,7 +12,7 @@ from heartfit.core.parameter import Parameter, parameters_of
 from heartfit.core.validation import Strict
 from heartfit.heart.finite_elements.body import Tissue
 from heartfit.heart.heart import PAPER_PARAMETERS, Heart
-from heartfit.roles import Mechanism, Sensor, registered
+from heartfit.roles import Mechanism, Sensor, registered, require_registered
 
 
 def declaration(name: str) -> Parameter:
@@ -38,14 +37,9 @@ def _mechanism(heart: Heart, name: str) -> Any:
 
 def compose_heart(mechanisms: Iterable[str], heart: Heart | None = None) -> Heart:
     """Return a heart (the standard one) plus named mechanisms; raises KeyError with the nearest known name."""
-    known, result = registered(), heart or Heart()
+    result = heart or Heart()
     for name in mechanisms:
-        if name not in known:
-            near = get_close_matches(name, known, n=1, cutoff=0.0)[0]
-            raise KeyError(
-                f"mechanism {name!r} is unknown; did you mean {near}? `heartfit parameters` lists all"
-            )
-        result = result + known[name]()
+        result = result + require_registered(name)()
     return result
 
 

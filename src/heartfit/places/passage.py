@@ -1,5 +1,6 @@
 """Passages between two compartments, by conductance and orifice."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Self
 
@@ -28,6 +29,9 @@ class Passage(Place, Flow):
         if np.any(z < 0.0):
             raise ValueError(f"passage: coefficients {z}; expected none that is negative")
         return cls(cls.CONDUCTANCE * float(z[0]), cls.amplitude * float(z[1]))
+
+    def sizes(self) -> Mapping[str, float]:
+        return {"conductance": self.conductance, "orifice": self.area}
 
     def law(self, time: Floats) -> Branch:  # noqa: ARG002
         return Branch(conductance=self.conductance, area=self.area)

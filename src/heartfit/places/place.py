@@ -1,6 +1,7 @@
 """Forms of places: mechanisms that are a free function instead of a law, and their priors."""
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal, Self, get_args
 
@@ -40,6 +41,10 @@ class Place(Mechanism):
     @abstractmethod
     def from_standardised(cls, z: Floats, period: float) -> Self:
         """Return the place with the function of the coefficients z (size,) in a heart of the period [s]."""
+
+    def sizes(self) -> Mapping[str, float]:
+        """Return the sizes [SI] of the laws, by name, that add up to its function; empty for a free function."""
+        return {}
 
     @classmethod
     def deviations(cls, period: float) -> Floats:  # noqa: ARG003

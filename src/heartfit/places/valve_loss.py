@@ -1,5 +1,6 @@
 """Losses of pressure in a valve, by the square of its flow."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Self
 
@@ -24,6 +25,9 @@ class ValveLoss(Place, Narrowing):
         if np.any(z < 0.0):
             raise ValueError(f"valve loss: coefficient {z}; expected none that is negative")
         return cls(cls.amplitude * float(z[0]))
+
+    def sizes(self) -> Mapping[str, float]:
+        return {"loss": self.loss}
 
     def inverse_square(self) -> float:
         return self.loss

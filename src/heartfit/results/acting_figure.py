@@ -4,7 +4,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
 
 from heartfit.discovery.sphere_model.cause import ActingPlace, Diagnosis, PlaceFunction
-from heartfit.results.acting_places import REGIONS, law_text
+from heartfit.results.acting_places import acts, law_text
 from heartfit.results.figures import ARTERY, CALIBRATED, REFERENCE, clean
 from heartfit.results.text import AMPLITUDE_UNITS
 
@@ -38,7 +38,7 @@ def _plot_function(axes: Axes, function: PlaceFunction, acting: ActingPlace) -> 
         linewidth=1.4,
         label=law_text(acting.laws[0]),
     )
-    axes.set_title(f"acts on {REGIONS[acting.region]}", fontsize=10, fontweight="bold")
+    axes.set_title(f"acts {acts(acting.region)}", fontsize=10, fontweight="bold")
     axes.set_xlabel("time after trigger (s)")
     axes.set_ylabel(f"added ({unit})" if unit else "added share", fontsize=9)
     axes.legend(frameon=False, fontsize=8)

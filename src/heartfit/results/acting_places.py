@@ -16,6 +16,8 @@ REGIONS: Mapping[Region, str] = {
     "images": "the images",
     "catheter": "the catheter",
 }
+FLOWS: tuple[Region, ...] = ("leak", "backflow")
+"""Regions that are flows: an effect is one of them rather than acting on it."""
 EQUIVALENT: Mapping[Region, str] = {
     "filling": "a pressure of the atrium and a loss in the valve",
     "ejection": "a pressure of the aorta and a loss in the valve",
@@ -43,27 +45,30 @@ SEPARATED_BY: Mapping[Region, str] = {
 def acting_sentence(acting: Sequence[ActingPlace]) -> str:
     """Return "Something that the library lacks acts on REGION: SIZE, TIMES; it follows LAW.", or names of several."""
     if len(acting) > 1:
-        names = " or ".join(REGIONS[one.region] for one in acting)
-        return f"Something that the library lacks acts on {names}; these data do not tell which."
+        regions = " or ".join(acts(one.region) for one in acting)
+        return f"Something that the library lacks acts {regions}; these data do not tell which."
     (one,) = acting
     size = f": {span_text(one.spans[0])}" if one.spans else ""
     law = f"; it follows {law_text(one.laws[0])}" if one.laws else ""
-    return f"Something that the library lacks acts on {REGIONS[one.region]}{size}{law}."
+    return f"Something that the library lacks acts {acts(one.region)}{size}{law}."
+
+
+def acts(region: Region) -> str:
+    """Return "on the muscle", or "as a leak out of the left ventricle"."""
+    return f"{'as' if region in FLOWS else 'on'} {REGIONS[region]}"
 
 
 def span_text(span: ClearSpan) -> str:
     """Return "91 ± 11 mL/s, 230 to 380 ms after the trigger"."""
     unit, factor = AMPLITUDE_UNITS[span.unit]
-    size = f"{factor * span.size:.2g} ± {factor * span.sd:.2g} {unit}".strip()
+    size = f"{_two_digits(factor * span.size)} ± {_two_digits(factor * span.sd)} {unit}".strip()
     return f"{size}, {1e3 * span.start:.0f} to {1e3 * span.end:.0f} ms after the trigger"
 
 
 def law_text(law: RankedLaw) -> str:
     """Return "an orifice law of 0.27 cm²", or "a pulse law of ..." with its shape."""
-    unit, factor = AMPLITUDE_UNITS[law.unit]
     article = "an" if law.name[0] in "aeiou" else "a"
-    size = f"{factor * law.size:.2g} {unit}".strip()
-    return f"{article} {law.name} law of {size}"
+    return f"{article} {law.name} law of {_law_size(law)}"
 
 
 def acting_section(acting: Sequence[ActingPlace]) -> str:
@@ -88,11 +93,14 @@ def _laws_table(laws: Sequence[RankedLaw]) -> str:
 
 def _law_size(law: RankedLaw) -> str:
     unit, factor = AMPLITUDE_UNITS[law.unit]
-    return f"{factor * law.size:.2g} {unit}".strip()
+    return f"{_two_digits(factor * law.size)} {unit}".strip()
+
+
+def _two_digits(value: float) -> str:
+    """Return "120", not "1.2e+02"."""
+    return f"{float(f'{value:.2g}'):g}"
 
 
 def separating_measurement(acting: Sequence[ActingPlace]) -> str:
     """Return the measurement that shows on which of the regions something acts, or what the region leaves open."""
-    return (
-        f"{SEPARATED_BY[acting[0].region]}: it shows whether something acts on {REGIONS[acting[0].region]}."
-    )
+    return f"{SEPARATED_BY[acting[0].region]}: it shows whether something acts {acts(acting[0].region)}."

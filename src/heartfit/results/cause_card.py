@@ -186,7 +186,13 @@ def alternatives_text(diagnosis: Diagnosis) -> str:
     """Return the alternatives as a list, or one sentence with the reason for none."""
     if diagnosis.withdrawn:
         names = ", ".join(map(spaced_name, diagnosis.withdrawn))
-        return f"Withdrawn: {names}. The fit to the searched data improves, the held-out error does not."
+        elsewhere = (
+            ", or a function that acts elsewhere explains all samples better" if diagnosis.acting else ""
+        )
+        return (
+            f"Withdrawn: {names}. The fit to the searched data improves, "
+            f"but the held-out error does not{elsewhere}."
+        )
     if diagnosis.verdict == "unknown":
         best = next(name for name in diagnosis.ranking if name != "unknown")
         return (

@@ -63,9 +63,10 @@ def _curves(axes: Axes, trace: Trace, diagnosis: Diagnosis) -> None:
     order, times = _in_one_beat(trace.times, diagnosis.period)
     axes.plot(times, factor * trace.measured[order], "o", color=MEASURED, markersize=2.8, label="measured")
     axes.plot(times, factor * trace.none[order], "--", color=ARTERY, linewidth=1.4, label="simulated")
-    if diagnosis.mechanisms:
+    if diagnosis.mechanisms or diagnosis.acting:
         extended = factor * trace.extended[order]
-        axes.plot(times, extended, color=CALIBRATED, linewidth=1.4, label="with the mechanism")
+        label = "with the mechanism" if diagnosis.mechanisms else "with the free function"
+        axes.plot(times, extended, color=CALIBRATED, linewidth=1.4, label=label)
     axes.set_ylabel(f"{CURVES.get(trace.curve, trace.curve)}\n({unit})", fontsize=9)
     _phases(axes, diagnosis.phases)
     clean(axes)
@@ -89,7 +90,7 @@ def _residuals(axes: Axes, trace: Trace, diagnosis: Diagnosis, departure: Depart
     axes.plot(
         times, -trace.lacking[order] / noise, color=MEASURED, linewidth=1.4, label="discrepancy, 95 % band"
     )
-    if diagnosis.mechanisms:
+    if diagnosis.mechanisms or diagnosis.acting:
         explained = (trace.extended - trace.measured)[order] / noise
         axes.plot(times, explained, mark, color=CALIBRATED, markersize=3)
     reach = 1.25 * max(2.0 * CLEAR_DEVIATIONS, *np.abs([*misfit, *lacking]))

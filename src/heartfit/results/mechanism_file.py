@@ -6,7 +6,7 @@ from textwrap import indent
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.sphere_model.cause import Diagnosis, RankedLaw
-from heartfit.results.acting_places import REGIONS
+from heartfit.results.acting_places import acts
 
 ONE_SIDED_LAWS = ("conductance", "orifice", "loss", "stiffening", "obliteration")
 LEAST = -100.0
@@ -36,9 +36,7 @@ def mechanism_file(diagnosis: Diagnosis, title: str) -> str:
     acting = diagnosis.acting[0]
     law = acting.laws[0]
     name = f"Suggested{acting.region.capitalize()}{law.name.capitalize()}"
-    return _text(
-        name, law, TEMPLATES[acting.region][law.name], REGIONS[acting.region], title, diagnosis.period
-    )
+    return _text(name, law, TEMPLATES[acting.region][law.name], acts(acting.region), title, diagnosis.period)
 
 
 def _text(
@@ -55,7 +53,7 @@ def _text(
         f"from heartfit.roles import {template.role}, mechanism",
     ]
     body = [
-        f'r"""Acts on {words}.',
+        f'r"""Acts {words}.',
         "",
         f".. math:: {law.formula}",
         "",
@@ -70,7 +68,7 @@ def _text(
         "",
         *template.method.replace("PERIOD", f"{period:.6g}").splitlines(),
     ]
-    head = f'"""Unknown effect of {title}: a {law.name} law that acts on {words}."""'
+    head = f'"""Unknown effect of {title}: a {law.name} law that acts {words}."""'
     declaration = f"@mechanism\n@dataclass(frozen=True)\nclass {name}({template.role}):\n"
     return "\n".join([head, "", *imports, "", "", declaration + indent("\n".join(body), "    ")]) + "\n"
 

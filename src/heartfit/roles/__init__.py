@@ -24,7 +24,7 @@ from heartfit.roles.interfaces import (
     Sensor,
     Stress,
 )
-from heartfit.roles.registry import ROLES, mechanism, registered
+from heartfit.roles.registry import ROLES, mechanism, registered, require_registered
 from heartfit.roles.valve_dynamics import ValveDynamics
 
 __all__ = [
@@ -49,4 +49,5 @@ __all__ = [
     "ValveDynamics",
     "mechanism",
     "registered",
+    "require_registered",
 ]

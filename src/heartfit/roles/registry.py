@@ -2,6 +2,7 @@
 
 import importlib
 import pkgutil
+from difflib import get_close_matches
 from functools import cache
 from importlib.metadata import entry_points
 from typing import TypeVar
@@ -55,6 +56,15 @@ def registered() -> dict[str, type[Mechanism]]:
     """Return all mechanisms of the folder ``heartfit/mechanisms`` and of installed packages, by name."""
     _import_modules()
     return dict(sorted(_REGISTRY.items()))
+
+
+def require_registered(name: str) -> type[Mechanism]:
+    """Return a registered mechanism by its name; raises KeyError with the nearest known name."""
+    known = registered()
+    if name not in known:
+        near = get_close_matches(name, known, n=1, cutoff=0.0)[0]
+        raise KeyError(f"mechanism {name!r} is unknown; did you mean {near}? `heartfit parameters` lists all")
+    return known[name]
 
 
 @cache

@@ -48,6 +48,11 @@ def test_the_command_names_the_cause_and_the_curves_it_did_not_search(arguments,
     }
 
 
+def test_a_mechanism_that_is_left_out_is_not_tried(arguments, tmp_path):
+    assert cli.main(["diagnose", *arguments, "--trust-simulator", "--without", "ImageShrinkage"]) == 0
+    assert set(read_cause(tmp_path / "out" / "cause.json")["ranking"]) == {"CatheterOffset", "unknown"}
+
+
 def test_the_same_recording_within_the_structure_of_other_simulators(arguments, tmp_path, capsys):
     assert cli.main(["diagnose", *arguments]) == 0
     content = read_cause(tmp_path / "out" / "cause.json")

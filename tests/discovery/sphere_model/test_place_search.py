@@ -29,6 +29,8 @@ from heartfit.places import (
 )
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import REST, plant
+from heartfit.synthetic.hidden import RecordingProtocol, draw_hidden, measure_beat
+from heartfit.synthetic.out_of_library import SeptalDefect
 
 KINDS: tuple[type[Place], ...] = (AtrialPressure, MitralLoss, LeakPassage, PressureError, WallPressure)
 LEAKING = PlantedPlan(520, "outside", ("SeptalDefect",), 3.0)
@@ -71,6 +73,20 @@ def test_a_linear_model_that_was_not_fitted_counts_less_than_it_promises(leaking
     assert screened is not None
     assert screened.predicted > 5.0
     assert screened.ln_bayes_factor < screened.predicted - 1.0
+
+
+def test_a_strong_leak_is_screened_where_it_is_switched_on() -> None:
+    """The fit without it has other parameters, about which its linear model predicts nothing."""
+    rng = np.random.default_rng(3)
+    beat = draw_hidden(rng).with_effects([SeptalDefect(area=0.4e-4)]).beat()
+    curves = measure_beat(beat, (), RecordingProtocol.draw(rng), rng)
+    problem = SphereProblem.from_recording(Recording.from_curves(curves))
+    search = PlaceSearch(FitContext(problem.data), problem.model, problem.fit())
+    screened = search._screened(LeakPassage)
+    assert screened is not None
+    about_the_fit = search._judged(LeakPassage, screened.explanation, fitted=False)
+    assert about_the_fit.predicted < 15.0 < screened.predicted
+    assert search._fitted(screened).ln_bayes_factor > 15.0
 
 
 def test_a_fitted_place_explains_no_less_than_the_model_without_it(leaking) -> None:  # type: ignore[no-untyped-def]

@@ -5,17 +5,14 @@ from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import cast
 
-import numpy as np
 import pytest
 
 from heartfit.discovery.inference.decide import DEFAULT_RULES
 from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.sphere_model import unknown_place as module
 from heartfit.discovery.sphere_model.cause import ActingPlace, Cause, Diagnosis, PlaceFunction
-from heartfit.discovery.sphere_model.law_ranking import FittedLaw
 from heartfit.discovery.sphere_model.place_search import FittedPlace, RankedPlaces
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
-from heartfit.discovery.sphere_model.shown_place import ShownPlace
 from heartfit.discovery.sphere_model.unknown_place import locate
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.scar import Scar
@@ -28,7 +25,6 @@ from heartfit.places import (
     SystolicPressureError,
     WallPressure,
 )
-from heartfit.places.laws import Law
 
 LEAK = Cause("MitralRegurgitation", 8.0, 3e-5, "m^2", (2e-5, 4e-5))
 PERIOD = 0.8
@@ -131,7 +127,7 @@ def located(
     monkeypatch.setattr(module, "PlaceSearch", lambda *_: search)
     monkeypatch.setattr(module, "FitContext", lambda _: None)
     monkeypatch.setattr(module, "predict_extension", gained)
-    monkeypatch.setattr(module, "traces", lambda *_: ())
+    monkeypatch.setattr(module, "traces", lambda _, explained, __: (explained.fit.x,))
     monkeypatch.setattr(module.ShownPlace, "from_search", shown)
     return locate(before, cast("SearchedRecording", case or Searched()), {}, PLACES)
 
@@ -174,7 +170,7 @@ def test_what_the_searched_half_prefers_predicts_the_other(monkeypatch: pytest.M
     half: dict[type[Place], float] = {WallPressure: 1.0, LeakPassage: 2.0}
     diagnosed = located(monkeypatch, diagnosis("none"), places, ("WallPressure",), on_half=half)
     assert regions(diagnosed) == ["wall"]
-    assert diagnosed.gain == ("gain by LeakPassage",)
+    assert (diagnosed.gain, diagnosed.traces) == (("gain by LeakPassage",), ("LeakPassage",))
     refuted = located(monkeypatch, diagnosis("none"), places, ("LeakPassage",), on_half=half)
     assert refuted.acting == ()
     assert located(monkeypatch, diagnosis("none"), places, on_half={}).acting == ()
@@ -222,24 +218,3 @@ def test_a_volume_alone_and_no_places_change_nothing(monkeypatch: pytest.MonkeyP
     alone = located(monkeypatch, before, {WallPressure: 12.0}, case=Searched(searched=("lv_volume",)))
     assert alone is before
     assert locate(before, cast("SearchedRecording", Searched()), {}, ()) is before
-
-
-def test_the_clear_spans_of_a_function_follow_the_trigger() -> None:
-    """A function that is clear from 0.2 to 0.3 s after the trigger, and about the end of the beat."""
-    times = np.arange(200) * PERIOD / 200
-    after = np.mod(times - 0.1, PERIOD)
-    mean = np.where((after > 0.2) & (after < 0.3), 5e-5, np.where(after > 0.75, -3e-5, 1e-6))
-    law = Law("orifice", "A", "m^2", 2e-5, np.ones((1, 200)))
-    place_shown = ShownPlace(
-        place(LeakPassage, 12.0), LeakFlow, times, after, mean, np.full(200, 1e-5),
-        (FittedLaw(law, -4.0, 0, 2e-5), FittedLaw(law, -9.0, 0, 1e-5)),
-    )  # fmt: skip
-    acting, function = place_shown.acting(), place_shown.function()
-    first, second = acting.spans
-    assert (first.size, second.size) == (5e-5, -3e-5)
-    assert (first.start, first.end) == pytest.approx((0.2, 0.3), abs=0.005)
-    assert (second.start, second.end) == pytest.approx((0.75, 0.8), abs=0.005)
-    assert [one.ln_likelihood for one in acting.laws] == [0.0, -5.0]
-    assert np.all(np.diff(function.times) > 0.0)
-    assert function.mean[(function.times > 0.21) & (function.times < 0.29)] == pytest.approx(5e-5)
-    assert function.law == pytest.approx(2e-5)

@@ -1,6 +1,6 @@
 """The diagnosis of a recording: search on the sphere, held-out tests, and the next measurement."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import partial
 
 from heartfit.discovery.inference.decide import CHANGE_RULES, DEFAULT_RULES, Effects, Rules, Verdict
@@ -26,6 +26,7 @@ def diagnose(
     unseen: Recording | None = None,
     structure: DiscrepancyPrior | None = None,
     places: Sequence[type[Place]] = (),
+    left_out: Collection[str] = (),
 ) -> Diagnosis:
     """Diagnose the effects that the model of the heart lacks to explain the recording.
 
@@ -33,14 +34,15 @@ def diagnose(
     a sphere that was fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None. unseen:
     samples of the same beat, which judge a name and do not choose it. structure: of the discrepancy between the sphere
     and the source of the recording; None where the model is trusted. places: where an unknown effect may act,
-    of a trusted model. Without unseen samples and conditions the search sees half of the recording, and the other half
-    judges. Raises InputError where the nominal heart does not beat, and for a loop of pressure and volume
-    that runs clockwise.
+    of a trusted model. left_out: mechanisms of the library that are not tried.
+
+    Without unseen samples and conditions the search sees half of the recording, and the other half judges. Raises
+    InputError where the nominal heart does not beat, and for a loop of pressure and volume that runs clockwise.
     """
     warnings = implausible(recording)
     if unseen is None and not conditions:
         recording, unseen = recording.halves()
-    case = SearchedRecording.search(recording, nominal, rules, unseen, structure)
+    case = SearchedRecording.search(recording, nominal, rules, unseen, structure, left_out)
     return locate(conclude(case, conditions or {}, warnings), case, conditions or {}, places)
 
 

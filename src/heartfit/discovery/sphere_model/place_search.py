@@ -1,9 +1,9 @@
 r"""The search for the place at which something unknown acts.
 
 Every place of :mod:`heartfit.places` is a hypothesis: its function, of coefficients z, beside the free parameters. All
-are linearised about the fit without a place; those of the largest predicted evidence are fitted, each also from
-the parameters of the best one. The evidence is averaged over the priors of the function, N(0, D^2), the model linear
-about the fit:
+are linearised about the fit without a place, laws also about the centre of the priors; those of the largest predicted
+evidence are fitted, each also from the parameters of the best one. The evidence is averaged over the priors of the
+function, N(0, D^2), the model linear about the fit:
 
 .. math:: \ln Z = \ln \frac1n \sum_D Z(x / D, J D) - \max\{0, \ell_D - 1\} ,
 
@@ -13,6 +13,7 @@ place that was not fitted, would invent evidence. The evidence of a region is th
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.special import logsumexp
@@ -32,7 +33,7 @@ PREDICTED_GAIN = 1.0
 PROMISE = 1.0
 """Largest ln likelihood beyond a fit that counts."""
 SWITCHED_ON = 1.0
-"""Coefficients from which a place of one-sided coefficients is fitted once more."""
+"""Coefficients of a law with which it is fitted once more, from the centre of the priors."""
 FIT_LIMIT = 1200
 """Simulations after which a fit of a place is given up."""
 
@@ -126,12 +127,18 @@ class PlaceSearch:
         explained = self.context.explain(hypothesis, start, limit=FIT_LIMIT)
         return None if explained is None else self._judged(place.kind, explained)
 
-    def fitted_beside(self, kind: type[Place], other: FittedPlace) -> FittedPlace:
-        """Return a place fitted from the parameters of another one; its linear model where its simulations fail."""
+    def fitted_beside(self, kind: type[Place], other: FittedPlace, z: Floats | None = None) -> FittedPlace:
+        """Return a place fitted from the parameters of another one; its linear model where its simulations fail.
+
+        z: coefficients (size,) of its function to start from, those of the linear model if None.
+        """
         screened = self._screened(kind)
         if screened is None:
             raise ValueError(f"{kind.__name__} acts on no recorded curve")
-        return self._from_best(self._fitted(screened), other)
+        if z is None:
+            return self._from_best(self._fitted(screened), other)
+        explained = self._fit(screened, np.concatenate([other.explanation.fit.x[:BASE], z]), None)
+        return screened if explained is None else self._judged(kind, explained)
 
     def _screened(self, kind: type[Place]) -> FittedPlace | None:
         """Return the linear model of a place about the fit without one."""
@@ -144,14 +151,41 @@ class PlaceSearch:
             return None
         jacobian = np.column_stack([self.baseline.fit.jacobian, columns])
         unfitted = Fit(hypothesis, x, self.baseline.fit.predicted, jacobian, np.inf, converged=False)
-        return self._judged(kind, self._explained(unfitted), fitted=False)
+        place = self._judged(kind, self._explained(unfitted), fitted=False)
+        switched_on = self._switched_on(kind)
+        if switched_on is None:
+            return place
+        return replace(place, predicted=max(place.predicted, self._judged(kind, switched_on).predicted))
+
+    def _switched_on(self, kind: type[Place]) -> Explanation | None:
+        """Return the linear model of a law that is switched on at the centre of the priors; None for a free function.
+
+        The fit without a strong leak or stenosis has parameters far from those with it, and its linear model predicts
+        nothing. The slopes by the parameters are those without the place.
+        """
+        centre = self._centre if kind.one_sided else None
+        if centre is None:
+            return None
+        counted = CountedHypothesis(place_hypothesis(self.model, kind))
+        x = np.concatenate([centre.fit.x, np.full(kind.size, SWITCHED_ON)])
+        predicted = counted(x)
+        if predicted is None:
+            return None
+        jacobian = np.column_stack([centre.fit.jacobian, counted.jacobian(x, predicted, BASE)])
+        self.context.simulations += counted.runs
+        return self._explained(Fit(counted.hypothesis, x, predicted, jacobian, np.inf, converged=False))
+
+    @cached_property
+    def _centre(self) -> Explanation | None:
+        """The heart without a place at the centre of the priors; None where it does not beat."""
+        hypothesis = self.baseline.fit.hypothesis
+        return self.context.linearise(hypothesis, hypothesis.at(0.0))
 
     def _fitted(self, place: FittedPlace) -> FittedPlace:
-        start, slopes = place.explanation.fit.x, place.explanation.fit.jacobian
-        explained = self._fit(place, start, slopes)
-        if place.kind.one_sided:
-            switched = np.concatenate([start[:BASE], np.full(place.kind.size, SWITCHED_ON)])
-            explained = _better(explained, self._fit(place, switched, None))
+        explained = self._fit(place, place.explanation.fit.x, place.explanation.fit.jacobian)
+        switched_on = self._switched_on(place.kind)
+        if switched_on is not None:
+            explained = _better(explained, self._fit(place, switched_on.fit.x, switched_on.fit.jacobian))
         return place if explained is None else self._judged(place.kind, explained)
 
     def _from_best(self, place: FittedPlace, best: FittedPlace) -> FittedPlace:

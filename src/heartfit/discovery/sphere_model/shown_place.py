@@ -17,6 +17,7 @@ from heartfit.discovery.sphere_model.place_search import BASE, FittedPlace, Plac
 from heartfit.heart.beat import Beat
 from heartfit.heart.heart import Heart
 from heartfit.places.laws import TIME_FORMS, LawState, laws_of
+from heartfit.places.periodic import PeriodicFunction
 from heartfit.places.place import FunctionOfTime
 
 SAMPLES = 200
@@ -39,26 +40,18 @@ class ShownPlace:
     def from_search(cls, search: PlaceSearch, place: FittedPlace) -> "ShownPlace":
         """Fit the function of time of the place's region, and rank the laws that it may follow."""
         kind = TIME_FORMS[place.region]
-        fitted = place if place.kind is kind else search.fitted_beside(kind, place)
-        fit, posterior = fitted.explanation.fit, fitted.explanation.posterior
-        simulated = search.model.simulate(
-            fit.x[:BASE], (kind.from_standardised(fit.x[BASE:], search.period),)
-        )
-        if simulated is None:
-            raise ValueError(f"{kind.__name__}: the fitted beat fails")
-        heart, beat = simulated
-        period, zero = search.period, zero_of(kind, heart)
-        times = period * np.arange(SAMPLES) / SAMPLES
+        coefficients = _coefficients(search, place, kind)
+        fitted = place if place.kind is kind else search.fitted_beside(kind, place, coefficients)
+        posterior, period = fitted.explanation.posterior, search.period
+        heart, state = _simulated(search, fitted, kind)
         function = FunctionPosterior(kind, posterior.mean[BASE:], posterior.covariance[BASE:, BASE:], period)
-        state = law_state(beat, times, zero)
-        laws = function.rank(laws_of(place.region, state))
         return cls(
             place,
             kind,
-            times,
-            np.mod(times + zero - heart.trigger, period),
-            *function.values(times),
-            laws,
+            state.times,
+            np.mod(state.times + zero_of(kind, heart) - heart.trigger, period),
+            *function.values(state.times),
+            function.rank(laws_of(place.region, state)),
         )
 
     def acting(self) -> ActingPlace:
@@ -107,6 +100,27 @@ class ShownPlace:
             )
             for first, last, peak in spans
         )
+
+
+def _coefficients(search: PlaceSearch, place: FittedPlace, kind: type[FunctionOfTime]) -> Floats | None:
+    """Return the coefficients of the function that the laws of a place make in its beat; None without laws."""
+    sizes = place.kind.from_standardised(place.explanation.fit.x[BASE:], search.period).sizes()
+    if not sizes:
+        return None
+    _, state = _simulated(search, place, kind)
+    curves = {law.name: law.curves[0] for law in laws_of(place.region, state)}
+    values = np.sum([size * curves[name] for name, size in sizes.items()], axis=0)
+    return kind(PeriodicFunction.from_samples(values, search.period)).standardised()
+
+
+def _simulated(search: PlaceSearch, place: FittedPlace, kind: type[FunctionOfTime]) -> tuple[Heart, LawState]:
+    """Return the heart with a fitted place, and the state of its beat at the times of a function of ``kind``."""
+    x, period = place.explanation.fit.x, search.period
+    simulated = search.model.simulate(x[:BASE], (place.kind.from_standardised(x[BASE:], period),))
+    if simulated is None:
+        raise ValueError(f"{place.kind.__name__}: the fitted beat fails")
+    heart, beat = simulated
+    return heart, law_state(beat, period * np.arange(SAMPLES) / SAMPLES, zero_of(kind, heart))
 
 
 def zero_of(kind: type[FunctionOfTime], heart: Heart) -> float:

@@ -15,7 +15,7 @@ import numpy as np
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.decide import Effects
 from heartfit.discovery.inference.evidence import Explanation
-from heartfit.discovery.sphere_model.cause import Diagnosis, Gain
+from heartfit.discovery.sphere_model.cause import Diagnosis, Gain, Trace
 from heartfit.discovery.sphere_model.forward_model import hypothesis
 from heartfit.discovery.sphere_model.held_out import Extension, predict_extension
 from heartfit.discovery.sphere_model.place_search import (
@@ -65,8 +65,8 @@ def _concluded(
     confirmed = competition.confirmed(near)
     if confirmed is not None:
         return _named(diagnosis, competition.case, confirmed)
-    gains = competition.gains(detected)
-    return diagnosis if gains is None else _unknown(diagnosis, search, near, gains)
+    preferred = competition.preferred(detected)
+    return diagnosis if preferred is None else _unknown(diagnosis, search, near, preferred)
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +75,14 @@ class _Confirmed:
 
     name: str
     ln_bayes_factor: float
+    gains: tuple[Gain, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Preferred:
+    """The curves on the searched half with the place that it prefers, and the gains on the other."""
+
+    traces: tuple[Trace, ...]
     gains: tuple[Gain, ...]
 
 
@@ -116,14 +124,18 @@ class _Competition:
         gains = self._gains(extension, self.case.findings.explanation((name,)))
         return None if gains is None else _Confirmed(name, factor, gains)
 
-    def gains(self, detected: Sequence[FittedPlace]) -> tuple[Gain, ...] | None:
-        """Return the gains of the place that the searched half prefers; None where it does not help."""
-        half = PlaceSearch(FitContext(self.case.data), self.case.model, self.case.findings.survey.baseline)
+    def preferred(self, detected: Sequence[FittedPlace]) -> _Preferred | None:
+        """Return the curves and gains of the place that the searched half prefers; None where it does not help."""
+        case = self.case
+        half = PlaceSearch(FitContext(case.data), case.model, case.findings.survey.baseline)
         refits = [refit for refit in map(half.refitted, detected) if refit is not None]
         if not refits:
             return None
         choice = max(refits, key=lambda place: place.ln_bayes_factor)
-        return self._gains(partial(place_hypothesis, kind=choice.kind), choice.explanation)
+        gains = self._gains(partial(place_hypothesis, kind=choice.kind), choice.explanation)
+        return (
+            None if gains is None else _Preferred(traces(case.findings, choice.explanation, case.data), gains)
+        )
 
     def _gains(self, extension: Extension, explained: Explanation) -> tuple[Gain, ...] | None:
         """Return the gains of an extension fitted to the searched half; None where a held-out test shows none."""
@@ -155,7 +167,7 @@ def _withdrawn(diagnosis: Diagnosis) -> tuple[str, ...]:
 
 
 def _unknown(
-    diagnosis: Diagnosis, search: PlaceSearch, near: Sequence[FittedPlace], gains: tuple[Gain, ...]
+    diagnosis: Diagnosis, search: PlaceSearch, near: Sequence[FittedPlace], preferred: _Preferred
 ) -> Diagnosis:
     """Return the diagnosis of an unknown effect that acts on the best region, or on one of those near it."""
     shown = [ShownPlace.from_search(search, place) for place in near]
@@ -166,7 +178,8 @@ def _unknown(
         alternatives=(),
         from_all_samples=(),
         withdrawn=_withdrawn(diagnosis),
-        gain=gains,
+        gain=preferred.gains,
+        traces=preferred.traces,
         acting=tuple(place.acting() for place in shown),
         functions=tuple(place.function() for place in shown),
     )
