@@ -115,18 +115,19 @@ def search(trial: Trial) -> PlaceTrial:
 
 def store(searched: Sequence[PlaceTrial]) -> None:
     """Write the tables of the hearts that are searched so far, and that of the places."""
-    _store("unknown_places_forms", forms_table())
-    _store("unknown_places", places_table(searched))
-    _store("unknown_places_names", names_table(searched))
-    _store("unknown_places_hearts", hearts_table(searched))
+    for name, table in {
+        "unknown_places_forms": forms_table(),
+        "unknown_places": places_table(searched),
+        "unknown_places_names": names_table(searched),
+        "unknown_places_hearts": hearts_table(searched),
+    }.items():
+        store_table(name, table, "benchmarks.unknown_places")
 
 
-def _store(name: str, table: pd.DataFrame) -> None:
+def store_table(name: str, table: pd.DataFrame, module: str) -> None:
+    """Write a measured table that a module has made."""
     text = table.to_csv(sep="\t", index=False)
-    write_text(
-        ROOT / "docs" / "measured" / f"{name}.tsv",
-        f"# made by: python -m benchmarks.unknown_places\n{text}",
-    )
+    write_text(ROOT / "docs" / "measured" / f"{name}.tsv", f"# made by: python -m {module}\n{text}")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ Parameters that are fixed in the setting and free in the search on the sphere, a
 the priors of that search.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -30,6 +30,7 @@ from heartfit.observation.curve import Curve
 from heartfit.personalise.numerics import Pressures, TimeScheme
 from heartfit.personalise.run import run_beat
 from heartfit.personalise.setting import Element, Setting
+from heartfit.places import Place
 from heartfit.roles import registered
 
 RIGHT_PARAMETERS = (
@@ -169,16 +170,20 @@ class Reference:
     pressures: Pressures
     scheme: TimeScheme
 
-    def search(self, recording: Recording) -> Diagnosis:
+    def search(
+        self, recording: Recording, places: Sequence[type[Place]] = (), left_out: Collection[str] = ()
+    ) -> Diagnosis:
         """Diagnose a recording of this wall with a sphere centred on the beat at the prior mean.
 
-        Raises InputError where that beat fails.
+        places, left_out: see :func:`heartfit.discovery.sphere_model.diagnose.diagnose`. Raises InputError where that
+        beat fails.
         """
         mesh = activate(self.mesh)
         beat = run_beat(mesh, self.setting, recording.period, {}, self.pressures, self.scheme)
         if not beat.completed:
             raise InputError(f"reference beat: {beat.reason}; expected one: choose another prior or mesh")
-        return centred_search(recording, self.setting.base_heart(recording.period), [beat_curves(beat)])
+        heart = self.setting.base_heart(recording.period)
+        return centred_search(recording, heart, [beat_curves(beat)], places=places, left_out=left_out)
 
 
 def activate(mesh: VentricularMesh) -> VentricularMesh:

@@ -18,6 +18,7 @@ poorer indicator of a badly centred sphere.
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from math import exp
 
 import numpy as np
@@ -26,7 +27,7 @@ from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.data import Block, Data, Noise
-from heartfit.discovery.inference.decide import CENTRED_RULES, STRICT_RULES, Rules
+from heartfit.discovery.inference.decide import CENTRED_RULES, STRICT_RULES
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.inference.search import fit_from_baseline
 from heartfit.discovery.sphere_model.cause import Diagnosis
@@ -42,6 +43,7 @@ from heartfit.discovery.sphere_model.recording import Recording, search_data
 from heartfit.heart.heart import Heart
 from heartfit.heart.sphere.heart import Inertia
 from heartfit.observation.curve import Curve
+from heartfit.places import Place
 
 LARGEST_RMSE = {"lv_volume": 0.7e-6, "lv_pressure": 100.0}
 """Largest root mean square error of a sphere that follows the beat [m^3] and [Pa]."""
@@ -169,32 +171,26 @@ def centred_search(
     heart: Heart,
     beats: Sequence[Mapping[str, Curve]],
     unseen: Recording | None = None,
+    places: Sequence[type[Place]] = (),
+    left_out: Collection[str] = (),
 ) -> Diagnosis:
     """The diagnosis of a recording, the sphere centred on the first of the ``beats``, which is the ``heart``'s.
 
     The others are of the same model at other parameters: a sphere that finds effects in them fails its self-test, and
     the threshold of a detection is raised. The same holds where the sphere does not follow the first beat well: a heart
     without an effect gave an ln Bayes factor of 6 about a sphere that followed only to 0.13 kPa, and of 15 about the
-    adult's sphere. Beats without curves failed; where no sphere beats like the first one, the adult's is used. unseen:
-    see :func:`heartfit.discovery.sphere_model.diagnose.diagnose`.
+    adult's sphere. Beats without curves failed; where no sphere beats like the first one, the adult's is used. unseen,
+    places, left_out: see :func:`heartfit.discovery.sphere_model.diagnose.diagnose`.
     """
     first, *others = beats
+    search = partial(diagnose, recording, unseen=unseen, places=places, left_out=left_out)
     for followed, rules in ((recording.searched, CENTRED_RULES), ((), STRICT_RULES)):
         try:
             nominal = fit_nominal_heart(heart, first, followed)
         except InputError:
             continue
-        return _diagnose_after_self_test(recording, nominal, [beat for beat in others if beat], rules, unseen)
-    return diagnose(recording, rules=STRICT_RULES, unseen=unseen)
-
-
-def _diagnose_after_self_test(
-    recording: Recording,
-    nominal: NominalHeart,
-    sound: Sequence[Mapping[str, Curve]],
-    rules: Rules,
-    unseen: Recording | None,
-) -> Diagnosis:
-    result = self_test(recording, nominal, sound) if sound else None
-    applied = rules if result is None or result <= SELF_TEST_LIMIT else STRICT_RULES
-    return replace(diagnose(recording, nominal=nominal, rules=applied, unseen=unseen), self_test=result)
+        sound = [beat for beat in others if beat]
+        result = self_test(recording, nominal, sound) if sound else None
+        applied = rules if result is None or result <= SELF_TEST_LIMIT else STRICT_RULES
+        return replace(search(nominal=nominal, rules=applied), self_test=result)
+    return search(rules=STRICT_RULES)

@@ -1,0 +1,114 @@
+"""Places at which the residual of the measured heart acts, before and after its filling was extended.
+
+python -m benchmarks.measured_places RESULTS   RESULTS: results/measured_heart of config/measured_heart.yaml, of which
+the blood volume and the beat of the central sigma point are read; a minute
+"""
+
+import sys
+from dataclasses import replace
+from functools import reduce
+from operator import add
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.ventricles import ROOT
+from heartfit.core.errors import InputError
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.sphere_model.forward_model import candidates, hypothesis
+from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
+from heartfit.discovery.sphere_model.place_search import BASE, PlaceSearch
+from heartfit.discovery.sphere_model.problem import SphereProblem
+from heartfit.discovery.sphere_model.recentred import fit_nominal_heart
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.searched_recording import VOLUME_ONLY_THRESHOLD
+from heartfit.discovery.sphere_model.shown_place import ShownPlace
+from heartfit.io.beats import read_beat
+from heartfit.io.configuration import read_cases, read_study
+from heartfit.io.files import write_text
+from heartfit.io.refits import read_measured_case
+from heartfit.io.tables import write_figure
+from heartfit.mechanisms.left_atrium import LeftAtrium
+from heartfit.observation.beat import beat_curves
+from heartfit.places import AtrialPressure
+from heartfit.results.residual_places import ResidualPlaces, plot_residual_places, residual_table
+from heartfit.roles import Mechanism
+
+CASE, SETTING = "patient1", "physical"
+HEARTS: dict[str, tuple[tuple[Mechanism, ...], tuple[str, ...]]] = {
+    "as it is": ((), ()),
+    "with an atrium and inertia": ((LeftAtrium(),), ("MitralDynamics",)),
+    "with the named mechanisms": ((), ("MitralDynamics", "RelaxedFriction")),
+}
+"""Mechanisms of their declared size, and those whose sizes are fitted first."""
+
+
+def main(arguments: list[str]) -> int:
+    if len(arguments) != 1:
+        sys.stderr.write(f"{__doc__}\n")
+        return 2
+    case = Path(arguments[0]) / CASE
+    files = {"measured": case / "curves" / "measured.csv", "second": [case / "curves" / "blood_volume.csv"]}
+    recording = read_measured_case(files).recording()
+    volume = replace(recording, curves={"lv_volume": recording.curves["lv_volume"]})
+    nominal = centred(case / SETTING / "calibration" / "beats" / "0.json")
+    hearts = {
+        name: places_beside(volume, extended(volume, nominal, *heart)) for name, heart in HEARTS.items()
+    }
+    table = residual_table(hearts).to_csv(sep="\t", index=False)
+    write_text(
+        ROOT / "docs" / "measured" / "measured_heart_places.tsv",
+        f"# made by: python -m benchmarks.measured_places results/measured_heart\n{table}",
+    )
+    figure = plot_residual_places(hearts, VOLUME_ONLY_THRESHOLD)
+    write_figure(ROOT / "docs" / "figures" / "measured_heart_places.png", figure)
+    return 0
+
+
+def centred(beat_file: Path) -> NominalHeart:
+    """Return the sphere that is centred on the 3-D beat of the setting, where it follows it."""
+    study = read_study([ROOT / "config" / "config.yaml", ROOT / "config" / "measured_heart.yaml"])
+    (case,) = (case for case in read_cases(ROOT / study.cases) if case.case == CASE)
+    setting = study.setting(SETTING)
+    beat = beat_curves(read_beat(beat_file), setting.sensors({}))
+    heart = setting.base_heart(case.period)
+    try:
+        return fit_nominal_heart(heart, beat, ("lv_volume",))
+    except InputError:
+        return fit_nominal_heart(heart, beat, ())
+
+
+def extended(
+    volume: Recording, nominal: NominalHeart, added: tuple[Mechanism, ...], named: tuple[str, ...]
+) -> NominalHeart:
+    """Return the heart with mechanisms, the named ones of the size that fits the volume best."""
+    heart = replace(nominal, heart=reduce(add, added, nominal.heart))
+    if not named:
+        return heart
+    problem = SphereProblem.from_recording(volume, heart)
+    library = candidates(problem.model)
+    chosen = tuple(library[name] for name in named)
+    with_named = hypothesis(problem.model, chosen)
+    explained = FitContext(problem.data).explain(with_named, with_named.at(1.0))
+    if explained is None:
+        raise InputError(f"the heart with {named} does not beat")
+    sizes = np.split(explained.fit.x[BASE:], np.cumsum([len(one.unknowns) for one in chosen])[:-1])
+    fitted = [one.at(x) for one, x in zip(chosen, sizes, strict=True)]
+    return replace(heart, heart=reduce(add, fitted, heart.heart))
+
+
+def places_beside(volume: Recording, nominal: NominalHeart) -> ResidualPlaces:
+    """Return the evidence of every region beside a heart, and the function of time in its filling."""
+    problem = SphereProblem.from_recording(volume, nominal)
+    search = PlaceSearch(FitContext(problem.data), problem.model, problem.fit())
+    ranked = search.run()
+    filling = search.fitted_beside(AtrialPressure, ranked.places[0])
+    left = problem.data.values - ranked.baseline.fit.predicted
+    levels, _ = search.context.whitening.most_probable_levels(left)
+    misfit = float(left @ np.linalg.solve(problem.data.noise_covariance(levels), left))
+    factors = {region: place.ln_bayes_factor for region, place in ranked.by_region().items()}
+    return ResidualPlaces(misfit, factors, ShownPlace.from_search(search, filling).function())
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

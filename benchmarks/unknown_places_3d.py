@@ -1,0 +1,92 @@
+"""Search three-dimensional hearts for effects that the library lacks: python -m benchmarks.unknown_places_3d
+
+Hearts of the benchmark in three dimensions, observed through images and registration, on seeds that nothing else uses:
+effects from outside the library, mechanisms whose entry is removed from it, and sound ones. The sphere is centred on
+one beat of the diagnoser's mesh. Stores docs/measured/unknown_places_3d*.tsv; a quarter of an hour of two cores.
+"""
+
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from functools import cache
+
+from benchmarks.unknown_places import PROCESSES, Trial, store_table
+from benchmarks.ventricles import ROOT
+from heartfit.discovery.refit.model import Reference
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.io.configuration import read_study
+from heartfit.places import PLACES
+from heartfit.results.unknown_places import OUTSIDE, REMOVED, SOUND, PlaceTrial, hearts_table, places_table
+from heartfit.study.study import Study
+from heartfit.synthetic.campaign import PlantedPlan
+from heartfit.synthetic.case import REST
+from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
+from heartfit.synthetic.ventricles import Imaging, Ventricles
+from heartfit.synthetic.volunteer import Template
+
+MODULE = "benchmarks.unknown_places_3d"
+SEED, SCALES, SOUND_HEARTS = 380000, 3.0, 4
+LEFT_OUT = (
+    *("AorticRegurgitation", "AorticStenosis", "AtrialSurge", "CatheterDelay"),
+    *("DelayedActivation", "MitralRegurgitation", "SeptalLoad", "SlowRelaxation"),
+)
+
+
+def main() -> None:
+    """Search all hearts and store the tables."""
+    searched: list[PlaceTrial] = []
+    with ProcessPoolExecutor(PROCESSES) as pool:
+        for one in pool.map(search, trials()):
+            searched.append(one)
+            sys.stdout.write(f"{' | '.join(map(str, hearts_table([one]).iloc[0]))}\n")
+            sys.stdout.flush()
+            hearts = hearts_table(searched).drop(columns="library alone")
+            table = places_table(searched).drop(columns="helps with raised legs")
+            store_table("unknown_places_3d", table, MODULE)
+            store_table("unknown_places_3d_hearts", hearts, MODULE)
+
+
+def trials() -> list[Trial]:
+    """Return the planned hearts."""
+    outside = [(OUTSIDE, kind.__name__) for kind in OUT_OF_LIBRARY]
+    removed = [(REMOVED, name) for name in LEFT_OUT]
+    hidden = [
+        Trial(
+            group,
+            PlantedPlan(SEED + number, "outside" if group == OUTSIDE else "single", (name,), SCALES),
+            (name,) if group == REMOVED else (),
+        )
+        for number, (group, name) in enumerate([*outside, *removed])
+    ]
+    sound = [
+        Trial(SOUND, PlantedPlan(SEED + 100 + number, "none", (), 0.0)) for number in range(SOUND_HEARTS)
+    ]
+    return [*hidden, *sound]
+
+
+@cache
+def _study() -> Study:
+    return read_study([ROOT / "config" / "config.yaml"])
+
+
+@cache
+def _ventricles() -> Ventricles:
+    study, planned = _study(), _study().discovery_benchmark.ventricles
+    sizes = planned.generator.mesh, planned.diagnoser.mesh
+    hidden, observed = (Template.build(size.edge_length, size.tolerance) for size in sizes)
+    imaging = Imaging(study.scanner(), study.registration.free_form(), observed, hidden.mesh)
+    protocol = planned.generator.protocol(study.end_diastolic_pressure)
+    return Ventricles(hidden, study.cohort.heart, protocol, imaging)
+
+
+def search(trial: Trial) -> PlaceTrial:
+    """Diagnose a planted heart with places."""
+    study, plan = _study(), trial.plan
+    mesh, case = _ventricles().plant(plan)
+    numerics = study.discovery_benchmark.ventricles.diagnoser.numerics
+    reference = Reference(mesh, study.nominal_setting(), study.end_diastolic_pressure, numerics)
+    diagnosed = reference.search(Recording.from_curves(case.curves[REST]), PLACES, trial.left_out)
+    return PlaceTrial(plan.seed, trial.group, "".join(plan.names), plan.scales, diagnosed, diagnosed)
+
+
+if __name__ == "__main__":
+    main()
