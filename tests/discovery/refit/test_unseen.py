@@ -1,6 +1,6 @@
 """Error ratios on held-out data, and the choice of the nominal heart and of the threshold of a search."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -101,7 +101,9 @@ def searched(monkeypatch: pytest.MonkeyPatch) -> None:
         nominal: NominalHeart | None = None,
         rules: Rules = DEFAULT_RULES,
         unseen: Recording | None = None,
+        **searched: Collection[object],
     ) -> Diagnosis:
+        assert searched == {"places": (), "left_out": ()}
         assert unseen is None
         about = "sphere" if nominal is ADULT else "adult"
         return Diagnosis("none", (), (), about, (), 0, recording.period, rules.detected)

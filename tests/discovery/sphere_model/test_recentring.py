@@ -1,6 +1,6 @@
 """A centred sphere must follow its beat and pass its self-test, else the rules are stricter; curves in closed form."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -104,7 +104,9 @@ def searched(monkeypatch: pytest.MonkeyPatch) -> list[Search]:
         nominal: NominalHeart | None = None,
         rules: Rules = DEFAULT_RULES,
         unseen: Recording | None = None,
+        **searched: Collection[object],
     ) -> Diagnosis:
+        assert searched == {"places": (), "left_out": ()}
         calls.append((rules.detected, unseen, nominal))
         return Diagnosis("none", (), (), "", (), 0, recording.period, rules.detected)
 

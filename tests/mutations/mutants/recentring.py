@@ -12,8 +12,8 @@ RECENTRING_MUTANTS = changes(
     ),
     (
         "the search leaves the centred sphere",
-        "diagnose(recording, nominal=nominal, rules=applied",
-        "diagnose(recording, nominal=ADULT, rules=applied",
+        "search(nominal=nominal, rules=applied",
+        "search(nominal=ADULT, rules=applied",
     ),
     (
         "the sphere starts without the heart's parameters",
