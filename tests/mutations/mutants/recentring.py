@@ -47,7 +47,7 @@ RECENTRING_MUTANTS = changes(
     ),
     (
         "the judging half is lost on the way",
-        "rules=applied, unseen=unseen), self_test",
-        "rules=applied), self_test",
+        "unseen=unseen, places=places",
+        "places=places",
     ),
 )
