@@ -79,7 +79,7 @@ def searched_by(
     monkeypatch.setattr(diagnosis, "SearchedRecording", stand_in)
     monkeypatch.setattr(diagnosis, "conclude", lambda *_: None)
     diagnose(BOTH, conditions)
-    ((recording, _, _, unseen, _),) = calls
+    ((recording, _, _, unseen, *_),) = calls
     return recording, unseen
 
 
