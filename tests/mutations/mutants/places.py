@@ -10,6 +10,16 @@ VERDICT = "tests/discovery/sphere_model/test_unknown_place.py"
 
 PLACE_MUTANTS = (
     *changes(
+        "heart/sphere/heart.py",
+        "tests/heart/sphere/test_simulation.py",
+        (
+            "a heart keeps the constants of the one before",
+            "sides[rows.NOW :] = earlier.sides[rows.NOW :]",
+            "sides[:] = earlier.sides",
+        ),
+        ("a heart starts from that of another circuit", "earlier.branches == tuple(self.branches) and ", ""),
+    ),
+    *changes(
         "roles/laws.py",
         PLACES,
         ("no flow without a pressure", "return flow + laws[t, k, 5], slope", "return flow, slope"),
