@@ -29,6 +29,7 @@ from heartfit.results.unknown_places import (
     hearts_table,
     names_table,
     places_table,
+    targets_table,
 )
 from heartfit.synthetic.campaign import Kind, PlantedPlan, plantable
 from heartfit.synthetic.case import RAISED, REST, plant
@@ -59,6 +60,7 @@ def main() -> None:
             sys.stdout.write(f"{' | '.join(map(str, hearts_table([one]).iloc[0]))}\n")
             sys.stdout.flush()
             store(searched)
+    store_table("unknown_places_targets", targets_table(places_table(searched)), "benchmarks.unknown_places")
 
 
 def trials() -> list[Trial]:

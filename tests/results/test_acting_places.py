@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from heartfit.discovery.sphere_model.cause import (
@@ -33,6 +34,7 @@ from heartfit.results.unknown_places import (
     hearts_table,
     names_table,
     places_table,
+    targets_table,
 )
 from heartfit.synthetic.campaign import plantable
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
@@ -175,3 +177,32 @@ def test_true_laws_belong_to_effects_that_can_be_planted() -> None:
     names = {*plantable(), *(kind.__name__ for kind in OUT_OF_LIBRARY)}
     assert set(TRUE_LAWS) <= names
     assert len(forms_table()) == len(PLACES)
+
+
+def test_targets_stand_beside_what_was_measured() -> None:
+    share = {"with a place": "11 of 26 (23 to 63 %)", "right region first": "8 of 11 (39 to 94 %)"}
+    rest = dict.fromkeys(
+        ("within 3", "leads and is right", "right law first", "law within 3"), "9 of 10 (0 to 1 %)"
+    )
+    row = {
+        "scales": "3",
+        **share,
+        **rest,
+        "helps with raised legs": "8 of 10 (0 to 1 %)",
+        "held-out pressure": "0.81",
+    }
+    sound = row | {"hearts": SOUND, "scales": "", "with a place": "1 of 40 (0 to 13 %)"}
+    places = pd.DataFrame(
+        [
+            row | {"hearts": REMOVED},
+            row | {"hearts": OUTSIDE},
+            sound,
+            row | {"hearts": "all hidden", "scales": ""},
+        ]
+    )
+    targets = targets_table(places).set_index("quantity")
+    assert targets.loc["sound hearts with a place"].tolist() == ["at most 4 %", "2 % (1 of 40)", "met"]
+    assert targets.loc["right region first"].tolist() == ["at least 80 %", "73 % (8 of 11)", "**missed**"]
+    assert targets.loc["with a place at 3 scales", "measured"] == "42 % (22 of 52)"
+    assert targets.loc["helps with raised legs", "met"] == "met"
+    assert targets.loc["held-out pressure, median ratio", "met"] == "**missed**"

@@ -149,6 +149,53 @@ def _places(group: str, scales: str, trials: Sequence[PlaceTrial]) -> dict[str, 
     }
 
 
+AIMED_AT = {
+    "right region first": 80.0,
+    f"within {LEAD:g}": 92.0,
+    "leads and is right": 93.0,
+    "right law first": 70.0,
+    f"law within {LEAD:g}": 90.0,
+    "helps with raised legs": 80.0,
+}
+"""Least shares [%] of the hidden effects with a place, by column of the table of places."""
+AIMED_DETECTED, AIMED_SOUND, AIMED_PRESSURE = 55.0, 4.0, 0.80
+"""Least share of effects of 3 scales with a place [%], largest share of sound hearts with one [%], and largest median
+ratio of the held-out error of the pressure."""
+
+
+def targets_table(places: pd.DataFrame) -> pd.DataFrame:
+    """Return what was aimed at beside what the table of places holds."""
+    hidden, sound = (
+        places[places["hearts"] == "all hidden"].iloc[0],
+        places[places["hearts"] == SOUND].iloc[0],
+    )
+    three = places[places["scales"].astype(str) == "3"]["with a place"].map(_count)
+    detected = [sum(column) for column in zip(*three, strict=True)]
+    rows = [
+        _target("sound hearts with a place", _count(sound["with a place"]), AIMED_SOUND, least=False),
+        *(_target(name, _count(hidden[name]), share) for name, share in AIMED_AT.items()),
+        _target("with a place at 3 scales", (detected[0], detected[1]), AIMED_DETECTED),
+    ]
+    ratio = float(hidden["held-out pressure"])
+    met = "met" if ratio <= AIMED_PRESSURE else "**missed**"
+    pressure = ("held-out pressure, median ratio", f"at most {AIMED_PRESSURE:.2f}", f"{ratio:.2f}", met)
+    return pd.DataFrame([*rows, pressure], columns=["quantity", "aimed at", "measured", "met"])
+
+
+def _count(share: str) -> tuple[int, int]:
+    """Return the numbers of "12 of 20 (36 to 81 %)"."""
+    count, _, of, *_ = share.split()
+    return int(count), int(of)
+
+
+def _target(name: str, counted: tuple[int, int], aimed: float, least: bool = True) -> tuple[str, ...]:
+    count, of = counted
+    share = 100.0 * count / of
+    met = share >= aimed if least else share <= aimed
+    words = f"{'at least' if least else 'at most'} {aimed:g} %"
+    return name, words, f"{share:.0f} % ({count} of {of})", "met" if met else "**missed**"
+
+
 def _share(count: int, of: int) -> str:
     """Return "12 of 20 (36 to 81 %)" with the exact 95 % interval."""
     if not of:
