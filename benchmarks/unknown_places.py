@@ -6,7 +6,7 @@ docs/measured/unknown_places*.tsv. An hour and a half of two cores.
 """
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 
@@ -53,14 +53,25 @@ class Trial:
 
 def main() -> None:
     """Search all hearts and store the tables."""
+    for searched in searched_in_turn(search, trials()):
+        store(searched)
+        if len(searched) == len(trials()):
+            store_table(
+                "unknown_places_targets", targets_table(places_table(searched)), "benchmarks.unknown_places"
+            )
+
+
+def searched_in_turn(
+    search_one: Callable[[Trial], PlaceTrial], planned: Sequence[Trial]
+) -> Iterator[list[PlaceTrial]]:
+    """Search hearts on all processes; print each, and yield all so far."""
     searched: list[PlaceTrial] = []
     with ProcessPoolExecutor(PROCESSES) as pool:
-        for one in pool.map(search, trials()):
+        for one in pool.map(search_one, planned):
             searched.append(one)
             sys.stdout.write(f"{' | '.join(map(str, hearts_table([one]).iloc[0]))}\n")
             sys.stdout.flush()
-            store(searched)
-    store_table("unknown_places_targets", targets_table(places_table(searched)), "benchmarks.unknown_places")
+            yield searched
 
 
 def trials() -> list[Trial]:

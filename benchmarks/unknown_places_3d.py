@@ -5,11 +5,9 @@ effects from outside the library, mechanisms whose entry is removed from it, and
 one beat of the diagnoser's mesh. Stores docs/measured/unknown_places_3d*.tsv; a quarter of an hour of two cores.
 """
 
-import sys
-from concurrent.futures import ProcessPoolExecutor
 from functools import cache
 
-from benchmarks.unknown_places import PROCESSES, Trial, store_table
+from benchmarks.unknown_places import Trial, searched_in_turn, store_table
 from benchmarks.ventricles import ROOT
 from heartfit.discovery.refit.model import Reference
 from heartfit.discovery.sphere_model.recording import Recording
@@ -33,16 +31,10 @@ LEFT_OUT = (
 
 def main() -> None:
     """Search all hearts and store the tables."""
-    searched: list[PlaceTrial] = []
-    with ProcessPoolExecutor(PROCESSES) as pool:
-        for one in pool.map(search, trials()):
-            searched.append(one)
-            sys.stdout.write(f"{' | '.join(map(str, hearts_table([one]).iloc[0]))}\n")
-            sys.stdout.flush()
-            hearts = hearts_table(searched).drop(columns="library alone")
-            table = places_table(searched).drop(columns="helps with raised legs")
-            store_table("unknown_places_3d", table, MODULE)
-            store_table("unknown_places_3d_hearts", hearts, MODULE)
+    for searched in searched_in_turn(search, trials()):
+        table = places_table(searched).drop(columns="helps with raised legs")
+        store_table("unknown_places_3d", table, MODULE)
+        store_table("unknown_places_3d_hearts", hearts_table(searched).drop(columns="library alone"), MODULE)
 
 
 def trials() -> list[Trial]:
