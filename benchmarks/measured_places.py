@@ -6,12 +6,12 @@ the blood volume and the beat of the central sigma point are read; a minute
 
 import sys
 from dataclasses import replace
-from functools import reduce
-from operator import add
 from pathlib import Path
 
 import numpy as np
 
+from benchmarks.filling_hearts import extended
+from benchmarks.measured_table import store_table
 from benchmarks.ventricles import ROOT
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.context import FitContext
@@ -25,7 +25,6 @@ from heartfit.discovery.sphere_model.searched_recording import VOLUME_ONLY_THRES
 from heartfit.discovery.sphere_model.shown_place import ShownPlace
 from heartfit.io.beats import read_beat
 from heartfit.io.configuration import read_cases, read_study
-from heartfit.io.files import write_text
 from heartfit.io.refits import read_measured_case
 from heartfit.io.tables import write_figure
 from heartfit.mechanisms.left_atrium import LeftAtrium
@@ -53,13 +52,10 @@ def main(arguments: list[str]) -> int:
     volume = replace(recording, curves={"lv_volume": recording.curves["lv_volume"]})
     nominal = centred(case / SETTING / "calibration" / "beats" / "0.json")
     hearts = {
-        name: places_beside(volume, extended(volume, nominal, *heart)) for name, heart in HEARTS.items()
+        name: places_beside(volume, fitted_heart(volume, nominal, *heart)) for name, heart in HEARTS.items()
     }
-    table = residual_table(hearts).to_csv(sep="\t", index=False)
-    write_text(
-        ROOT / "docs" / "measured" / "measured_heart_places.tsv",
-        f"# made by: python -m benchmarks.measured_places results/measured_heart\n{table}",
-    )
+    made_by = "benchmarks.measured_places results/measured_heart"
+    store_table("measured_heart_places", residual_table(hearts), made_by)
     figure = plot_residual_places(hearts, VOLUME_ONLY_THRESHOLD)
     write_figure(ROOT / "docs" / "figures" / "measured_heart_places.png", figure)
     return 0
@@ -78,11 +74,11 @@ def centred(beat_file: Path) -> NominalHeart:
         return fit_nominal_heart(heart, beat, ())
 
 
-def extended(
+def fitted_heart(
     volume: Recording, nominal: NominalHeart, added: tuple[Mechanism, ...], named: tuple[str, ...]
 ) -> NominalHeart:
     """Return the heart with mechanisms, the named ones of the size that fits the volume best."""
-    heart = replace(nominal, heart=reduce(add, added, nominal.heart))
+    heart = extended(nominal, added)
     if not named:
         return heart
     problem = SphereProblem.from_recording(volume, heart)
@@ -93,8 +89,7 @@ def extended(
     if explained is None:
         raise InputError(f"the heart with {named} does not beat")
     sizes = np.split(explained.fit.x[BASE:], np.cumsum([len(one.unknowns) for one in chosen])[:-1])
-    fitted = [one.at(x) for one, x in zip(chosen, sizes, strict=True)]
-    return replace(heart, heart=reduce(add, fitted, heart.heart))
+    return extended(heart, [one.at(x) for one, x in zip(chosen, sizes, strict=True)])
 
 
 def places_beside(volume: Recording, nominal: NominalHeart) -> ResidualPlaces:

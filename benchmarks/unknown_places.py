@@ -10,14 +10,11 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 
-import pandas as pd
-
-from benchmarks.ventricles import ROOT
+from benchmarks.measured_table import store_table
 from heartfit.discovery.sphere_model.diagnose import conclude
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 from heartfit.discovery.sphere_model.unknown_place import locate
-from heartfit.io.files import write_text
 from heartfit.places import PLACES, regions_of
 from heartfit.results.unknown_places import (
     COMPLETE,
@@ -135,12 +132,6 @@ def store(searched: Sequence[PlaceTrial]) -> None:
         "unknown_places_hearts": hearts_table(searched),
     }.items():
         store_table(name, table, "benchmarks.unknown_places")
-
-
-def store_table(name: str, table: pd.DataFrame, module: str) -> None:
-    """Write a measured table that a module has made."""
-    text = table.to_csv(sep="\t", index=False)
-    write_text(ROOT / "docs" / "measured" / f"{name}.tsv", f"# made by: python -m {module}\n{text}")
 
 
 if __name__ == "__main__":

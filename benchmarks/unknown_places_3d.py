@@ -7,7 +7,8 @@ one beat of the diagnoser's mesh. Stores docs/measured/unknown_places_3d*.tsv; a
 
 from functools import cache
 
-from benchmarks.unknown_places import Trial, searched_in_turn, store_table
+from benchmarks.measured_table import store_table
+from benchmarks.unknown_places import Trial, searched_in_turn
 from benchmarks.ventricles import ROOT
 from heartfit.discovery.refit.model import Reference
 from heartfit.discovery.sphere_model.recording import Recording

@@ -11,8 +11,9 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 
+from benchmarks.measured_table import store_table
 from benchmarks.other_worlds.score import healthy_hearts, searched_alone, simulators
-from benchmarks.unknown_places import PROCESSES, store_table
+from benchmarks.unknown_places import PROCESSES
 from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure

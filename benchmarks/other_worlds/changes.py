@@ -8,7 +8,7 @@ other_worlds_change_hearts.tsv. Twenty-five minutes of two cores.
 from collections.abc import Iterator
 from pathlib import Path
 
-from benchmarks.other_worlds.score import judged_in_turn, simulators, store_table
+from benchmarks.other_worlds.score import judged_in_turn, simulators, store_of_worlds
 from heartfit.discovery.sphere_model.diagnose import diagnose_change
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.io.other_worlds import read_other_hearts
@@ -22,8 +22,8 @@ Pair = tuple[OtherHeart, OtherHeart]
 def main() -> None:
     """Search the pairs of all simulators and store the tables."""
     for judged in judged_in_turn(searched, map(pairs, simulators())):
-        store_table("changes", changes_table(judged), "changes")
-        store_table("change_hearts", hearts_table(judged), "changes")
+        store_of_worlds("changes", changes_table(judged), "changes")
+        store_of_worlds("change_hearts", hearts_table(judged), "changes")
 
 
 def pairs(path: Path) -> Iterator[Pair]:

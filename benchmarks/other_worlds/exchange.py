@@ -7,7 +7,7 @@ nothing else uses. Stores docs/measured/other_worlds_exchange.tsv. Half an hour 
 import sys
 from concurrent.futures import ProcessPoolExecutor
 
-from benchmarks.other_worlds.score import PROCESSES, store_table
+from benchmarks.other_worlds.score import PROCESSES, store_of_worlds
 from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure
@@ -34,7 +34,7 @@ def main() -> None:
     ]
     with ProcessPoolExecutor(PROCESSES) as pool:
         exchanged = list(pool.map(searched, plans))
-    store_table("exchange", exchange_table(exchanged), "exchange")
+    store_of_worlds("exchange", exchange_table(exchanged), "exchange")
 
 
 def searched(plan: PlantedPlan) -> Exchanged:

@@ -6,7 +6,7 @@ docs/measured/other_worlds_functions.tsv. Four minutes of two cores.
 
 from concurrent.futures import ProcessPoolExecutor
 
-from benchmarks.other_worlds.score import HEALTHY, PROCESSES, healthy_hearts, simulators, store_table
+from benchmarks.other_worlds.score import HEALTHY, PROCESSES, healthy_hearts, simulators, store_of_worlds
 from heartfit.discovery.sphere_model.earlier import EarlierHeart
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.results.other_worlds import functions_table
@@ -17,7 +17,7 @@ def main() -> None:
     """Fit all hearts and store the table."""
     with ProcessPoolExecutor(PROCESSES) as pool:
         misfits = {path.stem: list(pool.map(fitted, healthy_hearts(path)[:HEALTHY])) for path in simulators()}
-    store_table("functions", functions_table(misfits), "fits")
+    store_of_worlds("functions", functions_table(misfits), "fits")
 
 
 def fitted(heart: OtherHeart) -> dict[str, float]:

@@ -16,7 +16,7 @@ from benchmarks.other_worlds.score import (
     searched,
     searched_alone,
     simulators,
-    store_table,
+    store_of_worlds,
 )
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure, learn_from_controls
@@ -29,7 +29,7 @@ CONTROLS = 8
 def main() -> None:
     """Search the hearts of all simulators and store the table."""
     for judged in judged_in_turn(searched, map(tasks_within_controls, simulators())):
-        store_table("reference", outcomes_table(judged), "reference")
+        store_of_worlds("reference", outcomes_table(judged), "reference")
 
 
 def tasks_within_controls(path: Path) -> Iterator[Task]:

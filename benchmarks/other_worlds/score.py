@@ -13,10 +13,10 @@ from typing import TypeVar
 
 import pandas as pd
 
+from benchmarks.measured_table import store_table
 from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure
-from heartfit.io.files import write_text
 from heartfit.io.other_worlds import read_other_hearts
 from heartfit.io.structure import read_residuals
 from heartfit.results.other_worlds import (
@@ -31,7 +31,7 @@ from heartfit.synthetic.other_worlds import OtherHeart, measure
 
 PROCESSES = 2
 ROOT = Path(__file__).resolve().parents[2]
-BANK, MEASURED = ROOT / "resources" / "other_worlds", ROOT / "docs" / "measured"
+BANK = ROOT / "resources" / "other_worlds"
 HEALTHY = 4
 Task = tuple[OtherHeart, Structure]
 T = TypeVar("T")
@@ -71,16 +71,12 @@ def store(judged: list[Judged]) -> None:
         "priors": priors_table(),
     }
     for name, table in tables.items():
-        store_table(name, table, "score")
+        store_of_worlds(name, table, "score")
 
 
-def store_table(name: str, table: pd.DataFrame, module: str) -> None:
+def store_of_worlds(name: str, table: pd.DataFrame, module: str) -> None:
     """Write docs/measured/other_worlds_NAME.tsv, made by a module of this package."""
-    text = table.to_csv(sep="\t", index=False)
-    write_text(
-        MEASURED / f"other_worlds_{name}.tsv",
-        f"# made by: python -m benchmarks.other_worlds.{module}\n{text}",
-    )
+    store_table(f"other_worlds_{name}", table, f"benchmarks.other_worlds.{module}")
 
 
 def tasks(path: Path) -> Iterator[Task]:

@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.cause import PlaceFunction
+from heartfit.results.acting_figure import plot_with_band
 from heartfit.results.acting_places import acts
-from heartfit.results.figures import CALIBRATED, MEASURED, REFERENCE, clean
-from heartfit.results.text import AMPLITUDE_UNITS
+from heartfit.results.figures import MEASURED
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,16 +40,6 @@ def plot_recovered(functions: Mapping[str, Recovered]) -> Figure:
 
 
 def _plot_one(axes: Axes, name: str, one: Recovered) -> None:
-    function = one.function
-    unit, factor = AMPLITUDE_UNITS[function.unit]
-    mean, reach = factor * function.mean, 2.0 * factor * function.sd
-    axes.axhline(0.0, color="black", linewidth=0.6)
-    axes.fill_between(function.times, mean - reach, mean + reach, color=REFERENCE, alpha=0.35, linewidth=0)
-    axes.plot(function.times, mean, color=CALIBRATED, linewidth=1.6, label="recovered, 95 % band")
-    axes.plot(function.times, factor * one.hidden, "--", color=MEASURED, linewidth=1.4, label="hidden")
-    axes.set_title(
-        f"{name}: acts\n{acts(function.region)}, r = {one.correlation():.2f}", fontsize=9, fontweight="bold"
-    )
-    axes.set_xlabel("time after trigger (s)")
-    axes.set_ylabel(f"({unit})")
-    clean(axes)
+    plot_with_band(axes, one.function, one.hidden, "hidden", MEASURED)
+    region, r = acts(one.function.region), one.correlation()
+    axes.set_title(f"{name}: acts\n{region}, r = {r:.2f}", fontsize=9, fontweight="bold")

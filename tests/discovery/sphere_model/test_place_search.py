@@ -123,7 +123,9 @@ def test_a_place_is_fitted_anew_to_other_samples(leaking) -> None:  # type: igno
     _, unseen = Recording.from_curves(plant(LEAKING).curves[REST]).halves()
     assert unseen is not None
     problem = SphereProblem.from_recording(unseen)
-    other = PlaceSearch(FitContext(problem.data), problem.model, problem.fit()).refitted(best)
+    other = PlaceSearch(FitContext(problem.data), problem.model, problem.fit()).fitted_from(
+        best.kind, best.explanation.fit.x
+    )
     assert other is not None
     assert other.explanation.fit.predicted.size == problem.data.values.size
     first, second = (

@@ -122,7 +122,7 @@ def located(
 
     search = SimpleNamespace(
         run=lambda _: RankedPlaces(cast("Explanation", SimpleNamespace(log_evidence=0.0)), fitted),
-        refitted=lambda one: place(one.kind, half[one.kind]) if one.kind in half else None,
+        fitted_from=lambda kind, _: place(kind, half[kind]) if kind in half else None,
     )
     monkeypatch.setattr(module, "PlaceSearch", lambda *_: search)
     monkeypatch.setattr(module, "FitContext", lambda _: None)

@@ -10,16 +10,6 @@ VERDICT = "tests/discovery/sphere_model/test_unknown_place.py"
 
 PLACE_MUTANTS = (
     *changes(
-        "heart/sphere/heart.py",
-        "tests/heart/sphere/test_simulation.py",
-        (
-            "a heart keeps the constants of the one before",
-            "sides[rows.NOW :] = earlier.sides[rows.NOW :]",
-            "sides[:] = earlier.sides",
-        ),
-        ("a heart starts from that of another circuit", "earlier.branches == tuple(self.branches) and ", ""),
-    ),
-    *changes(
         "roles/laws.py",
         PLACES,
         ("no flow without a pressure", "return flow + laws[t, k, 5], slope", "return flow, slope"),
@@ -62,10 +52,6 @@ PLACE_MUTANTS = (
             "evidences",
         ),
         ("the linear model stands at the fit", "np.zeros(fit.x.size - BASE)", "fit.x[BASE:]"),
-    ),
-    *changes(
-        "discovery/sphere_model/place_search.py",
-        SEARCH,
         (
             "places stand beside a fit that stopped early",
             "return RankedPlaces(baseline, _ranked(place.beside(gain) for place in places))",

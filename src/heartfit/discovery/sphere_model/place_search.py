@@ -121,24 +121,17 @@ class PlaceSearch:
         """Period of the beat [s]."""
         return self.model.nominal.heart.period
 
-    def refitted(self, place: FittedPlace) -> FittedPlace | None:
-        """Return a place that was fitted to other samples, fitted to these; None where its simulations fail."""
-        hypothesis, start = place_hypothesis(self.model, place.kind), place.explanation.fit.x
-        explained = self.context.explain(hypothesis, start, limit=FIT_LIMIT)
-        return None if explained is None else self._judged(place.kind, explained)
+    def fitted_from(self, kind: type[Place], x: Floats) -> FittedPlace | None:
+        """Return a place fitted from the coordinates x; None where its simulations fail."""
+        explained = self.context.explain(place_hypothesis(self.model, kind), x, limit=FIT_LIMIT)
+        return None if explained is None else self._judged(kind, explained)
 
-    def fitted_beside(self, kind: type[Place], other: FittedPlace, z: Floats | None = None) -> FittedPlace:
-        """Return a place fitted from the parameters of another one; its linear model where its simulations fail.
-
-        z: coefficients (size,) of its function to start from, those of the linear model if None.
-        """
+    def fitted_beside(self, kind: type[Place], other: FittedPlace) -> FittedPlace:
+        """Return a place fitted from the parameters of another one; its linear model where its simulations fail."""
         screened = self._screened(kind)
         if screened is None:
             raise ValueError(f"{kind.__name__} acts on no recorded curve")
-        if z is None:
-            return self._from_best(self._fitted(screened), other)
-        explained = self._fit(screened, np.concatenate([other.explanation.fit.x[:BASE], z]), None)
-        return screened if explained is None else self._judged(kind, explained)
+        return self._from_best(self._fitted(screened), other)
 
     def _screened(self, kind: type[Place]) -> FittedPlace | None:
         """Return the linear model of a place about the fit without one."""
@@ -197,7 +190,7 @@ class PlaceSearch:
         explained = _better(again, other)
         return place if explained is None else self._judged(place.kind, explained)
 
-    def _fit(self, place: FittedPlace, start: Floats, slopes: Floats | None) -> Explanation | None:
+    def _fit(self, place: FittedPlace, start: Floats, slopes: Floats) -> Explanation | None:
         hypothesis = place.explanation.fit.hypothesis
         return self.context.explain(hypothesis, start, slopes, limit=FIT_LIMIT)
 

@@ -40,8 +40,7 @@ class ShownPlace:
     def from_search(cls, search: PlaceSearch, place: FittedPlace) -> "ShownPlace":
         """Fit the function of time of the place's region, and rank the laws that it may follow."""
         kind = TIME_FORMS[place.region]
-        coefficients = _coefficients(search, place, kind)
-        fitted = place if place.kind is kind else search.fitted_beside(kind, place, coefficients)
+        fitted = place if place.kind is kind else _function_of_time(search, place, kind)
         posterior, period = fitted.explanation.posterior, search.period
         heart, state = _simulated(search, fitted, kind)
         function = FunctionPosterior(kind, posterior.mean[BASE:], posterior.covariance[BASE:, BASE:], period)
@@ -100,6 +99,14 @@ class ShownPlace:
             )
             for first, last, peak in spans
         )
+
+
+def _function_of_time(search: PlaceSearch, place: FittedPlace, kind: type[FunctionOfTime]) -> FittedPlace:
+    """Return the function of time fitted beside a place, from what the laws of the place make where it has some."""
+    z, fitted = _coefficients(search, place, kind), None
+    if z is not None:
+        fitted = search.fitted_from(kind, np.concatenate([place.explanation.fit.x[:BASE], z]))
+    return fitted or search.fitted_beside(kind, place)
 
 
 def _coefficients(search: PlaceSearch, place: FittedPlace, kind: type[FunctionOfTime]) -> Floats | None:

@@ -48,8 +48,7 @@ def locate(
     ranked = search.run(kinds)
     competition = _Competition(case, conditions, ranked)
     located = _concluded(diagnosis, search, competition, competition.detected(diagnosis))
-    beats = case.model.simulations + case.whole.model.simulations
-    return replace(located, simulations=max(beats, diagnosis.simulations))
+    return replace(located, simulations=case.model.simulations + case.whole.model.simulations)
 
 
 def _concluded(
@@ -128,7 +127,8 @@ class _Competition:
         """Return the curves and gains of the place that the searched half prefers; None where it does not help."""
         case = self.case
         half = PlaceSearch(FitContext(case.data), case.model, case.findings.survey.baseline)
-        refits = [refit for refit in map(half.refitted, detected) if refit is not None]
+        fits = (half.fitted_from(place.kind, place.explanation.fit.x) for place in detected)
+        refits = [fit for fit in fits if fit is not None]
         if not refits:
             return None
         choice = max(refits, key=lambda place: place.ln_bayes_factor)
