@@ -22,6 +22,8 @@ UNEQUAL = ("logs", "benchmarks", ".sums")
 AGAIN, PROGRESS = "Trying to restart job", re.compile(r"steps \((\d+)%\) done")
 KILLED_AT, LOST_AT = 10, 50
 """% of the study that are done when a job is killed and when the node is lost."""
+GOING = ("RUNNING", "COMPLETING")
+"""States of a job that has not ended."""
 LONG = 3600.0
 """s within which a study must have got to the next job."""
 
@@ -118,14 +120,8 @@ def lab(cpus: int) -> Iterator[Lab]:
 def trial(slurm: Lab, arguments: list[str]) -> None:
     """Run the study, kill a job, cut the node's power, and see it through; raises LabError if it does not recover."""
     begin, study = time.monotonic(), Study(arguments)
-    killed = running(slurm, study, KILLED_AT)
-    slurm.kill_job(killed)
-    say(f"killed all processes of job {killed}")
-    await_that(lambda: slurm.states()[killed] != "RUNNING", f"the end of job {killed}")
-    lost = running(slurm, study, LOST_AT)
-    slurm.lose_node()
-    say(f"node lost with job {lost}; SLURM says {slurm.states()[lost]}")
-    slurm.start_node()
+    killed = kill_one(slurm, study)
+    lost = lose_some(slurm, study)
     code, states = study.code(), slurm.states()
     whole = sum(state == "COMPLETED" for state in states.values())
     minutes = (time.monotonic() - begin) / 60.0
@@ -134,6 +130,30 @@ def trial(slurm: Lab, arguments: list[str]) -> None:
     require(states[lost] == "NODE_FAIL", f"job {lost} was lost and ended as {states[lost]}")
     require(study.restarts() >= 2, f"{study.restarts()} jobs were tried again; expected both that were lost")
     require(code == 0, f"the study is not complete: Snakemake ended with {code}")
+
+
+def kill_one(slurm: Lab, study: Study) -> int:
+    """Kill a running job and return its number; another one if it has completed before the signal reached it."""
+    while True:
+        killed = running(slurm, study, KILLED_AT)[0]
+        slurm.kill_job(killed)
+        await_that(lambda job=killed: slurm.states()[job] not in GOING, f"the end of job {killed}")
+        say(f"killed all processes of job {killed}; SLURM says {slurm.states()[killed]}")
+        if slurm.states()[killed] != "COMPLETED":
+            return killed
+
+
+def lose_some(slurm: Lab, study: Study) -> int:
+    """Cut the node's power and start it again; return a lost job, after another cut if all had completed before."""
+    while True:
+        ran = running(slurm, study, LOST_AT)
+        slurm.lose_node()
+        ended = {job: slurm.states()[job] for job in ran}
+        say(f"node lost; SLURM says {', '.join(f'job {job} {state}' for job, state in ended.items())}")
+        slurm.start_node()
+        lost = [job for job, state in ended.items() if state != "COMPLETED"]
+        if lost:
+            return lost[0]
 
 
 def require(holds: bool, otherwise: str) -> None:
@@ -148,8 +168,8 @@ def say(line: str) -> None:
     sys.stdout.flush()
 
 
-def running(slurm: Lab, study: Study, share: int) -> int:
-    """The number of a job whose step has begun once so much is done; raises LabError if the study ends before that."""
+def running(slurm: Lab, study: Study, share: int) -> list[int]:
+    """Numbers of the jobs whose step has begun once so much is done; raises LabError if the study ends before that."""
     begun: list[int] = []
 
     def some() -> bool:
@@ -158,4 +178,4 @@ def running(slurm: Lab, study: Study, share: int) -> int:
 
     await_that(some, "a job that runs", LONG)
     require(not study.ended(), "the study ended before all of it was tried: is there anything left to do?")
-    return begun[0]
+    return begun

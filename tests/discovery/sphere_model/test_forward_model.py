@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
+from heartfit.discovery.inference.hypothesis import CountedHypothesis
+from heartfit.discovery.sphere_model import forward_model
+from heartfit.discovery.sphere_model.forward_model import NUMERICS, SphereForwardModel, hypothesis
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
 from heartfit.discovery.sphere_model.recording import Recording, Samples
 from heartfit.mechanisms.catheter_offset import CatheterOffset
@@ -54,6 +56,20 @@ def test_the_trigger_moves_the_recording_and_not_the_heart():
     ).predict(CENTRE, ())
     assert model.predict(late, ()) == pytest.approx(shifted, rel=1e-9)
     assert model.simulations == 1
+
+
+def test_slopes_are_those_of_the_limit_cycle_to_a_hundredth_of_the_noise(monkeypatch):
+    noise = np.repeat([1e-6, 133.0], [26, 86])
+    x = 0.7 * np.random.default_rng(3).standard_normal(len(FREE_PARAMETERS))
+
+    def slopes():
+        counted = CountedHypothesis(hypothesis(SphereForwardModel(ADULT, TIMES)))
+        counted(CENTRE)  # a search has simulated another heart before
+        return counted.jacobian(x, counted(x))
+
+    searched = slopes()
+    monkeypatch.setattr(forward_model, "NUMERICS", replace(NUMERICS, drift=1e-9, max_beats=80))
+    assert np.abs((searched - slopes()) / noise[:, None]).max() < 0.01
 
 
 def test_every_free_parameter_acts_on_a_nominal_heart_without_length_dependence():

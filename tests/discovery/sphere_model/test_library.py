@@ -15,11 +15,6 @@ FRAMES = np.arange(26) / 30
 BOTH = SphereForwardModel(ADULT, {"lv_volume": FRAMES, "lv_pressure": FRAMES})
 
 
-def relaxed() -> SphereForwardModel:
-    """A model whose first beat starts from relaxed ventricles."""
-    return SphereForwardModel(ADULT, BOTH.times)
-
-
 def test_every_observable_mechanism_that_the_heart_lacks_is_a_candidate():
     no_candidates = {"AtrialKick", "LeftAtrium", "RightAtrium"}
     no_candidates |= {"AorticDynamics", "TricuspidDynamics", "PulmonaryDynamics"}
@@ -29,11 +24,11 @@ def test_every_observable_mechanism_that_the_heart_lacks_is_a_candidate():
 
 
 def test_every_hypothesis_begins_with_the_same_coordinates_and_none_is_in_it():
-    none = hypothesis(relaxed())
+    none = hypothesis(BOTH)
     assert none.coordinates == BASE_COORDINATES
     without = none.forward(none.at(0.0))
     for candidate in candidates(BOTH).values():
-        single = hypothesis(relaxed(), (candidate,))
+        single = hypothesis(BOTH, (candidate,))
         assert single.coordinates[: len(BASE_COORDINATES)] == BASE_COORDINATES
         assert single.amplitudes.sum() == 1
         assert np.array_equal(single.forward(single.at(0.0)), without), candidate.name

@@ -1,6 +1,5 @@
 """The compiled beat of spheres equals the beat of the coupled path step by step, including its failures."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,11 +16,9 @@ from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.sphere import simulation
 from heartfit.heart.sphere.beat import SphereTissue, State, StepInputs, advance
-from heartfit.heart.sphere.body import HEALTHY_ACTIVATION, Sphere, SphericalBody
-from heartfit.heart.sphere.heart import EndOfBeat, Inertia
+from heartfit.heart.sphere.body import Sphere, SphericalBody
 from heartfit.heart.sphere.rows import UNBALANCED
-from heartfit.heart.sphere.simulation import FAILURE_REASONS, continue_spheres, simulate_spheres
-from heartfit.mechanisms.aortic_regurgitation import AorticRegurgitation
+from heartfit.heart.sphere.simulation import FAILURE_REASONS, simulate_spheres
 from heartfit.mechanisms.aortic_stenosis import AorticStenosis
 from heartfit.mechanisms.arterial_reflection import ArterialReflection
 from heartfit.mechanisms.atrial_surge import AtrialSurge
@@ -117,49 +114,6 @@ def test_a_function_at_every_place_acts_alike_on_both_paths(
     assert max(departures(compiled, coupled).values()) < 2e-6, "the law of the wall is tabulated"
     plain = simulate_spheres(spherical_heart, [LEFT, RIGHT], numerics)
     assert np.ptp(compiled.volume["lv"] - plain.volume["lv"]) > 1e-6
-
-
-def after(
-    earlier: EndOfBeat | None, heart: Heart, spheres: Sequence[Sphere], numerics: Numerics
-) -> tuple[Beat, EndOfBeat | None]:
-    return continue_spheres(earlier, heart, spheres, numerics, HEALTHY_ACTIVATION, Inertia())
-
-
-@pytest.mark.parametrize("factor", [1.005, 1.1])
-def test_a_beat_from_the_end_of_a_similar_one_has_the_same_limit_cycle_in_fewer_beats(
-    spherical_heart: Heart, factor: float
-) -> None:
-    """Muscle, artery, atrium and size differ; all constants are those of the new heart."""
-    numerics = Numerics(time_step=5e-3, max_beats=30, drift=1e-6)
-    _, end = after(None, spherical_heart, [LEFT], numerics)
-    values, changed = spherical_heart.parameters(), ("sigma_0", "R_p", "circulation.left_atrium", "mu")
-    paths = map(spherical_heart.parameter_path, changed)
-    other = spherical_heart.with_parameters({path: factor * values[path] for path in paths})
-    larger = [Sphere.from_volumes(80e-6 * factor, 130e-6 * factor)]
-    relaxed, _ = after(None, other, larger, numerics)
-    resumed, _ = after(end, other, larger, numerics)
-    assert max(departures(resumed, relaxed).values()) < 2e-5
-    assert resumed.diagnostics["beats"] <= relaxed.diagnostics["beats"] - (factor < 1.01)
-
-
-def test_a_beat_starts_relaxed_where_the_earlier_heart_has_other_unknowns_or_leads_nowhere(
-    spherical_heart: Heart,
-) -> None:
-    numerics = Numerics(time_step=5e-3, max_beats=3)
-    _, end = after(None, spherical_heart, [LEFT], numerics)
-    assert end is not None
-    leaking = spherical_heart + AorticRegurgitation()
-    for heart, spheres in (
-        (leaking, [LEFT]),
-        (spherical_heart, [LEFT, RIGHT]),
-        (Heart() + LeftAtrium(), [LEFT]),
-    ):
-        relaxed, resumed = (after(earlier, heart, spheres, numerics)[0] for earlier in (None, end))
-        for name, values in relaxed.signals().items():
-            np.testing.assert_array_equal(resumed.signals()[name], values)
-    lost = replace(end, state=end.state._replace(sides=end.state.sides * np.nan))
-    beat, _ = after(lost, spherical_heart, [LEFT], numerics)
-    assert beat.completed, "an earlier state that leads nowhere is left"
 
 
 @BOTH

@@ -15,16 +15,6 @@ SPHERE_MUTANTS = (
         ("wall does not thin", "slope *= 1.0 + 2.0 * ratio * stretch**-3", "slope *= 1.0"),
     ),
     *changes(
-        "heart/sphere/heart.py",
-        COMPILED,
-        (
-            "a heart keeps the constants of the one before",
-            "sides[rows.NOW :] = earlier.sides[rows.NOW :]",
-            "sides[:] = earlier.sides",
-        ),
-        ("a heart starts from that of another circuit", "earlier.branches == tuple(self.branches) and ", ""),
-    ),
-    *changes(
         "heart/sphere/beat.py",
         f"{CIRCULATION}/test_enclosure.py",
         ("nothing presses on spheres", "p[v] += pressure", "p[v] += 0.0 * pressure"),

@@ -21,7 +21,6 @@ from heartfit.discovery.sphere_model.nominal_heart import (
 from heartfit.heart.beat import Beat
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics
-from heartfit.heart.sphere.heart import EndOfBeat
 from heartfit.roles import Mechanism, Sensor, registered
 
 NUMERICS = Numerics(time_step=5e-3, max_beats=30, drift=1e-5)
@@ -36,15 +35,13 @@ CACHED_BEATS = 256
 class SphereForwardModel:
     """Predictions of curves at their ``times`` [s after the trigger], by name.
 
-    simulations: number of beats that were run; an instrument costs none. A beat starts from the end of the one before,
-    whose heart is similar: it needs half as many cycles.
+    simulations: number of beats that were run; an instrument costs none.
     """
 
     nominal: NominalHeart
     times: Mapping[str, Floats]
     simulations: int = 0
     _beats: "OrderedDict[bytes, Beat]" = field(default_factory=OrderedDict)
-    _end: EndOfBeat | None = None
 
     @classmethod
     def at_samples(cls, nominal: NominalHeart, blocks: Iterable[Block]) -> "SphereForwardModel":
@@ -75,8 +72,7 @@ class SphereForwardModel:
         beat = self._beats.pop(key, None)
         if beat is None:
             self.simulations += 1
-            beat, end = nominal.beat_after(self._end, NUMERICS)
-            self._end = end or self._end
+            beat = nominal.beat(NUMERICS)
         self._beats[key] = beat
         if len(self._beats) > CACHED_BEATS:
             self._beats.popitem(last=False)

@@ -22,8 +22,8 @@ from heartfit.heart.beat import Beat
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics
 from heartfit.heart.sphere.body import HEALTHY_ACTIVATION, Sphere
-from heartfit.heart.sphere.heart import EndOfBeat, Inertia
-from heartfit.heart.sphere.simulation import continue_spheres
+from heartfit.heart.sphere.heart import Inertia
+from heartfit.heart.sphere.simulation import simulate_spheres
 
 INVERSE_TO_SIZE = (
     "circulation.systemic.R_p",
@@ -68,13 +68,10 @@ class NominalHeart:
 
     def beat(self, numerics: Numerics) -> Beat:
         """Simulate the beat of the sphere."""
-        return self.beat_after(None, numerics)[0]
-
-    def beat_after(self, earlier: EndOfBeat | None, numerics: Numerics) -> tuple[Beat, EndOfBeat | None]:
-        """Simulate the beat from the end of that of a similar heart, and return its end; None if it fails."""
         sphere = Sphere.from_volumes(self.cavity, self.wall)
-        activation = self.spread * HEALTHY_ACTIVATION
-        return continue_spheres(earlier, self.heart, [sphere], numerics, activation, self.inertia)
+        return simulate_spheres(
+            self.heart, [sphere], numerics, self.spread * HEALTHY_ACTIVATION, self.inertia
+        )
 
     def scaled_to(self, recording: Recording) -> "NominalHeart":
         """Scale the heart to the size and rate of a recorded one.

@@ -42,14 +42,6 @@ class Inertia:
     arteries: float = 0.0
 
 
-@dataclass(frozen=True, eq=False)
-class EndOfBeat:
-    """State at the end of a beat, and the names of the branches."""
-
-    state: State
-    branches: tuple[str, ...]
-
-
 class SphericalHeart:
     """Left ventricle, or both, of ``heart`` as spheres, with the activation times (k,) [s] of the fibre classes."""
 
@@ -114,28 +106,11 @@ class SphericalHeart:
         net_outflow(self._network.ends, laws, moving, atria, 0, p, np.empty((1, len(p))), work)
         return np.where(self._leaflets.any(axis=1), inert, moving[FLOW])
 
-    def start(self, earlier: "EndOfBeat | None" = None) -> State:
-        """State of relaxed ventricles, filled at the resting atrial pressures; raises StepFailed if there is none.
-
-        earlier: the end of a beat of a similar heart, which takes the place of that state where it fits.
-        """
-        if earlier is not None and self._fits(earlier):
-            return self._resumed(earlier.state)
+    def start(self) -> State:
+        """State of relaxed ventricles, filled at the resting atrial pressures; raises StepFailed if there is none."""
         pressures = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
-        sides, windkessels = self._constant_sides(), self.heart.circulation.start(self.heart.period)
-        for v, windkessel in enumerate(windkessels[: len(self.spheres)]):
-            memory = np.zeros(rows.REMEMBERED)
-            memory[rows.STRETCH] = self._filling_stretch(v, pressures[v])
-            memory[[rows.ARTERY, rows.P_C]] = windkessel.P_c
-            for row in (rows.NOW, rows.BEFORE, rows.OLDER):
-                sides[row : row + rows.REMEMBERED, v] = memory
-        sides[rows.P] = pressures[: len(self.spheres)]
-        fibres, branches = self._relaxed_fibres(sides[rows.NOW + rows.STRETCH]), self._resting_branches()
-        return State(sides, fibres, branches, np.zeros(2), *self._filled_atria(sides, pressures))
-
-    def _constant_sides(self) -> Floats:
-        """Table of the sides with the constants of spheres and arteries alone."""
         sides = np.zeros((rows.SIDE_ROWS, len(self.spheres)))
+        windkessels = self.heart.circulation.start(self.heart.period)
         filling = sides_filling_veins(self.atria)
         for v, (sphere, tree) in enumerate(zip(self.spheres, self.trees, strict=True)):
             sides[[rows.RADIUS, rows.RATIO, rows.WALL], v] = (
@@ -147,21 +122,14 @@ class SphericalHeart:
                 replace(tree, P_ve=0.0).constants() if v in filling else tree.constants(),
                 self.inertia.arteries,
             )
-        return sides
-
-    def _fits(self, earlier: "EndOfBeat") -> bool:
-        """True if an earlier state has the unknowns of this heart, and no atrium has a volume."""
-        fibres = earlier.state.fibres.shape[1] == len(self._activation)
-        return earlier.branches == tuple(self.branches) and fibres and self.atria is None
-
-    def _resumed(self, earlier: State) -> State:
-        """An earlier state with the constants of this heart."""
-        sides, fibres, branches = self._constant_sides(), earlier.fibres.copy(), self._resting_branches()
-        sides[rows.NOW :] = earlier.sides[rows.NOW :]
-        fibres[rows.KEPT] = self._bridges
-        states = slice(rows.FLOW, rows.STEP_STATES)
-        branches[states] = earlier.branches[states]
-        return State(sides, fibres, branches, earlier.last.copy(), None, None)
+            memory = np.zeros(rows.REMEMBERED)
+            memory[rows.STRETCH] = self._filling_stretch(v, pressures[v])
+            memory[[rows.ARTERY, rows.P_C]] = windkessels[v].P_c
+            for row in (rows.NOW, rows.BEFORE, rows.OLDER):
+                sides[row : row + rows.REMEMBERED, v] = memory
+        sides[rows.P] = pressures[: len(self.spheres)]
+        fibres, branches = self._relaxed_fibres(sides[rows.NOW + rows.STRETCH]), self._resting_branches()
+        return State(sides, fibres, branches, np.zeros(2), *self._filled_atria(sides, pressures))
 
     def _filled_atria(self, sides: Floats, pressures: Floats) -> tuple[Floats | None, Floats | None]:
         """Table of the relaxed atria, and their volumes and veins now and one step before."""

@@ -16,7 +16,7 @@ from heartfit.heart.simulation import Numerics, Recurrence
 from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.beat import State, StepInputs, advance
 from heartfit.heart.sphere.body import HEALTHY_ACTIVATION, Sphere
-from heartfit.heart.sphere.heart import EndOfBeat, Inertia, SphericalHeart
+from heartfit.heart.sphere.heart import Inertia, SphericalHeart
 from heartfit.roles import COMPARTMENTS
 
 FAILURE_REASONS = (
@@ -46,32 +46,14 @@ def simulate_spheres(
     the activation times of the fibre classes of a sphere [s]. The tolerances of ``numerics`` are not used: a step is
     solved to 1e-5 mL and 0.01 Pa.
     """
-    return continue_spheres(None, heart, spheres, numerics or Numerics(), activation, inertia or Inertia())[0]
-
-
-def continue_spheres(
-    earlier: EndOfBeat | None,
-    heart: Heart,
-    spheres: Sequence[Sphere],
-    numerics: Numerics,
-    activation: Floats,
-    inertia: Inertia,
-) -> tuple[Beat, EndOfBeat | None]:
-    """Beat as :func:`simulate_spheres` does from the end of an ``earlier`` one of a similar heart, and its end.
-
-    Where that heart has other unknowns, or its state is no start for this one, the ventricles start relaxed. A failed
-    beat has no end.
-    """
-    run = _SphereRun(SphericalHeart(heart, spheres, activation, inertia, numerics.second_order), numerics)
+    numerics = numerics or Numerics()
+    run = _SphereRun(
+        SphericalHeart(heart, spheres, activation, inertia or Inertia(), numerics.second_order), numerics
+    )
     try:
-        return run.to_limit_cycle(earlier)
+        return run.to_limit_cycle()
     except StepFailed as failure:
-        if earlier is not None:
-            return continue_spheres(None, heart, spheres, numerics, activation, inertia)
-        failed = failed_beat(
-            f"beat {run.beats + 1}: {failure}", heart.period, heart.trigger, run.diagnostics()
-        )
-        return failed, None
+        return failed_beat(f"beat {run.beats + 1}: {failure}", heart.period, heart.trigger, run.diagnostics())
 
 
 class _SphereRun:
@@ -82,8 +64,8 @@ class _SphereRun:
         self.beats = self.cuts = self.iterations = self.outcome = 0
         self.drift = np.inf
 
-    def to_limit_cycle(self, earlier: EndOfBeat | None) -> tuple[Beat, EndOfBeat]:
-        state, length = self.heart.start(earlier), self.period / self.steps
+    def to_limit_cycle(self) -> Beat:
+        state, length = self.heart.start(), self.period / self.steps
         before: Recurrence | None = None
         inputs = self.heart.inputs(length * np.arange(float(self.steps)), length)
         curves = np.empty((self.steps + 1, self._columns))
@@ -94,7 +76,7 @@ class _SphereRun:
             cycle = self._recurrence(curves, first, _windkessels(state))
             self.drift = cycle.drift()
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
-                return self._beat(curves), EndOfBeat(state, tuple(self.heart.branches))
+                return self._beat(curves)
             _shift_pressures(state, cycle.shifts(self.heart.trees, self.period, before))
             before = cycle
 
