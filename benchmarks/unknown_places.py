@@ -33,7 +33,7 @@ from heartfit.synthetic.case import RAISED, REST, plant
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 
 PROCESSES = 2
-SEED = 370000
+SEED = 390000
 SOUND_HEARTS, SCALES, EACH = 100, (2.0, 3.0, 4.0), 4
 """Number of sound hearts; sizes of hidden effects, and hearts of each effect from outside the library."""
 COMPLETE_SCALES = 3.0

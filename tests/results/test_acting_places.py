@@ -186,8 +186,10 @@ def test_targets_stand_beside_what_was_measured() -> None:
     )
     row = {
         "scales": "3",
+        "number": 26,
         **share,
         **rest,
+        "named there": "4 of 26 (0 to 1 %)",
         "helps with raised legs": "8 of 10 (0 to 1 %)",
         "held-out pressure": "0.81",
     }
@@ -204,5 +206,6 @@ def test_targets_stand_beside_what_was_measured() -> None:
     assert targets.loc["sound hearts with a place"].tolist() == ["at most 4 %", "2 % (1 of 40)", "met"]
     assert targets.loc["right region first"].tolist() == ["at least 80 %", "73 % (8 of 11)", "**missed**"]
     assert targets.loc["with a place at 3 scales", "measured"] == "42 % (22 of 52)"
+    assert targets.loc["with a place or named in its region at 3 scales", "measured"] == "58 % (30 of 52)"
     assert targets.loc["helps with raised legs", "met"] == "met"
     assert targets.loc["held-out pressure, median ratio", "met"] == "**missed**"

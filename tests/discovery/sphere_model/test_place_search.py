@@ -12,6 +12,7 @@ from heartfit.discovery.inference.hypothesis import Hypothesis
 from heartfit.discovery.sphere_model.place_search import (
     BASE,
     PROMISE,
+    SWITCHED_ON,
     PlaceSearch,
     RankedPlaces,
     place_hypothesis,
@@ -87,6 +88,10 @@ def test_a_strong_leak_is_screened_where_it_is_switched_on() -> None:
     about_the_fit = search._judged(LeakPassage, screened.explanation, fitted=False)
     assert about_the_fit.predicted < 15.0 < screened.predicted
     assert search._fitted(screened).ln_bayes_factor > 15.0
+    models = [search._at_centre(LeakPassage, size) for size in SWITCHED_ON]
+    predicted = [search._judged(LeakPassage, model).predicted for model in models if model is not None]
+    assert len(set(predicted)) == len(SWITCHED_ON)
+    assert screened.predicted == pytest.approx(max(predicted))
 
 
 def test_a_fitted_place_explains_no_less_than_the_model_without_it(leaking) -> None:  # type: ignore[no-untyped-def]

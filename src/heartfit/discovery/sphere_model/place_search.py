@@ -32,8 +32,8 @@ PREDICTED_GAIN = 1.0
 """ln evidence over that without a place above which further places are fitted."""
 PROMISE = 1.0
 """Largest ln likelihood beyond a fit that counts."""
-SWITCHED_ON = 1.0
-"""Coefficients of a law with which it is fitted once more, from the centre of the priors."""
+SWITCHED_ON = (1.0, 2.5)
+"""Coefficients of a law, the more promising of which it is fitted from once more, at the centre of the priors."""
 FIT_LIMIT = 1200
 """Simulations after which a fit of a place is given up."""
 
@@ -154,13 +154,22 @@ class PlaceSearch:
         """Return the linear model of a law that is switched on at the centre of the priors; None for a free function.
 
         The fit without a strong leak or stenosis has parameters far from those with it, and its linear model predicts
-        nothing. The slopes by the parameters are those without the place.
+        nothing.
         """
-        centre = self._centre if kind.one_sided else None
+        sizes = SWITCHED_ON if kind.one_sided else ()
+        models = [model for size in sizes if (model := self._at_centre(kind, size)) is not None]
+        return max(models, key=lambda model: self._judged(kind, model).predicted, default=None)
+
+    def _at_centre(self, kind: type[Place], size: float) -> Explanation | None:
+        """Return the linear model of a law of a size at the centre of the priors; None where it does not beat.
+
+        The slopes by the parameters are those without the place.
+        """
+        centre = self._centre
         if centre is None:
             return None
         counted = CountedHypothesis(place_hypothesis(self.model, kind))
-        x = np.concatenate([centre.fit.x, np.full(kind.size, SWITCHED_ON)])
+        x = np.concatenate([centre.fit.x, np.full(kind.size, size)])
         predicted = counted(x)
         if predicted is None:
             return None
