@@ -16,7 +16,8 @@ import numpy as np
 from heartfit.calibration.plausible import Limit
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.forward_model import NUMERICS, Candidate
-from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS, NominalHeart, perturb
+from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, NominalHeart, perturb
 from heartfit.heart.beat import Beat
 from heartfit.mechanisms.mitral_dynamics import MitralDynamics
 from heartfit.mechanisms.relaxed_friction import RelaxedFriction

@@ -17,7 +17,7 @@ from heartfit.core.errors import InputError
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.sphere_model.forward_model import candidates, hypothesis
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
-from heartfit.discovery.sphere_model.place_search import BASE, PlaceSearch
+from heartfit.discovery.sphere_model.place_search import PlaceSearch
 from heartfit.discovery.sphere_model.problem import SphereProblem
 from heartfit.discovery.sphere_model.recentred import fit_nominal_heart
 from heartfit.discovery.sphere_model.recording import Recording
@@ -88,7 +88,7 @@ def fitted_heart(
     explained = FitContext(problem.data).explain(with_named, with_named.at(1.0))
     if explained is None:
         raise InputError(f"the heart with {named} does not beat")
-    sizes = np.split(explained.fit.x[BASE:], np.cumsum([len(one.unknowns) for one in chosen])[:-1])
+    sizes = np.split(explained.fit.x[len(problem.model.base) :], np.cumsum([len(one.unknowns) for one in chosen])[:-1])
     return extended(heart, [one.at(x) for one, x in zip(chosen, sizes, strict=True)])
 
 

@@ -38,6 +38,7 @@ PAGES = {
             "other_worlds",
             "registration",
             "reproducible",
+            "right_ventricle",
             "sensitivity",
             "study",
             "unknown_places",

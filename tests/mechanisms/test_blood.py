@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.heart.circulation.network import VALVES
 from heartfit.heart.finite_elements.body import FiniteElementBody
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
@@ -14,6 +13,7 @@ from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.roles import COMPARTMENTS, External, Flow, Mechanism, Narrowing, Pressure, registered
 from heartfit.roles.laws import BLOOD_DENSITY
+from heartfit.roles.sides import VALVES
 from tests.shrinking import assert_derivative
 
 PERIOD = 0.829

@@ -33,6 +33,7 @@ from heartfit.roles import (
     mechanism,
     registered,
 )
+from heartfit.roles.sides import acts_within
 from heartfit.synthetic.campaign import plantable
 
 PERIOD = 0.829
@@ -68,6 +69,7 @@ def test_a_search_of_the_left_ventricle_tries_all_but_three_valves_and_the_atria
     valves = {"AorticDynamics", "PulmonaryDynamics", "TricuspidDynamics"}
     assert unsearched == valves | {"LeftAtrium", "RightAtrium"}
     assert unsearched.isdisjoint(plantable())
+    assert all(acts_within(kind, 1) for kind in plantable().values())
 
 
 @parametrize_kinds({name: kind for name, kind in KINDS.items() if kind.switch().scale is not None})
@@ -113,8 +115,11 @@ def test_muscle_that_is_switched_off_is_the_same_muscle(
         without, off, on = (forces(body, x) for body in bodies)
         assert (off == without).all()
         assert abs(on - without).max() > 1e-3 * abs(without).max()
-    beats = [simulate_spheres(heart, [LEFT], ONE_BEAT) for heart in hearts]
-    curves = [np.array([beat.volume["lv"], beat.pressure["lv"] * 1e-8]) for beat in beats]
+    beats = [simulate_spheres(heart, [LEFT, LEFT], ONE_BEAT) for heart in hearts]
+    curves = [
+        np.array([*beat.volume.values(), *(1e-8 * beat.pressure[side] for side in ("lv", "rv"))])
+        for beat in beats
+    ]
     assert (curves[1] == curves[0]).all()
     assert abs(curves[2] - curves[0]).max() > 1e-7
 

@@ -15,6 +15,7 @@ from tests.mutations.mutants.planting import PLANTING_MUTANTS
 from tests.mutations.mutants.proof import PROOF_MUTANTS
 from tests.mutations.mutants.recentring import RECENTRING_MUTANTS
 from tests.mutations.mutants.refit import REFIT_MUTANTS
+from tests.mutations.mutants.right_ventricle import RIGHT_VENTRICLE_MUTANTS
 from tests.mutations.mutants.scoring import SCORING_MUTANTS
 from tests.mutations.mutants.search import SEARCH_MUTANTS
 from tests.mutations.mutants.sphere import SPHERE_MUTANTS
@@ -35,6 +36,7 @@ MUTANTS = (
     *JUDGING_MUTANTS,
     *STRUCTURE_MUTANTS,
     *PLACE_MUTANTS,
+    *RIGHT_VENTRICLE_MUTANTS,
     *WITHDRAWAL_MUTANTS,
     *RECENTRING_MUTANTS,
     *REFIT_MUTANTS,

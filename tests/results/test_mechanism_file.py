@@ -10,7 +10,8 @@ from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.discovery.sphere_model.cause import ActingPlace, Diagnosis, RankedLaw
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
-from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
+from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS
+from heartfit.discovery.sphere_model.nominal_heart import ADULT
 from heartfit.discovery.sphere_model.shown_place import law_state, zero_of
 from heartfit.places import REGIONS, PeriodicFunction, Region
 from heartfit.places.laws import TIME_FORMS, Law, laws_of

@@ -26,6 +26,7 @@ from heartfit.discovery.sphere_model.cause import (
     Trace,
     departures,
 )
+from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.io.files import replacing, write_text
 from heartfit.io.fingerprint import versions
 from heartfit.io.results import read_record, write_result
@@ -87,6 +88,7 @@ class CauseFile:
     structural_scale: float = 0.0
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
+    strokes: Strokes | None = None
     made_by: str = ""
 
     @classmethod

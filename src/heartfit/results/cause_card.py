@@ -14,6 +14,7 @@ from heartfit.discovery.sphere_model.cause import (
     Refitted,
     departures,
 )
+from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.results.acting_places import acting_section, acting_sentence, separating_measurement
 from heartfit.results.text import AMPLITUDE_UNITS, printed_curve_unit
 
@@ -81,6 +82,7 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
         *([_warnings(diagnosis.warnings)] if diagnosis.warnings else []),
         "## Misfit of the simulation\n\n" + "\n".join(misfits),
         *([structure_text(diagnosis)] if diagnosis.structural_scale else []),
+        *([f"## Strokes of both ventricles\n\n{strokes_sentence(diagnosis.strokes)}"] if diagnosis.strokes else []),
         *([acting_section(diagnosis.acting)] if diagnosis.acting else []),
         *([_changes(diagnosis.changes)] if diagnosis.changes else []),
         "## Evidence for each mechanism\n\n" + _ranking_table(diagnosis),
@@ -112,6 +114,22 @@ def structure_text(diagnosis: Diagnosis) -> str:
         f"this simulation err by {' and '.join(sizes)} (root mean square; scale {diagnosis.structural_scale:g}). A "
         "mechanism is named for what this does not explain."
     )
+
+
+def strokes_sentence(strokes: Strokes) -> str:
+    """Return what both ventricles eject, and what their difference may mean."""
+    left, right, difference, sd = (
+        f"{1e6 * one:.0f}" for one in (strokes.left, strokes.right, abs(strokes.difference), strokes.sd)
+    )
+    ejected = f"The left ventricle ejects {left} mL in a beat and the right one {right} mL."
+    if not strokes.differ:
+        return f"{ejected} The difference of {difference} ± {sd} mL is within what the volumes err by."
+    cause = (
+        "the mitral or the aortic valve leaks, or blood passes from the left to the right ventricle"
+        if strokes.difference > 0.0
+        else "the tricuspid or the pulmonary valve leaks, or blood passes from the left to the right atrium"
+    )
+    return f"{ejected} The difference of {difference} ± {sd} mL exceeds what the volumes err by: {cause}."
 
 
 def _changes(changes: Iterable[Change]) -> str:

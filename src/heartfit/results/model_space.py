@@ -17,7 +17,7 @@ from typing import Any
 
 from heartfit.discovery.inference.decide import DEFAULT_RULES
 from heartfit.discovery.sphere_model.cause import FittedModel
-from heartfit.discovery.sphere_model.nominal_heart import FREE_PARAMETERS
+from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS, RIGHT_FREE_PARAMETERS
 
 BASELINE = "none"
 PETAB_PROBLEM = "petab/problem.yaml"
@@ -79,7 +79,9 @@ def model_space_rows(tried: Sequence[FittedModel]) -> list[list[str]]:
 def parameter_rows(tried: Sequence[FittedModel]) -> list[list[str]]:
     """Return the rows of the PEtab parameter table: standard normal coordinates, 0 without an effect."""
     heading = ["parameterId", "parameterScale", "lowerBound", "upperBound", "nominalValue", "estimate"]
-    base = [[parameter.name.replace(".", "_"), "lin", "-10", "10", "0", "1"] for parameter in FREE_PARAMETERS]
+    count = next(model.unknowns for model in tried if not model.effects)
+    free = (*FREE_PARAMETERS, *RIGHT_FREE_PARAMETERS)[:count]
+    base = [[parameter.name.replace(".", "_"), "lin", "-10", "10", "0", "1"] for parameter in free]
     return [heading, *base, *([name, "lin", "-10", "10", "0", "0"] for name in mechanism_names(tried))]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from heartfit.discovery.sphere_model.cause import Diagnosis
-from heartfit.discovery.sphere_model.nominal_heart import FREE_PARAMETERS, FreeParameter
+from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS, FreeParameter
 from heartfit.observation.noise_model import Share
 from heartfit.results.cause_card import CURVES, spaced_name
 from heartfit.synthetic.other_worlds import EXPECTED, OtherHeart

@@ -10,6 +10,7 @@ import numpy as np
 from heartfit.core.parameter import parameters_of
 from heartfit.heart.heart import Heart
 from heartfit.roles import Mechanism, registered
+from heartfit.roles.sides import acts_within
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 
 DRAWN = "drawn"
@@ -35,12 +36,12 @@ class Effect:
 
 
 def plantable() -> dict[str, type[Mechanism]]:
-    """Registered mechanisms, by name, that declare a scale and are not part of every heart."""
+    """Registered mechanisms of the left heart, by name, that declare a scale and are not part of every heart."""
     everywhere = {type(mechanism) for mechanism in Heart().mechanisms}
     return {
         name: cls
         for name, cls in registered().items()
-        if cls not in everywhere and cls.switch().scale is not None
+        if cls not in everywhere and cls.switch().scale is not None and acts_within(cls, 1)
     }
 
 

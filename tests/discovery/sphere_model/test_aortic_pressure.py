@@ -8,7 +8,8 @@ import pytest
 from heartfit.discovery.sphere_model import forward_model as library
 from heartfit.discovery.sphere_model import searched_recording as searching
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
-from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
+from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS
+from heartfit.discovery.sphere_model.nominal_heart import ADULT
 from heartfit.discovery.sphere_model.recording import PRESSURE_LEVELS, Recording, Samples, search_data
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 from heartfit.mechanisms.aortic_stenosis import AorticStenosis

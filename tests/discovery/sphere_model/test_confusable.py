@@ -3,7 +3,7 @@
 from heartfit.discovery.sphere_model import forward_model as library
 from heartfit.discovery.sphere_model import searched_recording as searching
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
-from heartfit.discovery.sphere_model.nominal_heart import SPHERE_PARAMETERS
+from heartfit.discovery.sphere_model.free_parameters import SPHERE_PARAMETERS
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 from heartfit.synthetic.campaign import PlantedPlan
 from tests.discovery.sphere_model.hearts import recorded

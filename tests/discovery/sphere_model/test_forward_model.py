@@ -8,7 +8,8 @@ import pytest
 from heartfit.discovery.inference.hypothesis import CountedHypothesis
 from heartfit.discovery.sphere_model import forward_model
 from heartfit.discovery.sphere_model.forward_model import NUMERICS, SphereForwardModel, hypothesis
-from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
+from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS
+from heartfit.discovery.sphere_model.nominal_heart import ADULT
 from heartfit.discovery.sphere_model.recording import Recording, Samples
 from heartfit.mechanisms.catheter_offset import CatheterOffset
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation

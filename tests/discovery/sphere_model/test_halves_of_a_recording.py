@@ -93,7 +93,7 @@ def test_without_another_condition_the_search_sees_one_half(monkeypatch: pytest.
 def test_with_another_condition_the_search_sees_all_samples(monkeypatch: pytest.MonkeyPatch) -> None:
     recording, unseen = searched_by(monkeypatch, {"legs raised": BOTH})
     assert unseen is None
-    assert recording is BOTH
+    assert recording.curves is BOTH.curves
 
 
 def test_the_final_size_is_that_of_a_fit_to_both_halves(monkeypatch: pytest.MonkeyPatch) -> None:

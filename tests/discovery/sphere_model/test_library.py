@@ -8,8 +8,9 @@ from heartfit.discovery.sphere_model.forward_model import (
     candidates,
     hypothesis,
 )
-from heartfit.discovery.sphere_model.nominal_heart import ADULT
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, WITH_RIGHT
 from heartfit.roles import registered
+from heartfit.roles.sides import acts_within
 
 FRAMES = np.arange(26) / 30
 BOTH = SphereForwardModel(ADULT, {"lv_volume": FRAMES, "lv_pressure": FRAMES})
@@ -18,7 +19,11 @@ BOTH = SphereForwardModel(ADULT, {"lv_volume": FRAMES, "lv_pressure": FRAMES})
 def test_every_observable_mechanism_that_the_heart_lacks_is_a_candidate():
     no_candidates = {"AtrialKick", "LeftAtrium", "RightAtrium"}
     no_candidates |= {"AorticDynamics", "TricuspidDynamics", "PulmonaryDynamics"}
-    assert set(candidates(BOTH)) == set(registered()) - no_candidates
+    right = {name for name, kind in registered().items() if not acts_within(kind, 1)}
+    assert set(candidates(BOTH)) == set(registered()) - no_candidates - right
+    with_right = candidates(SphereForwardModel(WITH_RIGHT, {"lv_volume": FRAMES, "lv_pressure": FRAMES}))
+    assert set(with_right) - set(candidates(BOTH)) == right - no_candidates
+    assert {"TricuspidRegurgitation", "PulmonaryStenosis", "LateRightWall"} < right
     alone = candidates(SphereForwardModel(ADULT, {"lv_volume": FRAMES}))
     assert set(candidates(BOTH)) - set(alone) == {"CatheterDamping", "CatheterDelay", "CatheterOffset"}
 

@@ -9,8 +9,8 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.evidence import Fit
 from heartfit.discovery.inference.hypothesis import Hypothesis
+from heartfit.discovery.sphere_model.forward_model import BASE_COORDINATES
 from heartfit.discovery.sphere_model.place_search import (
-    BASE,
     PROMISE,
     SWITCHED_ON,
     PlaceSearch,
@@ -33,6 +33,7 @@ from heartfit.synthetic.case import REST, plant
 from heartfit.synthetic.hidden import RecordingProtocol, draw_hidden, measure_beat
 from heartfit.synthetic.out_of_library import SeptalDefect
 
+BASE = len(BASE_COORDINATES)
 KINDS: tuple[type[Place], ...] = (AtrialPressure, MitralLoss, LeakPassage, PressureError, WallPressure)
 LEAKING = PlantedPlan(520, "outside", ("SeptalDefect",), 3.0)
 SOUND = PlantedPlan(604, "none", (), 0.0)

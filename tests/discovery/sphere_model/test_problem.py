@@ -8,8 +8,9 @@ import pytest
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.decide import DEFAULT_RULES
 from heartfit.discovery.sphere_model.diagnose import diagnose
+from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS
 from heartfit.discovery.sphere_model.landmarks import PHASES
-from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS, PEOPLE, perturb
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, PEOPLE, perturb
 from heartfit.discovery.sphere_model.problem import SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure, healthy_residual, learn_from_controls

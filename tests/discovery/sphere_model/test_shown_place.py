@@ -6,10 +6,10 @@ from typing import cast
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
+from heartfit.discovery.sphere_model.forward_model import BASE_COORDINATES, SphereForwardModel
 from heartfit.discovery.sphere_model.law_ranking import FittedLaw
 from heartfit.discovery.sphere_model.nominal_heart import ADULT
-from heartfit.discovery.sphere_model.place_search import BASE, FittedPlace, PlaceSearch
+from heartfit.discovery.sphere_model.place_search import FittedPlace, PlaceSearch
 from heartfit.discovery.sphere_model.shown_place import ShownPlace, _coefficients
 from heartfit.places import (
     AorticLoss,
@@ -25,6 +25,8 @@ from heartfit.places.laws import Law
 from heartfit.places.place import FunctionOfTime
 from heartfit.roles.laws import BLOOD_DENSITY
 
+BASE = len(BASE_COORDINATES)
+
 PERIOD = 0.8
 
 
@@ -35,7 +37,7 @@ def place(kind: type[Place], factor: float, z: float = 0.5) -> FittedPlace:
 
 def searching() -> PlaceSearch:
     model = SphereForwardModel(ADULT, {})
-    return cast("PlaceSearch", SimpleNamespace(model=model, period=ADULT.heart.period))
+    return cast("PlaceSearch", SimpleNamespace(model=model, base=BASE, period=ADULT.heart.period))
 
 
 @pytest.mark.parametrize(

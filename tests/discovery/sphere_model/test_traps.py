@@ -11,7 +11,8 @@ from heartfit.discovery.inference.decide import DEFAULT_RULES
 from heartfit.discovery.inference.hypothesis import Hypothesis
 from heartfit.discovery.inference.search import fit_from_baseline, survey_singles
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel, candidates, hypothesis
-from heartfit.discovery.sphere_model.nominal_heart import ADULT, FREE_PARAMETERS
+from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS
+from heartfit.discovery.sphere_model.nominal_heart import ADULT
 from heartfit.discovery.sphere_model.recording import search_data
 from heartfit.synthetic.campaign import PlantedPlan
 from tests.discovery.sphere_model.hearts import healthy, recorded

@@ -61,6 +61,7 @@ class Searched:
             period=0.8,
             curves={"lv_volume": VOLUME, "lv_pressure": PRESSURE},
             searched=("lv_volume", "lv_pressure"),
+            unsearched={},
         )
     )
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from heartfit.core.parameter import parameters_of
-from heartfit.heart.circulation.network import VALVES, Network
+from heartfit.heart.circulation.network import Network
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.sphere.body import SphericalBody
@@ -23,6 +23,7 @@ from heartfit.roles.laws import (
     advance_branch,
     branch_flow,
 )
+from heartfit.roles.sides import VALVES
 from tests.shrinking import assert_derivative
 from verification.audit import lost_blood
 from verification.audit_checks import TIGHT

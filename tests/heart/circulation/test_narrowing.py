@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from heartfit.heart.circulation.elements import LinearValve, OrificeValve
-from heartfit.heart.circulation.network import VALVES, Circulation, Network
+from heartfit.heart.circulation.network import Circulation, Network
 from heartfit.mechanisms.aortic_stenosis import AorticStenosis
 from heartfit.roles import Narrowing
 from heartfit.roles.laws import BLOOD_DENSITY, NO_LEAFLETS, Branch, branch_flow, inertial_flow
+from heartfit.roles.sides import VALVES
 from tests.shrinking import assert_derivative
 
 LINEAR, ORIFICE = LinearValve(open=4e-6).law(), OrificeValve(area=4e-4).law()

@@ -7,11 +7,12 @@ import pytest
 
 from heartfit.core.arrays import Floats
 from heartfit.heart.circulation.elements import OrificeValve
-from heartfit.heart.circulation.network import VALVES, Circulation, Network, NetworkStep
+from heartfit.heart.circulation.network import Circulation, Network, NetworkStep
 from heartfit.mechanisms.atrial_kick import AtrialKick
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.roles import COMPARTMENTS, Flow
 from heartfit.roles.laws import Branch
+from heartfit.roles.sides import VALVES
 from tests.shrinking import assert_derivative
 
 CIRCULATIONS = [Circulation(), Circulation(mitral=OrificeValve(), aortic=OrificeValve())]

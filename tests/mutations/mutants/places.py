@@ -51,7 +51,7 @@ PLACE_MUTANTS = (
             "evidences - np.maximum(0.0, promised - PROMISE)",
             "evidences",
         ),
-        ("the linear model stands at the fit", "np.zeros(fit.x.size - BASE)", "fit.x[BASE:]"),
+        ("the linear model stands at the fit", "np.zeros(fit.x.size - self.base)", "fit.x[self.base :]"),
         (
             "places stand beside a fit that stopped early",
             "return RankedPlaces(baseline, _ranked(place.beside(gain) for place in places))",

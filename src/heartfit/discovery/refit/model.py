@@ -18,7 +18,7 @@ from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.forward_model import Candidate
-from heartfit.discovery.sphere_model.nominal_heart import HEART_PARAMETERS, FreeParameter
+from heartfit.discovery.sphere_model.free_parameters import HEART_PARAMETERS, FreeParameter
 from heartfit.discovery.sphere_model.recentred import centred_search
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.geometry.fibres import prepare

@@ -8,6 +8,7 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.observation.beat import BeatPhases
 from heartfit.places import Region
 
@@ -184,6 +185,7 @@ class Diagnosis:
       trusted; changes: parameters that changed since an earlier recording of the same heart, empty without one.
     - acting: of an unknown effect the regions on which it may act, the most probable first; functions: what acts there,
       one for each; both empty where no place is detected.
+    - strokes: of both ventricles, None without a right volume.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
     """
 
@@ -210,6 +212,7 @@ class Diagnosis:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     functions: tuple[PlaceFunction, ...] = ()
+    strokes: Strokes | None = None
 
 
 CLEAR_DEVIATIONS = 2.0

@@ -12,8 +12,9 @@ from heartfit.discovery.sphere_model.held_out import HeldOutPrediction, predict_
 from heartfit.discovery.sphere_model.limits import RECORD_PRESSURE, next_measurement
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
 from heartfit.discovery.sphere_model.problem import DiscrepancyPrior
-from heartfit.discovery.sphere_model.recording import UNSEARCHED, Recording
+from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording, traces
+from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.discovery.sphere_model.unknown_place import locate
 from heartfit.places import Place
 
@@ -36,14 +37,20 @@ def diagnose(
     and the source of the recording; None where the model is trusted. places: where an unknown effect may act,
     of a trusted model. left_out: mechanisms of the library that are not tried.
 
-    Without unseen samples and conditions the search sees half of the recording, and the other half judges. Raises
-    InputError where the nominal heart does not beat, and for a loop of pressure and volume that runs clockwise.
+    About the adult's trusted model the volume of the right ventricle is searched, too, where it was recorded beside a
+    left pressure. Without unseen samples and conditions the search sees half of the recording, and the other half
+    judges. Raises InputError where the nominal heart does not beat, and for a loop of pressure and volume that runs
+    clockwise.
     """
     warnings = implausible(recording)
+    conditions = conditions or {}
+    if nominal is None and structure is None:
+        recording = recording.with_both_ventricles()
+        conditions = {name: one.with_both_ventricles(balanced=False) for name, one in conditions.items()}
     if unseen is None and not conditions:
         recording, unseen = recording.halves()
     case = SearchedRecording.search(recording, nominal, rules, unseen, structure, left_out)
-    return locate(conclude(case, conditions or {}, warnings), case, conditions or {}, places)
+    return locate(conclude(case, conditions, warnings), case, conditions, places)
 
 
 def diagnose_change(after: Recording, before: Recording) -> Diagnosis:
@@ -82,7 +89,9 @@ def conclude(
         case.ranking(),
         tuple(name for effects in tried if effects not in helping for name in effects),
         traces(case.findings, case.findings.explanation(best), case.data),
-        unsearched={name: why for name, why in UNSEARCHED.items() if name in case.recording.curves},
+        unsearched={
+            name: why for name, why in case.recording.unsearched.items() if name in case.recording.curves
+        },
         phases=case.phases(),
         tried=case.tried(),
         samples=case.data.values.size,
@@ -90,6 +99,7 @@ def conclude(
         warnings=warnings,
         structural_scale=case.findings.structural_scale,
         changes=case.changes(best),
+        strokes=Strokes.from_recording(case.recording),
     )
 
 

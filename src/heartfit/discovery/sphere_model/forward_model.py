@@ -3,7 +3,7 @@
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import reduce
+from functools import cached_property, reduce
 from operator import add
 
 import numpy as np
@@ -12,16 +12,14 @@ from heartfit.core.arrays import Floats
 from heartfit.core.parameter import Parameter, parameters_of
 from heartfit.discovery.inference.data import Block
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
-from heartfit.discovery.sphere_model.nominal_heart import (
-    FREE_PARAMETERS,
-    TIME_SHIFT_INDEX,
-    NominalHeart,
-    perturb,
-)
+from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS, TIME_SHIFT_INDEX
+from heartfit.discovery.sphere_model.nominal_heart import NominalHeart, perturb
+from heartfit.discovery.sphere_model.recording import BALANCE
 from heartfit.heart.beat import Beat
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics
 from heartfit.roles import Mechanism, Sensor, registered
+from heartfit.roles.sides import acts_within, net_inflow
 
 NUMERICS = Numerics(time_step=5e-3, max_beats=30, drift=1e-5)
 """Finite differences need a limit cycle: at a drift of 1 % beats differ by 1 mL and 0.3 kPa from it, here by 0.1 mL and
@@ -48,8 +46,13 @@ class SphereForwardModel:
         """Return the forward model of the samples of measured curves."""
         return cls(nominal, {block.curve: block.times for block in blocks})
 
+    @cached_property
+    def base(self) -> tuple[Coordinate, ...]:
+        """Coordinates of the free parameters, which come first in every hypothesis."""
+        return tuple(Coordinate(parameter.name) for parameter in self.nominal.free)
+
     def predict(self, x: Floats, effects: Sequence[Mechanism]) -> Floats | None:
-        """The curves (n,) [SI], one after the other, at the coordinates x (23,); None where the simulation fails."""
+        """The curves (n,) [SI], one after the other, at the coordinates x (b,); None where the simulation fails."""
         simulated = self.simulate(x, effects)
         if simulated is None:
             return None
@@ -57,7 +60,7 @@ class SphereForwardModel:
         return np.concatenate([observe_curve(beat, heart, name, times) for name, times in self.times.items()])
 
     def simulate(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Heart, Beat] | None:
-        """The heart at the coordinates x (23,) and its beat; None where the simulation fails."""
+        """The heart at the coordinates x (b,) and its beat; None where the simulation fails."""
         try:
             nominal = perturb(self.nominal, x)
             heart = reduce(add, effects, nominal.heart)
@@ -68,7 +71,7 @@ class SphereForwardModel:
 
     def _beat(self, nominal: NominalHeart, x: Floats, effects: Sequence[Mechanism]) -> Beat:
         physical = [effect for effect in effects if not isinstance(effect, Sensor)]
-        key = np.delete(x[: len(FREE_PARAMETERS)], TIME_SHIFT_INDEX).tobytes() + repr(physical).encode()
+        key = np.delete(x[: len(self.base)], TIME_SHIFT_INDEX).tobytes() + repr(physical).encode()
         beat = self._beats.pop(key, None)
         if beat is None:
             self.simulations += 1
@@ -80,7 +83,13 @@ class SphereForwardModel:
 
 
 def observe_curve(beat: Beat, heart: Heart, name: str, times: Floats) -> Floats:
-    """A curve of the beat (k,) [SI] through the heart's sensors at ``times`` (k,) [s after the trigger]."""
+    """A curve of the beat (k,) [SI] through the heart's sensors at ``times`` (k,) [s after the trigger].
+
+    The balance of both sides is one number: in a closed circulation the left atrium loses what its veins bring.
+    """
+    if name == BALANCE:
+        gains = net_inflow(beat.flow, heart.mechanisms)
+        return np.array([-(gains["left_atrium"] + gains["pulmonary_artery"]) * beat.period])
     start, values = beat.time[:-1] - heart.trigger, beat.signals()[name][:-1]
     for sensor in heart.sensors:
         if name in sensor.measures:
@@ -104,6 +113,7 @@ def interpolate(phases: Floats, values: Floats) -> Floats:
 
 
 BASE_COORDINATES = tuple(Coordinate(parameter.name) for parameter in FREE_PARAMETERS)
+"""Coordinates of the free parameters of the left heart."""
 
 
 @dataclass(frozen=True)
@@ -148,7 +158,10 @@ def candidates(model: SphereForwardModel) -> dict[str, Candidate]:
     Sensors are none of a heart that stands for a change: the same instruments have recorded both beats.
     """
     present = {type(mechanism) for mechanism in model.nominal.heart.mechanisms}
-    kinds = {name: kind for name, kind in registered().items() if kind not in present}
+    sides = 1 if model.nominal.right is None else 2
+    kinds = {
+        name: kind for name, kind in registered().items() if kind not in present and acts_within(kind, sides)
+    }
     if model.nominal.stands_for == "change":
         kinds = {name: kind for name, kind in kinds.items() if not issubclass(kind, Sensor)}
     return {
@@ -168,11 +181,11 @@ def hypothesis(model: SphereForwardModel, effects: Sequence[Candidate] = ()) -> 
     """The hypothesis of a heart with these mechanisms, all their unknowns free."""
     added = tuple(coordinate for effect in effects for coordinate in effect.coordinates())
     names = tuple(effect.name for effect in effects)
-    return Hypothesis(names, BASE_COORDINATES + added, _forward(model, effects))
+    return Hypothesis(names, model.base + added, _forward(model, effects))
 
 
 def _forward(model: SphereForwardModel, effects: Sequence[Candidate]) -> Callable[[Floats], Floats | None]:
-    ends = np.cumsum([len(BASE_COORDINATES), *(len(effect.unknowns) for effect in effects)])
+    ends = np.cumsum([len(model.base), *(len(effect.unknowns) for effect in effects)])
 
     def forward(x: Floats) -> Floats | None:
         parts = np.split(x, ends[:-1])[1:]

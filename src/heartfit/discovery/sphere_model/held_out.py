@@ -26,6 +26,7 @@ from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 
 LOADING = {"circulation.left_atrium": 0.3, "circulation.systemic.R_p": 0.3}
+RIGHT_LOADING = {"circulation.right_atrium": 0.3, "circulation.pulmonary_tree.R_p": 0.3}
 """Parameters that another condition may change, with the standard deviations of the logarithm of the change."""
 PHASE_PARTS, BOOTSTRAP_DRAWS = 8, 2000
 """Parts of the beat and random draws of the bootstrap."""
@@ -103,13 +104,15 @@ def predict_condition(
 
 
 def _fit_loading(nominal: NominalHeart, data: Data, extension: Extension, x: Floats) -> Floats | None:
+    loads = LOADING if nominal.right is None else LOADING | RIGHT_LOADING
+
     def forward(change: Floats) -> Floats | None:
-        pairs = zip(LOADING.items(), change.tolist(), strict=True)
+        pairs = zip(loads.items(), change.tolist(), strict=True)
         changed = {path: nominal.values[path] * exp(sd * z) for (path, sd), z in pairs}
         loaded = replace(nominal, heart=nominal.heart.with_parameters(changed))
         return extension(SphereForwardModel.at_samples(loaded, data.blocks)).forward(x)
 
-    loading = Hypothesis((), tuple(Coordinate(path) for path in LOADING), forward)
+    loading = Hypothesis((), tuple(Coordinate(path) for path in loads), forward)
     explanation = FitContext(data).explain(loading, loading.at(0.0))
     return None if explanation is None else explanation.fit.predicted
 

@@ -22,10 +22,9 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.evidence import Explanation, Fit, posterior
 from heartfit.discovery.inference.hypothesis import Coordinate, CountedHypothesis, Hypothesis
-from heartfit.discovery.sphere_model.forward_model import BASE_COORDINATES, SphereForwardModel
+from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
 from heartfit.places import PLACES, Place, Region
 
-BASE = len(BASE_COORDINATES)
 FEWEST_FITTED, MOST_FITTED = 3, 7
 """Numbers of places that are fitted in every search, and at most, where the linear model predicts a gain."""
 PREDICTED_GAIN = 1.0
@@ -78,13 +77,13 @@ class RankedPlaces:
 
 def place_hypothesis(model: SphereForwardModel, kind: type[Place]) -> Hypothesis:
     """Return the hypothesis of a place about a forward model."""
-    period = model.nominal.heart.period
+    period, base = model.nominal.heart.period, len(model.base)
     own = tuple(Coordinate(f"{kind.__name__}.{index}", kind.one_sided) for index in range(kind.size))
 
     def forward(x: Floats) -> Floats | None:
-        return model.predict(x[:BASE], (kind.from_standardised(x[BASE:], period),))
+        return model.predict(x[:base], (kind.from_standardised(x[base:], period),))
 
-    return Hypothesis((kind.__name__,), BASE_COORDINATES + own, forward)
+    return Hypothesis((kind.__name__,), model.base + own, forward)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,9 +111,14 @@ class PlaceSearch:
     def _beside_base(self, places: Sequence[FittedPlace]) -> RankedPlaces:
         """Return the places beside the better of the fit without a place and one that starts from the best place's."""
         best = _ranked(places)[0].explanation.fit
-        baseline = self.context.improve(self.baseline, best.x[:BASE], best.jacobian[:, :BASE])
+        baseline = self.context.improve(self.baseline, best.x[: self.base], best.jacobian[:, : self.base])
         gain = baseline.log_evidence - self.baseline.log_evidence
         return RankedPlaces(baseline, _ranked(place.beside(gain) for place in places))
+
+    @property
+    def base(self) -> int:
+        """Number of free parameters, whose coordinates come first."""
+        return len(self.model.base)
 
     @property
     def period(self) -> float:
@@ -138,7 +142,7 @@ class PlaceSearch:
         hypothesis = place_hypothesis(self.model, kind)
         x = np.concatenate([self.baseline.fit.x, np.zeros(kind.size)])
         counted = CountedHypothesis(hypothesis)
-        columns = counted.jacobian(x, self.baseline.fit.predicted, BASE)
+        columns = counted.jacobian(x, self.baseline.fit.predicted, self.base)
         self.context.simulations += counted.runs
         if not columns.any():
             return None
@@ -173,7 +177,7 @@ class PlaceSearch:
         predicted = counted(x)
         if predicted is None:
             return None
-        jacobian = np.column_stack([centre.fit.jacobian, counted.jacobian(x, predicted, BASE)])
+        jacobian = np.column_stack([centre.fit.jacobian, counted.jacobian(x, predicted, self.base)])
         self.context.simulations += counted.runs
         return self._explained(Fit(counted.hypothesis, x, predicted, jacobian, np.inf, converged=False))
 
@@ -192,8 +196,8 @@ class PlaceSearch:
 
     def _from_best(self, place: FittedPlace, best: FittedPlace) -> FittedPlace:
         """Return the better of a place's fit and one that starts from the parameters of the best place."""
-        shared = best.explanation.fit.x[:BASE]
-        start = np.concatenate([shared, place.explanation.fit.x[BASE:]])
+        shared = best.explanation.fit.x[: self.base]
+        start = np.concatenate([shared, place.explanation.fit.x[self.base :]])
         other = self._fit(place, start, place.explanation.fit.jacobian)
         again = place.explanation if place.fitted else None
         explained = _better(again, other)
@@ -222,10 +226,10 @@ class PlaceSearch:
         """
         left, whitening = self.context.data.values - fit.predicted, self.context.whitening
         now = whitening.log_likelihood(left)
-        x = np.concatenate([fit.x[:BASE], np.zeros(fit.x.size - BASE)])
+        x = np.concatenate([fit.x[: self.base], np.zeros(fit.x.size - self.base)])
         residual = left + fit.jacobian @ (fit.x - x)
         for row in deviations:
-            jacobian = fit.jacobian * np.concatenate([np.ones(BASE), row])
+            jacobian = fit.jacobian * np.concatenate([np.ones(self.base), row])
             linear = posterior(whitening, x, residual, jacobian, fit.hypothesis.one_sided)
             bounded = np.maximum(linear.mean, fit.hypothesis.lower)
             beyond = whitening.log_likelihood(residual - jacobian @ (bounded - x)) - now

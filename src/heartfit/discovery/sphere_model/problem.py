@@ -13,7 +13,7 @@ from heartfit.discovery.inference.evidence import Explanation, fit
 from heartfit.discovery.inference.hypothesis import CountedHypothesis
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel, hypothesis
 from heartfit.discovery.sphere_model.landmarks import FINE, Frame, Landmarks
-from heartfit.discovery.sphere_model.nominal_heart import ADULT, PEOPLE, NominalHeart
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, PEOPLE, WITH_RIGHT, NominalHeart
 from heartfit.discovery.sphere_model.recording import BIN, Recording, averaged_by_phase, search_data
 
 NO_BEAT = "baseline: the sphere does not beat about the nominal heart; expected it to"
@@ -48,7 +48,8 @@ class SphereProblem:
         recorded size, the ADULT of a trusted model or the middle of all PEOPLE, if None.
         """
         data = search_data(recording)
-        middle = ADULT if structure is None else PEOPLE
+        trusted = WITH_RIGHT if "rv_volume" in recording.searched else ADULT
+        middle = trusted if structure is None else PEOPLE
         model = SphereForwardModel.at_samples(nominal or middle.scaled_to(recording), data.blocks)
         problem = cls(recording, data, model)
         return problem if structure is None else structure.enter(problem)

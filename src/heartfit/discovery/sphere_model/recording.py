@@ -20,8 +20,8 @@ from heartfit.observation.second_reading import FrameNoise
 
 KNOWN_CURVES = ("lv_volume", "lv_pressure", "aorta_pressure", "rv_volume")
 """Curves that a recording may contain."""
-UNSEARCHED = {"rv_volume": "the sphere of the search has no right ventricle"}
-"""Curves that are kept but not searched, with the reason."""
+UNSEARCHED: Mapping[str, str] = {"rv_volume": "the sphere of the search has no right ventricle"}
+"""Curves that are kept but not searched unless both ventricles are, with the reason."""
 
 FEWEST_SAMPLES, SHORTEST_SPAN = 8, 0.7
 """Least number of samples of a curve, and least part of the period that they span: less leaves a phase unobserved."""
@@ -77,13 +77,16 @@ class Samples:
 class Recording:
     """Curves by name, as in ``KNOWN_CURVES``, of a heart that beats with the ``period`` [s].
 
-    noise: of curves whose noise was measured, by name; the levels of the others are unknown. Raises InputError for a
-    missing LV volume, an unknown or too short curve, and values outside the human range.
+    noise: of curves whose noise was measured, by name; the levels of the others are unknown. unsearched: curves that no
+    search uses, with the reason. balanced: both sides of the heart pump the same volume, which counts as a measurement.
+    Raises InputError for a missing LV volume, an unknown or too short curve, and values outside the human range.
     """
 
     period: float
     curves: Mapping[str, Samples]
     noise: Mapping[str, FrameNoise] = field(default_factory=dict)
+    unsearched: Mapping[str, str] = field(default_factory=lambda: UNSEARCHED)
+    balanced: bool = False
 
     @classmethod
     def from_curves(cls, curves: Mapping[str, Curve]) -> Self:
@@ -130,15 +133,15 @@ class Recording:
         """Return the half that a search fits and the half that judges what it names.
 
         Both hold the searched curves: every other beat or, of a single beat, every other frame and every other 50 ms of
-        pressure; the first also holds the curves that are not searched. A recording too short for two halves is
-        returned whole, without a second one.
+        pressure; the first also holds the curves that are not searched, and the balance. A recording too short for two
+        halves is returned whole, without a second one.
         """
         first = {name: _first_half(name, self.curves[name], self.period) for name in self.searched}
         whole = {name: samples for name, samples in self.curves.items() if name not in first}
         fitted = {name: self.curves[name].part(mask) for name, mask in first.items()}
         held = {name: self.curves[name].part(~mask) for name, mask in first.items()}
         try:
-            return replace(self, curves=fitted | whole), replace(self, curves=held)
+            return replace(self, curves=fitted | whole), replace(self, curves=held, balanced=False)
         except InputError:
             return self, None
 
@@ -150,6 +153,12 @@ class Recording:
             )
         return replace(self, curves={**self.curves, "lv_pressure": Samples.from_curve(pressure)})
 
+    def with_both_ventricles(self, balanced: bool = True) -> "Recording":
+        """Return the recording with its right volume searched, and with balanced sides; without one, as it is."""
+        if not {"lv_pressure", "rv_volume"} <= self.curves.keys():
+            return self
+        return replace(self, unsearched={}, balanced=balanced)
+
     def merged(self, other: "Recording") -> "Recording":
         """Return the recording with the samples of another one of the same beat."""
         merged = {name: self.curves[name].merged(samples) for name, samples in other.curves.items()}
@@ -157,12 +166,12 @@ class Recording:
 
     @property
     def searched(self) -> tuple[str, ...]:
-        """The curves that a left ventricle alone explains."""
-        return tuple(name for name in KNOWN_CURVES if name in self.curves and name not in UNSEARCHED)
+        """The curves that a search explains."""
+        return tuple(name for name in KNOWN_CURVES if name in self.curves and name not in self.unsearched)
 
-    def end_diastolic_volume(self) -> float:
-        """End-diastolic volume of the left ventricle [m^3]: mean of the largest tenth of its volumes."""
-        values = np.sort(self.curves["lv_volume"].values)
+    def end_diastolic_volume(self, name: str = "lv_volume") -> float:
+        """End-diastolic volume of a ventricle [m^3]: mean of the largest tenth of its volumes."""
+        values = np.sort(self.curves[name].values)
         return float(values[-max(1, values.size // 10) :].mean())
 
 
@@ -196,16 +205,28 @@ VOLUME_DISCREPANCY, PRESSURE_DISCREPANCY = 0.017, 500.0
 """Discrepancy of a wrong model, over the end-diastolic volume and [Pa]."""
 
 
+BALANCE = "stroke_balance"
+"""Volume that a beat takes out of the left atrium less that which it adds to the pulmonary artery [m^3]."""
+BALANCE_SD = 0.02
+"""Standard deviation of the balance over the end-diastolic volume: bronchial veins carry 1 % of the output, and a beat
+differs from the next."""
+
+
 def search_data(recording: Recording) -> Data:
-    """Data of the search: one block for each curve that a left ventricle explains."""
+    """Data of the search: one block for each searched curve, and one number for balanced sides."""
     kept = {name: _average(recording, name) for name in recording.searched}
-    blocks = tuple(_block(recording, name, samples.times) for name, samples in kept.items())
-    return Data(np.concatenate([samples.values for samples in kept.values()]), blocks)
+    blocks = [_block(recording, name, samples.times) for name, samples in kept.items()]
+    values = [samples.values for samples in kept.values()]
+    if recording.balanced:
+        sd = BALANCE_SD * recording.end_diastolic_volume()
+        blocks.append(Block(BALANCE, "m^3", np.zeros(1), recording.period, Noise((sd,), 0.0, 0.0, 0.0)))
+        values.append(np.zeros(1))
+    return Data(np.concatenate(values), tuple(blocks))
 
 
 def _average(recording: Recording, name: str) -> Samples:
     samples = recording.curves[name]
-    if name == "lv_volume" or not _needs_averaging(samples, recording.period):
+    if name.endswith("_volume") or not _needs_averaging(samples, recording.period):
         return samples
     return averaged_by_phase(samples, recording.period, BIN)
 
@@ -230,8 +251,8 @@ def _needs_averaging(samples: Samples, period: float) -> bool:
 
 
 def _block(recording: Recording, name: str, times: Floats) -> Block:
-    if name == "lv_volume":
-        size = recording.end_diastolic_volume()
+    if name.endswith("_volume"):
+        size = recording.end_diastolic_volume(name)
         levels, memory = tuple(size * level for level in VOLUME_LEVELS), VOLUME_MEMORY
         if name in recording.noise:
             levels, memory = (recording.noise[name].deviation,), recording.noise[name].memory

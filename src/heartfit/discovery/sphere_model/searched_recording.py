@@ -18,14 +18,10 @@ from heartfit.discovery.sphere_model.forward_model import (
     candidates,
     hypothesis,
 )
-from heartfit.discovery.sphere_model.nominal_heart import (
-    FREE_PARAMETERS,
-    TIME_SHIFT_INDEX,
-    FreeParameter,
-    NominalHeart,
-)
+from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS, TIME_SHIFT_INDEX, FreeParameter
+from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
 from heartfit.discovery.sphere_model.problem import DiscrepancyPrior, SphereProblem
-from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.recording import BALANCE, Recording
 from heartfit.observation.beat import BeatPhases, beat_curves
 
 
@@ -34,7 +30,11 @@ def traces(findings: Findings, explained: Explanation, data: Data) -> tuple[Trac
     baseline, best = findings.survey.baseline.fit, explained.fit
     levels, scale = Whitening.from_data(data).most_probable_levels(data.values - best.predicted)
     noise = np.sqrt(np.diag(data.noise_covariance(levels)))
-    parts = zip(data.blocks, data.rows, findings.baseline_discrepancy, strict=True)
+    parts = [
+        part
+        for part in zip(data.blocks, data.rows, findings.baseline_discrepancy, strict=True)
+        if part[0].curve != BALANCE
+    ]
     return tuple(
         Trace(
             block.curve,
@@ -193,7 +193,7 @@ class SearchedRecording:
         pairs = zip(posterior.mean, np.sqrt(np.diag(posterior.covariance)), strict=True)
         clear = [
             (abs(mean) / sd, _change(parameter, mean, sd))
-            for parameter, (mean, sd) in zip(FREE_PARAMETERS, pairs, strict=False)
+            for parameter, (mean, sd) in zip(self.model.nominal.free, pairs, strict=False)
             if parameter is not FREE_PARAMETERS[TIME_SHIFT_INDEX] and abs(mean) > CLEAR_DEVIATIONS * sd
         ]
         return tuple(change for _, change in sorted(clear, key=lambda entry: -entry[0]))

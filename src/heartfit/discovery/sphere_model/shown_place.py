@@ -13,7 +13,7 @@ from heartfit.discovery.sphere_model.cause import (
     RankedLaw,
 )
 from heartfit.discovery.sphere_model.law_ranking import FittedLaw, FunctionPosterior
-from heartfit.discovery.sphere_model.place_search import BASE, FittedPlace, PlaceSearch
+from heartfit.discovery.sphere_model.place_search import FittedPlace, PlaceSearch
 from heartfit.heart.beat import Beat
 from heartfit.heart.heart import Heart
 from heartfit.places.laws import TIME_FORMS, LawState, laws_of
@@ -43,7 +43,9 @@ class ShownPlace:
         fitted = place if place.kind is kind else _function_of_time(search, place, kind)
         posterior, period = fitted.explanation.posterior, search.period
         heart, state = _simulated(search, fitted, kind)
-        function = FunctionPosterior(kind, posterior.mean[BASE:], posterior.covariance[BASE:, BASE:], period)
+        function = FunctionPosterior(
+            kind, posterior.mean[search.base :], posterior.covariance[search.base :, search.base :], period
+        )
         return cls(
             place,
             kind,
@@ -105,13 +107,13 @@ def _function_of_time(search: PlaceSearch, place: FittedPlace, kind: type[Functi
     """Return the function of time fitted beside a place, from what the laws of the place make where it has some."""
     z, fitted = _coefficients(search, place, kind), None
     if z is not None:
-        fitted = search.fitted_from(kind, np.concatenate([place.explanation.fit.x[:BASE], z]))
+        fitted = search.fitted_from(kind, np.concatenate([place.explanation.fit.x[: search.base], z]))
     return fitted or search.fitted_beside(kind, place)
 
 
 def _coefficients(search: PlaceSearch, place: FittedPlace, kind: type[FunctionOfTime]) -> Floats | None:
     """Return the coefficients of the function that the laws of a place make in its beat; None without laws."""
-    sizes = place.kind.from_standardised(place.explanation.fit.x[BASE:], search.period).sizes()
+    sizes = place.kind.from_standardised(place.explanation.fit.x[search.base :], search.period).sizes()
     if not sizes:
         return None
     _, state = _simulated(search, place, kind)
@@ -123,7 +125,9 @@ def _coefficients(search: PlaceSearch, place: FittedPlace, kind: type[FunctionOf
 def _simulated(search: PlaceSearch, place: FittedPlace, kind: type[FunctionOfTime]) -> tuple[Heart, LawState]:
     """Return the heart with a fitted place, and the state of its beat at the times of a function of ``kind``."""
     x, period = place.explanation.fit.x, search.period
-    simulated = search.model.simulate(x[:BASE], (place.kind.from_standardised(x[BASE:], period),))
+    simulated = search.model.simulate(
+        x[: search.base], (place.kind.from_standardised(x[search.base :], period),)
+    )
     if simulated is None:
         raise ValueError(f"{place.kind.__name__}: the fitted beat fails")
     heart, beat = simulated

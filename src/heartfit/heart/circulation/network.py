@@ -16,7 +16,15 @@ from heartfit.core.arrays import Floats
 from heartfit.core.parameter import parameter
 from heartfit.heart.circulation.atria import chamber_table, drain_arteries, end_atrium, sides_filling_veins
 from heartfit.heart.circulation.elements import PULMONARY, LinearValve, Valve, Windkessel, WindkesselState
-from heartfit.roles import COMPARTMENTS, Contraction, Dynamics, Flow, Mechanism, Narrowing, Pressure
+from heartfit.roles import (
+    COMPARTMENTS,
+    Contraction,
+    Dynamics,
+    Flow,
+    Mechanism,
+    Narrowing,
+    Pressure,
+)
 from heartfit.roles.chamber import (
     ACTIVE,
     OUTSIDE,
@@ -39,15 +47,10 @@ from heartfit.roles.laws import (
     Leaflets,
     advance_branch,
 )
+from heartfit.roles.sides import VALVES, compartments_of
 
 ATRIOVENTRICULAR, ARTERIAL = LinearValve(open=4e-6), LinearValve(open=5e-6)
 ARTERIES, ATRIA = COMPARTMENTS[2:4], COMPARTMENTS[4:]
-VALVES = {
-    "mitral": ("left_atrium", "lv"),
-    "aortic": ("lv", "aorta"),
-    "tricuspid": ("right_atrium", "rv"),
-    "pulmonary": ("rv", "pulmonary_artery"),
-}
 
 
 @dataclass(frozen=True)
@@ -120,7 +123,7 @@ class Network:
     """
 
     def __init__(self, circulation: Circulation, mechanisms: Sequence[Mechanism], sides: int = 2) -> None:
-        present = {name for i, name in enumerate(COMPARTMENTS) if i % 2 < sides}
+        present = compartments_of(sides)
         valves = {
             name: getattr(circulation, name).law() for name, ends in VALVES.items() if present >= {*ends}
         }

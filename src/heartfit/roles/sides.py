@@ -1,0 +1,44 @@
+"""Sides of the heart: their compartments and valves, what acts in them, and the blood that a beat moves."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.roles.interfaces import COMPARTMENTS, Amendment, Dynamics, Flow, Mechanism, Narrowing
+
+VALVES = {
+    "mitral": ("left_atrium", "lv"),
+    "aortic": ("lv", "aorta"),
+    "tricuspid": ("right_atrium", "rv"),
+    "pulmonary": ("rv", "pulmonary_artery"),
+}
+
+
+def acts_within(kind: type[Mechanism], sides: int) -> bool:
+    """True if a kind of mechanism acts in a heart of so many sides: with one, nothing of the right heart does."""
+    if issubclass(kind, Flow):
+        return compartments_of(sides) >= {kind.upstream, kind.downstream}
+    if issubclass(kind, (Narrowing, Dynamics)):
+        return compartments_of(sides) >= {*VALVES[kind.valve]}
+    return sides == 2 or not (issubclass(kind, Amendment) and kind.amends.startswith("right."))
+
+
+def net_inflow(flows: Mapping[str, Floats], mechanisms: Sequence[Mechanism]) -> dict[str, float]:
+    """Mean flow [m^3/s] into every compartment through valves and leaks, by name.
+
+    flows: of the branches (t,) [m^3/s] at equidistant times of a period, whose ends agree.
+    """
+    leaks = {type(m).__name__: (m.upstream, m.downstream) for m in mechanisms if isinstance(m, Flow)}
+    inflow = dict.fromkeys(COMPARTMENTS, 0.0)
+    for name, flow in flows.items():
+        upstream, downstream = (VALVES | leaks)[name]
+        mean = float(np.mean(flow[1:]))
+        inflow[upstream] -= mean
+        inflow[downstream] += mean
+    return inflow
+
+
+def compartments_of(sides: int) -> set[str]:
+    """Compartments of the left heart, or of both sides."""
+    return {name for i, name in enumerate(COMPARTMENTS) if i % 2 < sides}
