@@ -1,4 +1,4 @@
-"""Places at which the residual of the measured heart acts, before and after its filling was extended.
+"""Places at which the residual of the measured heart acts, before and after its filling was extended, and its strokes.
 
 python -m benchmarks.measured_places RESULTS   RESULTS: results/measured_heart of config/measured_heart.yaml, of which
 the blood volume and the beat of the central sigma point are read; a minute
@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from benchmarks.filling_hearts import extended
 from benchmarks.measured_table import store_table
@@ -23,6 +24,7 @@ from heartfit.discovery.sphere_model.recentred import fit_nominal_heart
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.searched_recording import VOLUME_ONLY_THRESHOLD
 from heartfit.discovery.sphere_model.shown_place import ShownPlace
+from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.io.beats import read_beat
 from heartfit.io.configuration import read_cases, read_study
 from heartfit.io.refits import read_measured_case
@@ -56,9 +58,29 @@ def main(arguments: list[str]) -> int:
     }
     made_by = "benchmarks.measured_places results/measured_heart"
     store_table("measured_heart_places", residual_table(hearts), made_by)
+    store_table("measured_heart_strokes", strokes_table(recording), made_by)
     figure = plot_residual_places(hearts, VOLUME_ONLY_THRESHOLD)
     write_figure(ROOT / "docs" / "figures" / "measured_heart_places.png", figure)
     return 0
+
+
+def strokes_table(recording: Recording) -> pd.DataFrame:
+    """Return what both ventricles eject and the error of the difference [mL], as single values of a page."""
+    strokes = Strokes.from_recording(recording)
+    if strokes is None:
+        raise InputError("the recording has no right volume")
+    values = {
+        "left": strokes.left,
+        "right": strokes.right,
+        "sd": strokes.sd,
+        "difference": strokes.difference,
+    }
+    return pd.DataFrame(
+        [
+            {"quantity": name, "value": f"{1e6 * value:.2f}", "unit": "mL", "number": "", "commit": ""}
+            for name, value in values.items()
+        ]
+    )
 
 
 def centred(beat_file: Path) -> NominalHeart:
@@ -88,7 +110,9 @@ def fitted_heart(
     explained = FitContext(problem.data).explain(with_named, with_named.at(1.0))
     if explained is None:
         raise InputError(f"the heart with {named} does not beat")
-    sizes = np.split(explained.fit.x[len(problem.model.base) :], np.cumsum([len(one.unknowns) for one in chosen])[:-1])
+    sizes = np.split(
+        explained.fit.x[len(problem.model.base) :], np.cumsum([len(one.unknowns) for one in chosen])[:-1]
+    )
     return extended(heart, [one.at(x) for one, x in zip(chosen, sizes, strict=True)])
 
 
