@@ -35,7 +35,7 @@ from heartfit.discovery.sphere_model.forward_model import (
     hypothesis,
 )
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, NominalHeart
-from heartfit.discovery.sphere_model.recording import Recording, Samples, search_data
+from heartfit.discovery.sphere_model.recording import BALANCE, Recording, Samples, search_data
 
 SIZES = (1.0, 2.0, 3.0, 4.0)
 """Amplitudes [scales of the mechanism]."""
@@ -137,7 +137,11 @@ class Option:
 OPTIONS = (
     Option("the flow through the mitral valve", 1.0, curves=("mitral_flow",)),
     Option("the flow through the aortic valve", 1.0, curves=("aortic_flow",)),
-    Option("the same curves with the legs raised", 2.0, {"circulation.left_atrium": 1.3}),
+    Option(
+        "the same curves with the legs raised",
+        2.0,
+        {"circulation.left_atrium": 1.3, "circulation.right_atrium": 1.3},
+    ),
     Option("the same curves while a hand is squeezed", 2.0, {"circulation.systemic.R_p": 1.25}),
     Option("the pressure of the aorta", 3.0, curves=("aorta_pressure",)),
 )
@@ -172,7 +176,8 @@ def _measurement(
     changed = {path: factor * nominal.values[path] for path, factor in option.load.items()}
     loaded = replace(nominal, heart=nominal.heart.with_parameters(changed))
     period = nominal.heart.period
-    blocks = tuple(_block(name, period) for name in option.curves) or data.blocks
+    recorded = tuple(block for block in data.blocks if block.curve != BALANCE)
+    blocks = tuple(_block(name, period) for name in option.curves) or recorded
 
     def forward(effects: tuple[str, ...]) -> Callable[[Floats], Floats | None]:
         model = SphereForwardModel.at_samples(loaded, blocks)
