@@ -50,3 +50,11 @@ def test_the_right_volume_is_shown_with_its_gain() -> None:
     assert shown.keys() == {"lv_volume", "lv_pressure", "rv_volume"}
     assert np.median(ratio) == pytest.approx(heart.gain, abs=0.01)
     assert abs(heart.gain - 1.0) > 0.02
+
+
+def test_a_right_catheter_measures_the_right_pressure() -> None:
+    heart, rng = drawn(0), np.random.default_rng(5)
+    shown = heart.measure(RecordingProtocol(28, 0.001, catheter=0.1), rng, right_catheter=True)["rv_pressure"]
+    true = beat_curves(heart.beat())["rv_pressure"]
+    assert shown.values == pytest.approx(true(shown.times), abs=250.0)
+    assert np.std(shown.values - true(shown.times)) < 80.0

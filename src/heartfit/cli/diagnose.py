@@ -65,7 +65,7 @@ def diagnose_arguments(command: argparse.ArgumentParser) -> None:
         "measured",
         type=Path,
         help="curves (.csv): time_s or time_ms, lv_volume_ml, and lv_pressure_kpa, aortic_pressure_kpa (or _mmhg), "
-        "rv_volume_ml if measured",
+        "rv_volume_ml, rv_pressure_kpa if measured",
     )
     pressure_arguments(command)
     command.add_argument(

@@ -23,6 +23,7 @@ CURVES = {
     "lv_pressure": "left ventricular pressure",
     "aorta_pressure": "aortic pressure",
     "rv_volume": "right ventricular volume",
+    "rv_pressure": "right ventricular pressure",
 }
 
 

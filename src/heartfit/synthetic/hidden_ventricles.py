@@ -31,6 +31,7 @@ from heartfit.synthetic.hidden import (
     RecordingProtocol,
     draw_hidden,
     measure_beat,
+    record_pressure,
     record_volume,
 )
 
@@ -54,6 +55,8 @@ RIGHT_SPREADS = {
 """Standard deviations of the logarithms of parameters of the right side."""
 WALL_SPREAD, GAIN, NOISE = 0.10, 0.07, 1.3
 """Standard deviations of the logarithms of the wall and of the gain of the right volume; its noise over the left's."""
+RIGHT_ROUGHNESS = 45.0
+"""Standard deviation of the model discrepancy of the right pressure [Pa]."""
 DELAY = (0.020, 0.005)
 """Mean and standard deviation of the delay of the right wall [s]."""
 SIZE_RATIO, MOST_RATIOS, SIZE_TOLERANCE = 1.3, 4, 1e-4
@@ -104,17 +107,26 @@ class HiddenVentricles:
         left = self.left
         return simulate_spheres(left.heart, [left.sphere, right], NUMERICS, left.activation, left.inertia)
 
-    def measure(self, protocol: RecordingProtocol, rng: np.random.Generator) -> dict[str, Curve]:
-        """Measure both volumes [m^3] and the left pressure [Pa] of its beat, time zero at the trigger."""
+    def measure(
+        self, protocol: RecordingProtocol, rng: np.random.Generator, right_catheter: bool = False
+    ) -> dict[str, Curve]:
+        """Measure both volumes [m^3] and the left pressure [Pa] of its beat, time zero at the trigger.
+
+        right_catheter: measure the right pressure, too.
+        """
         beat, sensors = self.beat(), self.left.heart.sensors
         curves: Mapping[str, Curve] = beat_curves(beat, sensors)
         right = curves["rv_volume"]
         shown = Curve(right.times, self.gain * right.values, right.period)
         worse = replace(protocol, noise=NOISE * protocol.noise)
-        return {
+        measured = {
             **measure_beat(beat, sensors, protocol, rng),
             "rv_volume": record_volume(shown, worse, rng),
         }
+        if right_catheter:
+            pressure = curves["rv_pressure"]
+            measured["rv_pressure"] = record_pressure(pressure, rng, protocol.catheter, RIGHT_ROUGHNESS)
+        return measured
 
 
 def draw_ventricles(rng: np.random.Generator) -> HiddenVentricles:

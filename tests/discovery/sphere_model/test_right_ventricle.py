@@ -24,6 +24,8 @@ FRAMES, SAMPLED = np.arange(28) * PERIOD / 28, np.arange(80) * PERIOD / 80
 TIMES = {"lv_volume": FRAMES, "lv_pressure": SAMPLED, "rv_volume": FRAMES, BALANCE: np.zeros(1)}
 CENTRE = np.zeros(len(FREE_PARAMETERS) + len(RIGHT_FREE_PARAMETERS))
 
+WITH_RIGHT_PRESSURE = 500.0 + 2e3 * np.sin(np.pi * SAMPLED / PERIOD) ** 2
+
 
 def curves(x: np.ndarray = CENTRE, *effects: Mechanism) -> dict[str, np.ndarray]:
     predicted = SphereForwardModel(WITH_RIGHT, TIMES).predict(x, effects)
@@ -84,6 +86,15 @@ def test_balanced_sides_are_data_of_the_searched_half_alone() -> None:
     assert balance.curve == BALANCE
     assert balance.noise.levels == (pytest.approx(BALANCE_SD * first.end_diastolic_volume()),)
     assert BALANCE not in {block.curve for block in search_data(second).blocks}
+
+
+def test_a_right_pressure_is_data_with_the_errors_of_a_smaller_one() -> None:
+    pressure = Samples(SAMPLED, WITH_RIGHT_PRESSURE)
+    both = replace(recording(), curves=recording().curves | {"rv_pressure": pressure})
+    blocks = {block.curve: block for block in search_data(both).blocks}
+    assert blocks["rv_pressure"].noise.levels == blocks["lv_pressure"].noise.levels
+    assert blocks["rv_pressure"].noise.roughness == pytest.approx(0.3 * blocks["lv_pressure"].noise.roughness)
+    assert "rv_pressure" not in Recording(PERIOD, both.curves).searched
 
 
 def test_without_a_left_pressure_the_right_volume_is_not_searched() -> None:

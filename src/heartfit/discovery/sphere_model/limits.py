@@ -27,7 +27,6 @@ from heartfit.discovery.inference.plan import (
     threshold_crossing,
 )
 from heartfit.discovery.sphere_model.forward_model import (
-    BASE_COORDINATES,
     NUMERICS,
     Candidate,
     SphereForwardModel,
@@ -41,6 +40,7 @@ SIZES = (1.0, 2.0, 3.0, 4.0)
 """Amplitudes [scales of the mechanism]."""
 FRAMES, RATE = 28, 1000.0
 """Frames of the volume per beat; sampling rate of the pressure [1/s]."""
+LEFT_CURVES = ("lv_volume", "lv_pressure")
 
 
 @dataclass(frozen=True)
@@ -67,13 +67,15 @@ def detection_limits(
     nominal: NominalHeart = ADULT,
     names: Sequence[str] = (),
     threshold: float = DEFAULT_RULES.detected,
+    curves: Sequence[str] = LEFT_CURVES,
 ) -> Iterator[DetectionLimit]:
-    """Detection limits of all mechanisms, or of those named, for both signs of a two-sided amplitude."""
-    planned = _PlannedRecording(nominal)
-    drawn = [
-        np.zeros(len(BASE_COORDINATES)),
-        *np.random.default_rng(0).standard_normal((hearts - 1, len(BASE_COORDINATES))),
-    ]
+    """Detection limits of all mechanisms, or of those named, for both signs of a two-sided amplitude.
+
+    curves: that are recorded; those of the right ventricle of a nominal heart that has one.
+    """
+    planned = _PlannedRecording(nominal, curves)
+    free = len(planned.model.base)
+    drawn = [np.zeros(free), *np.random.default_rng(0).standard_normal((hearts - 1, free))]
     for name, candidate in _select(planned.candidates, names).items():
         switch = candidate.unknowns[0]
         for sign in (1.0,) if switch.one_sided else (1.0, -1.0):
@@ -86,15 +88,15 @@ def detection_limits(
 
 def expected_evidence(name: str, scales: float) -> float:
     """Expected ln Bayes factor of a mechanism of a signed size [scales] in a recording of the average adult."""
-    planned = _PlannedRecording(ADULT)
-    return planned.log_bayes_factor(planned.candidates[name], scales, np.zeros(len(BASE_COORDINATES)))
+    planned = _PlannedRecording(ADULT, LEFT_CURVES)
+    return planned.log_bayes_factor(planned.candidates[name], scales, np.zeros(len(planned.model.base)))
 
 
 class _PlannedRecording:
     """The samples of a nominal heart that a search would see, one half of a recording, and what they would show."""
 
-    def __init__(self, nominal: NominalHeart) -> None:
-        self.blocks = search_data(_sample_recording(nominal).halves()[0]).blocks
+    def __init__(self, nominal: NominalHeart, curves: Sequence[str]) -> None:
+        self.blocks = search_data(_sample_recording(nominal, curves).halves()[0]).blocks
         self.model = SphereForwardModel.at_samples(nominal, self.blocks)
         self.candidates = candidates(self.model)
 
@@ -110,15 +112,14 @@ def _select(library: Mapping[str, Candidate], names: Sequence[str]) -> dict[str,
     return {name: candidate for name, candidate in library.items() if not names or name in names}
 
 
-def _sample_recording(nominal: NominalHeart) -> Recording:
-    """The nominal heart's beat, sampled as a study samples frames and catheter."""
+def _sample_recording(nominal: NominalHeart, curves: Sequence[str]) -> Recording:
+    """The nominal heart's beat, sampled as a study samples frames and catheters."""
     beat, period = nominal.beat(NUMERICS), nominal.heart.period
-    times = {
-        "lv_volume": np.arange(FRAMES) * period / FRAMES,
-        "lv_pressure": np.arange(int(period * RATE)) / RATE,
-    }
-    curves = {name: np.interp(at, beat.time, beat.signals()[name]) for name, at in times.items()}
-    return Recording(period, {name: Samples(times[name], values) for name, values in curves.items()})
+    frames, samples = np.arange(FRAMES) * period / FRAMES, np.arange(int(period * RATE)) / RATE
+    times = {name: frames if name.endswith("_volume") else samples for name in curves}
+    values = {name: np.interp(at, beat.time, beat.signals()[name]) for name, at in times.items()}
+    recording = Recording(period, {name: Samples(times[name], values[name]) for name in curves})
+    return recording if nominal.right is None else recording.with_both_ventricles()
 
 
 RECORD_PRESSURE = "the left ventricular pressure over a beat: the volume alone shows one in nine effects"

@@ -18,9 +18,11 @@ from heartfit.discovery.inference.data import Block, Data, Noise
 from heartfit.observation.curve import Curve, require_pressures, require_volumes
 from heartfit.observation.second_reading import FrameNoise
 
-KNOWN_CURVES = ("lv_volume", "lv_pressure", "aorta_pressure", "rv_volume")
+KNOWN_CURVES = ("lv_volume", "lv_pressure", "aorta_pressure", "rv_volume", "rv_pressure")
 """Curves that a recording may contain."""
-UNSEARCHED: Mapping[str, str] = {"rv_volume": "the sphere of the search has no right ventricle"}
+UNSEARCHED: Mapping[str, str] = dict.fromkeys(
+    ("rv_volume", "rv_pressure"), "the sphere of the search has no right ventricle"
+)
 """Curves that are kept but not searched unless both ventricles are, with the reason."""
 
 FEWEST_SAMPLES, SHORTEST_SPAN = 8, 0.7
@@ -154,7 +156,7 @@ class Recording:
         return replace(self, curves={**self.curves, "lv_pressure": Samples.from_curve(pressure)})
 
     def with_both_ventricles(self, balanced: bool = True) -> "Recording":
-        """Return the recording with its right volume searched, and with balanced sides; without one, as it is."""
+        """Return the recording with its right curves searched, and with balanced sides; without a volume, as it is."""
         if not {"lv_pressure", "rv_volume"} <= self.curves.keys():
             return self
         return replace(self, unsearched={}, balanced=balanced)
@@ -203,6 +205,8 @@ evidence of the baseline is e^2 times that with 150 Pa and 50 ms, and the larges
 falls from 7.4 to 3.9."""
 VOLUME_DISCREPANCY, PRESSURE_DISCREPANCY = 0.017, 500.0
 """Discrepancy of a wrong model, over the end-diastolic volume and [Pa]."""
+RIGHT_PRESSURE = 0.3
+"""Roughness and discrepancy of a right ventricular pressure over those of a left one, which is five times as large."""
 
 
 BALANCE = "stroke_balance"
@@ -260,5 +264,7 @@ def _block(recording: Recording, name: str, times: Floats) -> Block:
         return Block(name, "m^3", times, recording.period, noise)
     beats = max(1.0, np.ptp(recording.curves[name].times) / recording.period)
     levels = tuple(level / np.sqrt(beats) for level in PRESSURE_LEVELS)
-    noise = Noise(levels, 0.0, PRESSURE_ROUGHNESS, PRESSURE_DISCREPANCY, ROUGHNESS_MEMORY)
+    share = RIGHT_PRESSURE if name == "rv_pressure" else 1.0
+    roughness, discrepancy = share * PRESSURE_ROUGHNESS, share * PRESSURE_DISCREPANCY
+    noise = Noise(levels, 0.0, roughness, discrepancy, ROUGHNESS_MEMORY)
     return Block(name, "Pa", times, recording.period, noise)
