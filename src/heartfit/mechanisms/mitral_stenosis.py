@@ -2,20 +2,14 @@
 
 from dataclasses import dataclass
 
-from heartfit.core.parameter import parameter, require_admissible
-from heartfit.roles import Narrowing, mechanism
-from heartfit.roles.laws import BLOOD_DENSITY
-
-REFERENCE_FLOW = 2e-4
-"""Flow [m^3/s] at which the gradient is stated: the mean of a normal filling."""
+from heartfit.core.parameter import redeclared
+from heartfit.roles import Stenosis, mechanism
 
 
 @mechanism
 @dataclass(frozen=True)
-class MitralStenosis(Narrowing):
-    r"""Bernoulli's loss in series with the mitral valve, stated as the gradient G at a flow Q of 200 mL/s.
-
-    .. math:: \Delta p = \Delta p_{valve} + G (q/Q)^2, \qquad G = \tfrac12 \rho\, Q^2 / A^2
+class MitralStenosis(Stenosis):
+    """Loss in series with the mitral valve, stated at the mean flow of a normal filling; equations in ``Stenosis``.
 
     An effective orifice of A = 2 cm^2 (mild) has G = 0.5 kPa, one of 1.5 cm^2 (moderate from here) 0.94 kPa, one of
     1 cm^2 (severe from here) 2.1 kPa: two scales are moderate. The atrium keeps its pressure, so a ventricle
@@ -24,18 +18,12 @@ class MitralStenosis(Narrowing):
     """
 
     valve = "mitral"
-    gradient: float = parameter(
+    reference_flow = 2e-4
+    gradient: float = redeclared(
+        Stenosis,
+        "gradient",
         250.0,
-        unit="Pa",
         symbol="G_{mi}",
         meaning="pressure that the narrowing takes at 200 mL/s",
-        sd=0.5,
-        off=0.0,
         scale=500.0,
     )
-
-    def __post_init__(self) -> None:
-        require_admissible(self)
-
-    def inverse_square(self) -> float:
-        return 2.0 * self.gradient / (BLOOD_DENSITY * REFERENCE_FLOW**2)

@@ -2,20 +2,14 @@
 
 from dataclasses import dataclass
 
-from heartfit.core.parameter import parameter, require_admissible
-from heartfit.roles import Narrowing, mechanism
-from heartfit.roles.laws import BLOOD_DENSITY
-
-REFERENCE_FLOW = 2e-4
-"""Flow [m^3/s] at which the gradient is stated: the mean of a normal filling."""
+from heartfit.core.parameter import redeclared
+from heartfit.roles import Stenosis, mechanism
 
 
 @mechanism
 @dataclass(frozen=True)
-class TricuspidStenosis(Narrowing):
-    r"""Bernoulli's loss in series with the tricuspid valve, stated as the gradient G at a flow Q of 200 mL/s.
-
-    .. math:: \Delta p = \Delta p_{valve} + G (q/Q)^2, \qquad G = \tfrac12 \rho\, Q^2 / A^2
+class TricuspidStenosis(Stenosis):
+    """Loss in series with the tricuspid valve, stated at the mean flow of a normal filling; equations in ``Stenosis``.
 
     A mean gradient of 0.67 kPa (5 mmHg) is significant. The atrium keeps its pressure, so a ventricle that relaxes fast
     sucks; in a patient the atrial pressure rises instead.
@@ -23,18 +17,12 @@ class TricuspidStenosis(Narrowing):
     """
 
     valve = "tricuspid"
-    gradient: float = parameter(
+    reference_flow = 2e-4
+    gradient: float = redeclared(
+        Stenosis,
+        "gradient",
         250.0,
-        unit="Pa",
         symbol="G_{tri}",
         meaning="pressure that the narrowing takes at 200 mL/s",
-        sd=0.5,
-        off=0.0,
         scale=250.0,
     )
-
-    def __post_init__(self) -> None:
-        require_admissible(self)
-
-    def inverse_square(self) -> float:
-        return 2.0 * self.gradient / (BLOOD_DENSITY * REFERENCE_FLOW**2)

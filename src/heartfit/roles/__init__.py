@@ -25,6 +25,8 @@ from heartfit.roles.interfaces import (
     Stress,
 )
 from heartfit.roles.registry import ROLES, mechanism, registered, require_registered
+from heartfit.roles.regurgitation import Regurgitation
+from heartfit.roles.stenosis import Stenosis
 from heartfit.roles.valve_dynamics import ValveDynamics
 
 __all__ = [
@@ -43,8 +45,10 @@ __all__ = [
     "Mechanism",
     "Narrowing",
     "Pressure",
+    "Regurgitation",
     "Relaxation",
     "Sensor",
+    "Stenosis",
     "Stress",
     "ValveDynamics",
     "mechanism",
