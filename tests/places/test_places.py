@@ -41,6 +41,7 @@ from heartfit.places.place import AMPLITUDES
 from heartfit.roles import Mechanism, registered
 from heartfit.roles.laws import Load
 from heartfit.roles.sides import acts_within
+from heartfit.synthetic.out_of_library import SeptalDefect
 
 PERIOD = ADULT.heart.period
 TIMES = np.arange(400) * PERIOD / 400
@@ -146,6 +147,7 @@ def test_every_mechanism_of_the_left_heart_has_a_region() -> None:
         "RightAtrium"
     }
     assert {"TricuspidRegurgitation", "PulmonaryStenosis", "LateRightWall"} < without
+    assert regions_of(SeptalDefect) == {"leak"}, "it leaves the left ventricle"
 
 
 @pytest.mark.parametrize(

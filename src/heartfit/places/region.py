@@ -16,7 +16,6 @@ from heartfit.roles import (
     Sensor,
     Stress,
 )
-from heartfit.roles.sides import acts_within
 
 MUSCLE = (Amendment, Attachment, Availability, Delay, Relaxation)
 WALL = (External, Stress)
@@ -25,7 +24,7 @@ MEASURED: dict[str, Region] = {"lv_volume": "images", "lv_pressure": "catheter"}
 
 def regions_of(kind: type[Mechanism]) -> frozenset[Region]:
     """Return the regions on which a mechanism acts: two for a sensor of two curves, none for the right heart."""
-    if not acts_within(kind, 1):
+    if issubclass(kind, Amendment) and kind.amends.startswith("right."):
         return frozenset()
     if issubclass(kind, Amendment) and kind.amends.startswith("passive"):
         return frozenset({"wall"})
