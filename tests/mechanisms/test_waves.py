@@ -10,7 +10,7 @@ from heartfit.heart.heart import Heart
 from heartfit.heart.sphere.body import Sphere
 from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.mechanisms.aortic_regurgitation import AorticRegurgitation
-from heartfit.mechanisms.aortic_stenosis import REFERENCE_FLOW, AorticStenosis
+from heartfit.mechanisms.aortic_stenosis import AorticStenosis
 from heartfit.mechanisms.arterial_reflection import ArterialReflection
 from heartfit.mechanisms.atrial_surge import AtrialSurge
 from heartfit.mechanisms.base_descent import BaseDescent
@@ -68,7 +68,9 @@ def test_a_stenotic_valve_has_the_stated_gradient(human: Heart) -> None:
     healthy, tight = beat(human), beat(human, AorticStenosis(gradient=8e3))
     q = tight.beat.flow["aortic"][tight.systole]
     conductance = human.circulation.aortic.law().conductance
-    assert tight.gradient * 1e3 == pytest.approx(8e3 * (q / REFERENCE_FLOW) ** 2 + q / conductance, rel=1e-6)
+    assert tight.gradient * 1e3 == pytest.approx(
+        8e3 * (q / AorticStenosis.reference_flow) ** 2 + q / conductance, rel=1e-6
+    )
     assert tight.pressure.max() > 1.2 * healthy.pressure.max()
     assert tight.beat.flow["aortic"].max() < 0.8 * healthy.beat.flow["aortic"].max()
     assert tight.beat.flow["aortic"].argmax() > healthy.beat.flow["aortic"].argmax()

@@ -88,14 +88,17 @@ def record_volume(true: Curve, protocol: RecordingProtocol, rng: np.random.Gener
 
 
 def record_pressure(
-    true: Curve, rng: np.random.Generator, noise: float = 1.0, roughness: float = PRESSURE_ROUGHNESS
+    true: Curve, rng: np.random.Generator, noise: float = 1.0, roughness: float = 1.0
 ) -> Curve:
-    """Record with a catheter: averages over 10 ms, discrepancy [Pa], and ``noise`` of a sample over PRESSURE_NOISE."""
+    """Record with a catheter: averages over 10 ms, with discrepancy and noise.
+
+    noise: of a sample over PRESSURE_NOISE; roughness: of the discrepancy over PRESSURE_ROUGHNESS.
+    """
     count = int(true.period * RATE) // AVERAGED
     times = np.arange(count * AVERAGED) / RATE
     samples = true(times) + noise * PRESSURE_NOISE * rng.standard_normal(len(times))
     middles, means = (array.reshape(count, AVERAGED).mean(axis=1) for array in (times, samples))
-    discrepancy = roughness * smooth_process(middles, true.period, ROUGHNESS_LENGTH, rng)
+    discrepancy = roughness * PRESSURE_ROUGHNESS * smooth_process(middles, true.period, ROUGHNESS_LENGTH, rng)
     return Curve(middles, means + discrepancy, true.period)
 
 

@@ -55,8 +55,8 @@ RIGHT_SPREADS = {
 """Standard deviations of the logarithms of parameters of the right side."""
 WALL_SPREAD, GAIN, NOISE = 0.10, 0.07, 1.3
 """Standard deviations of the logarithms of the wall and of the gain of the right volume; its noise over the left's."""
-RIGHT_ROUGHNESS = 45.0
-"""Standard deviation of the model discrepancy of the right pressure [Pa]."""
+RIGHT_ROUGHNESS = 0.3
+"""Model discrepancy of the right pressure over that of the left one."""
 DELAY = (0.020, 0.005)
 """Mean and standard deviation of the delay of the right wall [s]."""
 SIZE_RATIO, MOST_RATIOS, SIZE_TOLERANCE = 1.3, 4, 1e-4
