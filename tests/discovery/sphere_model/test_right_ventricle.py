@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model import forward_model
-from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.forward_model import NUMERICS, SphereForwardModel, hypothesis
 from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS, RIGHT_FREE_PARAMETERS
+from heartfit.discovery.sphere_model.limits import LEFT_CURVES, SIZES, detection_limits
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, WITH_RIGHT
 from heartfit.discovery.sphere_model.problem import SphereProblem
 from heartfit.discovery.sphere_model.recording import BALANCE, BALANCE_SD, Recording, Samples, search_data
@@ -16,8 +15,6 @@ from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.tricuspid_regurgitation import TricuspidRegurgitation
 from heartfit.roles import Mechanism
 from heartfit.roles.sides import net_inflow
-from heartfit.synthetic.hidden import RecordingProtocol
-from heartfit.synthetic.hidden_ventricles import draw_ventricles
 
 PERIOD = WITH_RIGHT.heart.period
 FRAMES, SAMPLED = np.arange(28) * PERIOD / 28, np.arange(80) * PERIOD / 80
@@ -127,18 +124,10 @@ def test_coordinates_of_a_place_or_a_mechanism_follow_those_of_both_sides() -> N
     )
 
 
-@pytest.mark.long
-def test_the_right_volume_adds_to_the_evidence_for_a_mild_mitral_regurgitation(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    few = {"MitralRegurgitation": MitralRegurgitation, "TricuspidRegurgitation": TricuspidRegurgitation}
-    monkeypatch.setattr(forward_model, "registered", lambda: few)
-    rng = np.random.default_rng(2)
-    heart = draw_ventricles(rng).with_effects([MitralRegurgitation(0.2e-4)])
-    measured = heart.measure(RecordingProtocol.draw(rng), rng)
+def test_a_right_volume_adds_to_the_evidence_expected_for_an_aortic_regurgitation() -> None:
     left, both = (
-        diagnose(Recording.from_curves({name: measured[name] for name in names})).ranking
-        for names in (("lv_volume", "lv_pressure"), ("lv_volume", "lv_pressure", "rv_volume"))
+        next(detection_limits(1, nominal, ("AorticRegurgitation",), curves=curves))
+        for nominal, curves in ((ADULT, LEFT_CURVES), (WITH_RIGHT, (*LEFT_CURVES, "rv_volume")))
     )
-    assert both["MitralRegurgitation"] > max(left["MitralRegurgitation"] + 3.0, 5.0)
-    assert both["TricuspidRegurgitation"] < 2.0
+    at_two = SIZES.index(2.0)
+    assert both.factors[at_two] > left.factors[at_two] + 5.0
