@@ -4,14 +4,12 @@ Hearts of two spheres in a closed circulation, on seeds that nothing else uses: 
 Prints a line per heart and stores docs/measured/right_ventricle*.tsv. Three quarters of an hour of two cores.
 """
 
-import sys
-from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-
 import numpy as np
 
+from benchmarks.in_turn import searched_in_turn, spread_evenly
 from benchmarks.measured_table import store_table
 from heartfit.discovery.sphere_model.diagnose import diagnose
+from heartfit.discovery.sphere_model.limits import LEFT_CURVES
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.observation.curve import Curve
 from heartfit.results.right_ventricle import (
@@ -25,9 +23,7 @@ from heartfit.synthetic.case import draw_admissible
 from heartfit.synthetic.hidden import RecordingProtocol
 from heartfit.synthetic.hidden_ventricles import draw_ventricles
 
-PROCESSES = 2
 SEED = 410000
-LEFT = ("lv_volume", "lv_pressure")
 SOUND_HEARTS, EACH = 16, 3
 EFFECTS = (
     ("MitralRegurgitation", 1.0),
@@ -42,33 +38,28 @@ EFFECTS = (
 """Hidden effects and their sizes [scales]."""
 
 
+Plan = tuple[int, str, float]
+"""Seed, effect, empty in a sound heart, and size of a heart."""
+
+
 def main() -> None:
     """Search all hearts and store the tables."""
-    searched: list[RightTrial] = []
-    with ProcessPoolExecutor(PROCESSES) as pool:
-        for trial in pool.map(search, *zip(*plans(), strict=True)):
-            searched.append(trial)
-            sys.stdout.write(f"{' | '.join(map(str, right_hearts_table([trial]).iloc[0]))}\n")
-            sys.stdout.flush()
-            store_table("right_ventricle_hearts", right_hearts_table(searched), "benchmarks.right_ventricle")
-            store_table("right_ventricle", right_table(searched), "benchmarks.right_ventricle")
+    for searched in searched_in_turn(search, plans(), right_hearts_table):
+        store_table("right_ventricle_hearts", right_hearts_table(searched), "benchmarks.right_ventricle")
+        store_table("right_ventricle", right_table(searched), "benchmarks.right_ventricle")
 
 
-def plans() -> Iterator[tuple[int, str, float]]:
-    """Yield seed, effect and size of every heart, by turns, so that a stopped run has some of each."""
-    order = [
-        ((place + 0.5) / number, effect, scales, place)
-        for effect, scales, number in (("", 0.0, SOUND_HEARTS), *((*effect, EACH) for effect in EFFECTS))
-        for place in range(number)
-    ]
-    for number, (_, effect, scales, _) in enumerate(sorted(order)):
-        yield SEED + number, effect, scales
+def plans() -> list[Plan]:
+    """Return the planned hearts."""
+    sound, ill = [("", 0.0)] * SOUND_HEARTS, [[effect] * EACH for effect in sorted(EFFECTS)]
+    return [(SEED + number, *effect) for number, effect in enumerate(spread_evenly([sound, *ill]))]
 
 
-def search(seed: int, effect: str, scales: float) -> RightTrial:
+def search(plan: Plan) -> RightTrial:
     """Diagnose a heart by its left ventricle, and by both."""
+    seed, effect, scales = plan
     curves = draw_admissible(seed, lambda rng, _: _curves(rng, effect, scales))
-    left = diagnose(Recording.from_curves({name: curves[name] for name in LEFT}))
+    left = diagnose(Recording.from_curves({name: curves[name] for name in LEFT_CURVES}))
     return RightTrial(seed, effect, scales, left, diagnose(Recording.from_curves(curves)))
 
 

@@ -5,13 +5,12 @@ docs/measured/right_ventricle_limits.tsv. Some minutes.
 """
 
 from benchmarks.measured_table import store_table
-from heartfit.discovery.sphere_model.limits import DetectionLimit, detection_limits
+from heartfit.discovery.sphere_model.limits import LEFT_CURVES, DetectionLimit, detection_limits
 from heartfit.discovery.sphere_model.nominal_heart import ADULT, WITH_RIGHT
 from heartfit.results.right_ventricle import right_limits_table
 
 HEARTS = 5
-LEFT = ("lv_volume", "lv_pressure")
-VOLUMES = (*LEFT, "rv_volume")
+VOLUMES = (*LEFT_CURVES, "rv_volume")
 BOTH_SIDES = ("MitralRegurgitation", "AorticRegurgitation", "MitralStenosis", "AorticStenosis")
 RIGHT_SIDE = (
     "TricuspidRegurgitation",
@@ -24,7 +23,7 @@ RIGHT_SIDE = (
 
 def main() -> None:
     """Compute and store the table."""
-    left = {limit.name: limit for limit in detection_limits(HEARTS, ADULT, BOTH_SIDES, curves=LEFT)}
+    left = {limit.name: limit for limit in detection_limits(HEARTS, ADULT, BOTH_SIDES, curves=LEFT_CURVES)}
     names = (*BOTH_SIDES, *RIGHT_SIDE)
     both, catheter = (
         {limit.name: limit for limit in detection_limits(HEARTS, WITH_RIGHT, names, curves=curves)}

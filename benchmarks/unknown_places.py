@@ -5,11 +5,10 @@ mechanisms whose entry is removed from it, and the same with the complete librar
 docs/measured/unknown_places*.tsv. An hour and a half of two cores.
 """
 
-import sys
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from benchmarks.in_turn import searched_in_turn, spread_evenly
 from benchmarks.measured_table import store_table
 from heartfit.discovery.sphere_model.diagnose import conclude
 from heartfit.discovery.sphere_model.recording import Recording
@@ -32,7 +31,6 @@ from heartfit.synthetic.campaign import Kind, PlantedPlan, plantable
 from heartfit.synthetic.case import RAISED, REST, plant
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 
-PROCESSES = 2
 SEED = 390000
 SOUND_HEARTS, SCALES, EACH = 100, (2.0, 3.0, 4.0), 4
 """Number of sound hearts; sizes of hidden effects, and hearts of each effect from outside the library."""
@@ -50,25 +48,12 @@ class Trial:
 
 def main() -> None:
     """Search all hearts and store the tables."""
-    for searched in searched_in_turn(search, trials()):
+    for searched in searched_in_turn(search, trials(), hearts_table):
         store(searched)
         if len(searched) == len(trials()):
             store_table(
                 "unknown_places_targets", targets_table(places_table(searched)), "benchmarks.unknown_places"
             )
-
-
-def searched_in_turn(
-    search_one: Callable[[Trial], PlaceTrial], planned: Sequence[Trial]
-) -> Iterator[list[PlaceTrial]]:
-    """Search hearts on all processes; print each, and yield all so far."""
-    searched: list[PlaceTrial] = []
-    with ProcessPoolExecutor(PROCESSES) as pool:
-        for one in pool.map(search_one, planned):
-            searched.append(one)
-            sys.stdout.write(f"{' | '.join(map(str, hearts_table([one]).iloc[0]))}\n")
-            sys.stdout.flush()
-            yield searched
 
 
 def trials() -> list[Trial]:
@@ -86,7 +71,7 @@ def trials() -> list[Trial]:
         )
     ]
     complete = _planned(COMPLETE, 700, "single", entries, COMPLETE_SCALES)
-    return _evenly([sound, *hidden, complete])
+    return spread_evenly([sound, *hidden, complete])
 
 
 def _planned(
@@ -101,12 +86,6 @@ def _planned(
         )
         for place, names in enumerate(effects)
     ]
-
-
-def _evenly(groups: Sequence[Sequence[Trial]]) -> list[Trial]:
-    """Return the trials of all groups, each spread evenly, so that a stopped run has the same share of each."""
-    order = [((place + 0.5) / len(group), trial) for group in groups for place, trial in enumerate(group)]
-    return [trial for _, trial in sorted(order, key=lambda entry: entry[0])]
 
 
 def search(trial: Trial) -> PlaceTrial:

@@ -7,8 +7,9 @@ one beat of the diagnoser's mesh. Stores docs/measured/unknown_places_3d*.tsv; a
 
 from functools import cache
 
+from benchmarks.in_turn import searched_in_turn
 from benchmarks.measured_table import store_table
-from benchmarks.unknown_places import Trial, searched_in_turn
+from benchmarks.unknown_places import Trial
 from benchmarks.ventricles import ROOT
 from heartfit.discovery.refit.model import Reference
 from heartfit.discovery.sphere_model.recording import Recording
@@ -32,7 +33,7 @@ LEFT_OUT = (
 
 def main() -> None:
     """Search all hearts and store the tables."""
-    for searched in searched_in_turn(search, trials()):
+    for searched in searched_in_turn(search, trials(), hearts_table):
         table = places_table(searched).drop(columns="helps with raised legs")
         store_table("unknown_places_3d", table, MODULE)
         store_table("unknown_places_3d_hearts", hearts_table(searched).drop(columns="library alone"), MODULE)

@@ -16,6 +16,7 @@ from heartfit.roles import (
     Sensor,
     Stress,
 )
+from heartfit.roles.sides import changes_right_wall
 
 MUSCLE = (Amendment, Attachment, Availability, Delay, Relaxation)
 WALL = (External, Stress)
@@ -24,7 +25,7 @@ MEASURED: dict[str, Region] = {"lv_volume": "images", "lv_pressure": "catheter"}
 
 def regions_of(kind: type[Mechanism]) -> frozenset[Region]:
     """Return the regions on which a mechanism acts: two for a sensor of two curves, none for the right heart."""
-    if issubclass(kind, Amendment) and kind.amends.startswith("right."):
+    if changes_right_wall(kind):
         return frozenset()
     if issubclass(kind, Amendment) and kind.amends.startswith("passive"):
         return frozenset({"wall"})

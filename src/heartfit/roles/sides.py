@@ -21,7 +21,12 @@ def acts_within(kind: type[Mechanism], sides: int) -> bool:
         return compartments_of(sides) >= {kind.upstream, kind.downstream}
     if issubclass(kind, (Narrowing, Dynamics)):
         return compartments_of(sides) >= {*VALVES[kind.valve]}
-    return sides == 2 or not (issubclass(kind, Amendment) and kind.amends.startswith("right."))
+    return sides == 2 or not changes_right_wall(kind)
+
+
+def changes_right_wall(kind: type[Mechanism]) -> bool:
+    """True if a kind of mechanism changes a constant of the right free wall."""
+    return issubclass(kind, Amendment) and kind.amends.startswith("right.")
 
 
 def net_inflow(flows: Mapping[str, Floats], mechanisms: Sequence[Mechanism]) -> dict[str, float]:
@@ -37,6 +42,12 @@ def net_inflow(flows: Mapping[str, Floats], mechanisms: Sequence[Mechanism]) -> 
         inflow[upstream] -= mean
         inflow[downstream] += mean
     return inflow
+
+
+def right_excess(flows: Mapping[str, Floats], mechanisms: Sequence[Mechanism]) -> float:
+    """Mean flow [m^3/s] that the right side pumps into the lung beyond what the left atrium loses."""
+    inflow = net_inflow(flows, mechanisms)
+    return inflow["pulmonary_artery"] + inflow["left_atrium"]
 
 
 def compartments_of(sides: int) -> set[str]:

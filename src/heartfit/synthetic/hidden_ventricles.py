@@ -21,7 +21,7 @@ from heartfit.heart.sphere.simulation import simulate_spheres
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
 from heartfit.roles import Mechanism
-from heartfit.roles.sides import net_inflow
+from heartfit.roles.sides import right_excess
 from heartfit.synthetic.campaign import Inadmissible
 from heartfit.synthetic.hidden import (
     NUMERICS,
@@ -99,8 +99,7 @@ class HiddenVentricles:
         beat = self._beat(size)
         if not beat.completed:
             raise Inadmissible("the ventricles do not beat")
-        inflow = net_inflow(beat.flow, self.left.heart.mechanisms)
-        return (inflow["pulmonary_artery"] + inflow["left_atrium"]) * beat.period
+        return right_excess(beat.flow, self.left.heart.mechanisms) * beat.period
 
     def _beat(self, size: float) -> Beat:
         right = Sphere.from_volumes(size * self.cavity, size * self.wall)

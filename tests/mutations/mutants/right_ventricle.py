@@ -16,12 +16,12 @@ RIGHT_VENTRICLE_MUTANTS = (
         ("a delay of the right wall acts on the left one", 'kind.amends.startswith("right.")', "False"),
     ),
     *changes(
-        "discovery/sphere_model/forward_model.py",
+        "roles/sides.py",
         RIGHT,
         (
             "what the lung receives is not balanced",
-            'gains["left_atrium"] + gains["pulmonary_artery"]',
-            'gains["left_atrium"] + gains["aorta"]',
+            'inflow["pulmonary_artery"] + inflow["left_atrium"]',
+            'inflow["aorta"] + inflow["left_atrium"]',
         ),
     ),
     *changes(
@@ -51,10 +51,6 @@ RIGHT_VENTRICLE_MUTANTS = (
     *changes(
         "synthetic/hidden_ventricles.py",
         HIDDEN,
-        (
-            "what leaks back counts as pumped",
-            'inflow["pulmonary_artery"] + inflow["left_atrium"]',
-            'inflow["pulmonary_artery"] - float(np.mean(beat.flow["mitral"]))',
-        ),
+        ("a rough size balances the sides", "xtol=SIZE_TOLERANCE", "xtol=0.3"),
     ),
 )

@@ -19,7 +19,7 @@ from heartfit.heart.beat import Beat
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics
 from heartfit.roles import Mechanism, Sensor, registered
-from heartfit.roles.sides import acts_within, net_inflow
+from heartfit.roles.sides import acts_within, right_excess
 
 NUMERICS = Numerics(time_step=5e-3, max_beats=30, drift=1e-5)
 """Finite differences need a limit cycle: at a drift of 1 % beats differ by 1 mL and 0.3 kPa from it, here by 0.1 mL and
@@ -88,8 +88,7 @@ def observe_curve(beat: Beat, heart: Heart, name: str, times: Floats) -> Floats:
     The balance of both sides is one number: in a closed circulation the left atrium loses what its veins bring.
     """
     if name == BALANCE:
-        gains = net_inflow(beat.flow, heart.mechanisms)
-        return np.array([-(gains["left_atrium"] + gains["pulmonary_artery"]) * beat.period])
+        return np.array([-right_excess(beat.flow, heart.mechanisms) * beat.period])
     start, values = beat.time[:-1] - heart.trigger, beat.signals()[name][:-1]
     for sensor in heart.sensors:
         if name in sensor.measures:
