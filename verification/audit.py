@@ -23,8 +23,8 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.heart.beat import Beat
-from heartfit.heart.circulation.coupling import HeartState
 from heartfit.heart.circulation.network import NetworkStep
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import BodyState, FiniteElementBody
 from heartfit.heart.finite_elements.elements import CONSISTENT_MASS, PROJECTION_DEFECT
 from heartfit.heart.finite_elements.kinematics import VOIGT, fibre_strain

@@ -12,7 +12,8 @@ from heartfit.core.arrays import Floats
 from heartfit.core.pages import table_row
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.beat import Beat
-from heartfit.heart.circulation.coupling import HeartState, Tolerances
+from heartfit.heart.circulation.coupling import Tolerances
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import FiniteElementBody
 from heartfit.heart.finite_elements.unloading import unload
 from heartfit.heart.heart import Heart

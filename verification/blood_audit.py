@@ -18,8 +18,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from heartfit.core.arrays import Floats
-from heartfit.heart.circulation.coupling import HeartState
 from heartfit.heart.circulation.network import Network
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.heart import Heart
 from heartfit.roles import COMPARTMENTS
 from heartfit.roles.laws import NO_LEAFLETS, instant_flow

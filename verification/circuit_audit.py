@@ -16,8 +16,8 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.heart.circulation.atria import chamber_table, sides_filling_veins, sides_with_volume
-from heartfit.heart.circulation.coupling import HeartState
 from heartfit.heart.circulation.network import Network, atrial_walls
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.heart import Heart
 from heartfit.roles.chamber import ACTIVE, DESCENT, RESISTANCE, UNSTRESSED, VENTRICLE
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.heart.circulation.coupling import HeartState
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.sphere.body import SphericalBody

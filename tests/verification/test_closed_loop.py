@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from heartfit.heart.beat import Beat
-from heartfit.heart.circulation.coupling import HeartState, Tolerances
+from heartfit.heart.circulation.coupling import Tolerances
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.mechanisms.left_atrium import LeftAtrium

@@ -20,9 +20,10 @@ from heartfit.heart.circulation.atria import (
     sides_filling_veins,
     sides_with_volume,
 )
-from heartfit.heart.circulation.coupling import Body, Coupling, HeartState, Tolerances
+from heartfit.heart.circulation.coupling import Body, Coupling, Tolerances
 from heartfit.heart.circulation.elements import Windkessel, WindkesselState
 from heartfit.heart.circulation.network import ATRIA, NetworkStep
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import StepFailed
 from heartfit.heart.finite_elements.unloading import inflate
 from heartfit.heart.heart import Heart

@@ -8,9 +8,10 @@ import pytest
 from heartfit.core.errors import InputError
 from heartfit.heart import simulation
 from heartfit.heart.circulation.atria import chamber_table
-from heartfit.heart.circulation.coupling import HeartState, Tolerances
+from heartfit.heart.circulation.coupling import Tolerances
 from heartfit.heart.circulation.elements import LinearValve, Windkessel
 from heartfit.heart.circulation.network import Circulation, atrial_walls
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, Recurrence, simulate

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from heartfit.core.arrays import Floats
-from heartfit.heart.circulation.coupling import Coupling, HeartState, Tolerances
+from heartfit.heart.circulation.coupling import Coupling, Tolerances
 from heartfit.heart.circulation.elements import LinearValve
 from heartfit.heart.circulation.enclosure import EnclosedBody, EnclosedStiffness, load_table
 from heartfit.heart.circulation.network import Circulation
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import FiniteElementBody
 from heartfit.heart.finite_elements.unloading import inflate
 from heartfit.heart.heart import Heart

@@ -84,6 +84,11 @@ ELEMENT_MUTANTS = (
             "update[start:end, :end] += np.dot(",
         ),
         ("no substitution downwards", "            x -= np.dot(gathered, coupling)\n", ""),
+        (
+            "no substitution downwards for many columns",
+            "            x -= np.dot(coupling.T, gathered)\n",
+            "",
+        ),
         ("scaled once only", "result[i, j] *= scale[i] * scale[j]", "result[i, j] *= scale[i]"),
     ),
     *changes(
@@ -95,5 +100,25 @@ ELEMENT_MUTANTS = (
             '0.0 * np.einsum("eai,ebj->eaibj", forces, slopes)',
         ),
         ("not pulled back", 'np.einsum("eaibk,ekj->eaibj", blocks[..., :3], F)', "blocks[..., :3]"),
+    ),
+    *changes(
+        "heart/tangent.py",
+        "tests/heart/test_tangent.py",
+        (
+            "Windkessels not shifted",
+            "        self.states[2:-2] = shifted\n",
+            "",
+        ),
+        ("limit cycle not continued", " + (last.signals - first.signals) @ weights", ""),
+    ),
+    *changes(
+        "heart/finite_elements/body.py",
+        "tests/heart/test_tangent.py",
+        ("increment of the fibres kept", "        increment += increment_slope * change\n", ""),
+    ),
+    *changes(
+        "heart/finite_elements/neighbours.py",
+        "tests/heart/test_tangent.py",
+        ("nodes displaced by the exchange", "    x[:, :3] += offset\n", ""),
     ),
 )

@@ -19,9 +19,9 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.heart.circulation.circuit import Circuit
-from heartfit.heart.circulation.elements import WindkesselState
 from heartfit.heart.circulation.enclosure import EnclosedBody
 from heartfit.heart.circulation.network import Circulation, NetworkStep
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import StepFailed
 from heartfit.heart.muscle.tissue import Tissue
 from heartfit.heart.time_step import Anderson, TimeStep
@@ -65,60 +65,6 @@ class Tolerances:
 
 
 @dataclass(frozen=True, eq=False)
-class HeartState:
-    """State of wall and circuit at one time; ``before`` is the state one step of length ``last`` [s] earlier.
-
-    ``pressures`` (n,) [Pa], 4 or 6 with atria, and ``volumes`` (2,) [m^3]; ``branches`` (2, k) are the flows [m^3/s]
-    and openings of the branches, None at rest; ``atria`` (2, 2) are volumes [m^3] of the atria and pressures [Pa] of
-    their veins, None without volumes; ``trend`` holds up to two velocities of x, the last one first.
-    """
-
-    body: Any
-    pressures: Floats
-    volumes: Floats
-    trees: tuple[WindkesselState, WindkesselState]
-    trend: tuple[Floats, ...] = ()
-    last: float | None = None
-    before: "HeartState | None" = None
-    branches: Floats | None = None
-    atria: Floats | None = None
-
-    def starting_values(self, step: TimeStep) -> tuple[Floats, tuple[WindkesselState, WindkesselState]]:
-        """Volumes and Windkessels at which the effective step starts."""
-        before = self.before or self
-        systemic, pulmonary = (
-            WindkesselState(step.starting_value(now.P_c, then.P_c), step.starting_value(now.q_L, then.q_L))
-            for now, then in zip(self.trees, before.trees, strict=True)
-        )
-        return step.starting_value(self.volumes, before.volumes), (systemic, pulmonary)
-
-    def starting_branches(self, step: TimeStep) -> Floats | None:
-        """Flows and openings (2, k) at which the effective step starts, openings between 0 and 1; None at rest."""
-        if self.branches is None:
-            return None
-        before = self.branches if self.before is None else self.before.branches
-        start = step.starting_value(self.branches, np.zeros_like(self.branches) if before is None else before)
-        start[1] = np.clip(start[1], 0.0, 1.0)
-        return start
-
-    def starting_atria(self, step: TimeStep) -> Floats | None:
-        """Volumes of the atria and pressures of their veins at which the effective step starts, if any."""
-        if self.atria is None:
-            return None
-        before = self.atria if self.before is None or self.before.atria is None else self.before.atria
-        return step.starting_value(self.atria, before)
-
-    def shift_pressures(self, shifts: Sequence[float]) -> "HeartState":
-        """State with the pressures of both Windkessels raised by ``shifts`` (2,) [Pa], now and one step before."""
-        systemic, pulmonary = (
-            replace(tree, P_c=tree.P_c + shift) for tree, shift in zip(self.trees, shifts, strict=True)
-        )
-        pressures = self.pressures + np.array([0.0, 0.0, *shifts, 0.0, 0.0])[: len(self.pressures)]
-        before = self.before and self.before.shift_pressures(shifts)
-        return replace(self, trees=(systemic, pulmonary), pressures=pressures, before=before)
-
-
-@dataclass(frozen=True, eq=False)
 class Iterate:
     """Trial state: unknowns, forces (N,), pressures (n,), volumes (2,) and their gradients (N, 2)."""
 
@@ -154,11 +100,12 @@ class CoupledStep:
             (weight * velocity_before for weight, velocity_before in weighted), np.zeros_like(state.body.x)
         )
         try:
-            return self._at(state.body.x + dt * velocity, state.pressures)
+            return self.at(state.body.x + dt * velocity, state.pressures)
         except StepFailed:
-            return self._at(state.body.x, state.pressures)
+            return self.at(state.body.x, state.pressures)
 
-    def _at(self, x: Floats, pressures: Floats) -> Iterate:
+    def at(self, x: Floats, pressures: Floats) -> Iterate:
+        """Iterate with the forces at ``x`` (n, dofs); raises StepFailed if an element collapses."""
         forces = self.step.forces(x)
         return Iterate(x, forces, pressures, self._body.volumes(x), self._body.volume_gradients(x))
 
@@ -173,9 +120,13 @@ class CoupledStep:
         limits = np.where(self._network.stores_blood, tolerances.volume, tolerances.pressure)
         return bool((np.abs(self.residuals(now)) < limits).all())
 
-    def pressures(self, now: Iterate, change: Floats, response: Floats) -> Floats:
-        """Pressures (n,) [Pa] that balance the circuit, with the body linearised about ``now`` plus ``change``."""
-        return self._circuit(now, change, response).solve()
+    def balance(self, now: Iterate, change: Floats, response: Floats) -> tuple[Floats, Floats]:
+        """Change (N,) of the unknowns and pressures (n,) [Pa] that balance the circuit, the body linearised at ``now``.
+
+        ``change`` (N,) is that at fixed pressures, ``response`` (N, 2) the one to the pressures of the ventricles.
+        """
+        pressures = self._circuit(now, change, response).solve()
+        return change + response @ (pressures - now.pressures)[:2], pressures
 
     def _circuit(self, now: Iterate, change: Floats, response: Floats) -> Circuit:
         linearised = now.volumes + now.gradients.T @ change
@@ -183,11 +134,18 @@ class CoupledStep:
         changes = linearised - self._volumes
         return Circuit(self._network, self._windkessels, changes, compliance, now.pressures, linearised)
 
+    def follow(self, now: Iterate, change: Floats, pressures: Floats) -> Iterate:
+        """Iterate after a small ``change`` (N,), to which the response of the wall is linear; its forces are those of
+        ``now``."""
+        x = now.x + change.reshape(now.x.shape)
+        self.step.follow(x)
+        return replace(now, x=x, pressures=pressures, volumes=self._body.volumes(x))
+
     def move(self, now: Iterate, change: Floats, pressures: Floats) -> Iterate:
         """Iterate after ``change``, which is halved until no element collapses."""
         for halving in range(NEWTON_HALVINGS):
             try:
-                return self._at(now.x + 0.5**halving * change.reshape(now.x.shape), pressures)
+                return self.at(now.x + 0.5**halving * change.reshape(now.x.shape), pressures)
             except StepFailed:
                 continue
         raise StepFailed("no admissible Newton step: elements collapse")
@@ -220,6 +178,28 @@ class Coupling:
 
     def advance(self, state: HeartState, step: TimeStep) -> HeartState:
         """State after ``step``; raises StepFailed if Newton's method does not converge."""
+        coupled, now = self._solve(state, step)
+        return coupled.commit(now)
+
+    def linearise(self, state: HeartState, step: TimeStep) -> "tuple[CoupledStep, Iterate, Any, Floats]":
+        """Equations of ``step`` at their solution, with the factorised tangent there and the response (N, 2) to it.
+
+        One more iteration, with this tangent, reduces the residual some hundredfold.
+        """
+        coupled, now = self._solve(state, step)
+        self._renew(coupled.step, now)
+        change, pressures = coupled.balance(now, -self._factor.solve(now.residual), self._response)
+        return coupled, coupled.move(now, change, pressures), self._factor, self._response
+
+    def _solve(self, state: HeartState, step: TimeStep) -> tuple[CoupledStep, Iterate]:
+        """Equations of ``step`` and the iterate at which they hold to the tolerances."""
+        if step.effective != self._length:
+            self._factor, self._length = None, step.effective
+        coupled = self.equations(state, step)
+        return coupled, self._newton(coupled)
+
+    def equations(self, state: HeartState, step: TimeStep) -> CoupledStep:
+        """Equations of ``step`` from ``state``."""
         equations = self.body.step(state.body, step)
         start = state.starting_branches(step)
         network = NetworkStep(
@@ -231,10 +211,7 @@ class Coupling:
             start,
             state.starting_atria(step),
         )
-        if step.effective != self._length:
-            self._factor, self._length = None, step.effective
-        coupled = CoupledStep(self.body, equations, network, step, state)
-        return coupled.commit(self._newton(coupled))
+        return CoupledStep(self.body, equations, network, step, state)
 
     def _newton(self, coupled: CoupledStep) -> Iterate:
         now, previous, renew = coupled.predict(), np.inf, False
@@ -260,9 +237,7 @@ class Coupling:
         self.factorisations += 1
 
     def _iterate(self, coupled: CoupledStep, now: Iterate, anderson: Anderson) -> Iterate:
-        change = -self._factor.solve(now.residual)
-        pressures = coupled.pressures(now, change, self._response)
-        change += self._response @ (pressures - now.pressures)[:2]
+        change, pressures = coupled.balance(now, -self._factor.solve(now.residual), self._response)
         mixed = anderson.mix(np.append(now.x, now.pressures), np.append(change, pressures - now.pressures))
         n = len(pressures)
         return coupled.move(now, mixed[:-n], now.pressures + mixed[-n:])

@@ -62,6 +62,14 @@ class EnclosedStep:
         """Internal forces plus those of the loads (N,)."""
         return self._step.forces(x) + self._body.volume_gradients(x) @ self._outside(x)[0]
 
+    @property
+    def wall(self) -> Any:
+        """The step of the wall without the loads."""
+        return self._step
+
+    def follow(self, x: Floats) -> None:
+        self._step.follow(x)
+
     def tangent(self, x: Floats) -> "EnclosedStiffness":
         gradients = self._body.volume_gradients(x)
         return EnclosedStiffness(

@@ -168,6 +168,24 @@ class Step:
         """F (m, 3, 3) and second Piola-Kirchhoff stress S (m, 6) [Pa] at the last evaluation of the forces."""
         return self._F, self._S
 
+    @property
+    def wall(self) -> "Step":
+        """The step without the loads around the wall: itself."""
+        return self
+
+    def start_near(self, other: "Step") -> None:
+        """Start the responses of the fibres from those of another step, of a wall that differs a little."""
+        self._fibre[2:] = other._fibre[2:]
+
+    def follow(self, x: Floats) -> None:
+        """Move to ``x`` near the last evaluation of the forces: the response of the fibres is extrapolated linearly."""
+        self._deform(x)
+        stress, stress_slope, increment, increment_slope, strain = self._fibre
+        change = self._e - strain
+        stress += stress_slope * change
+        increment += increment_slope * change
+        strain += change
+
     def _deform(self, x: Floats) -> None:
         body = self.body
         smallest = kinematics.deform(

@@ -82,11 +82,13 @@ class Factor:
         permutation = self._elimination.permutation
         solution = np.empty_like(right)
         with np.errstate(over="ignore"):
-            y = np.ascontiguousarray(right[permutation].T, dtype=np.float32)
-        arguments = (self._elimination.dofs, *self._elimination.shape, self._inverses, self._couplings)
-        for column in y.reshape(-1, len(right)):
-            _substitute(column, *arguments)
-        solution[permutation] = y.T
+            y = right[permutation].astype(np.float32)
+        arguments = (y, self._elimination.dofs, *self._elimination.shape, self._inverses, self._couplings)
+        if y.ndim == 1:
+            _substitute(*arguments)
+        else:
+            _substitute_columns(*arguments)
+        solution[permutation] = y
         return solution
 
 
@@ -218,4 +220,32 @@ def _substitute(y, dofs, starts, rows, row_starts, inverse_starts, coupling_star
                 for m in range(dofs):
                     gathered[dofs * i + m] = y[dofs * touched[i] + m]
             x -= np.dot(gathered, coupling)
+        y[a : a + c] = x
+
+
+@njit(cache=True)
+def _substitute_columns(  # type: ignore[no-untyped-def]
+    y, dofs, starts, rows, row_starts, inverse_starts, coupling_starts, inverses, couplings,
+):  # fmt: skip
+    """Solve in place for the columns of ``y`` (N, k): products of matrices load each factor once for all of them."""
+    fronts, columns = len(starts) - 1, y.shape[1]
+    for s in range(fronts):
+        touched = rows[row_starts[s] : row_starts[s + 1]]
+        a, c, r = dofs * starts[s], dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
+        if r:
+            coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
+            down = np.dot(coupling, y[a : a + c])
+            for i in range(len(touched)):
+                y[dofs * touched[i] : dofs * touched[i] + dofs] -= down[dofs * i : dofs * i + dofs]
+    for s in range(fronts - 1, -1, -1):
+        touched = rows[row_starts[s] : row_starts[s + 1]]
+        a, c, r = dofs * starts[s], dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
+        inverse = inverses[inverse_starts[s] : inverse_starts[s + 1]].reshape(c, c)
+        x = np.dot(inverse, y[a : a + c])
+        if r:
+            coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
+            gathered = np.empty((r, columns), dtype=np.float32)
+            for i in range(len(touched)):
+                gathered[dofs * i : dofs * i + dofs] = y[dofs * touched[i] : dofs * touched[i] + dofs]
+            x -= np.dot(coupling.T, gathered)
         y[a : a + c] = x

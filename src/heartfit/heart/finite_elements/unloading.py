@@ -18,6 +18,7 @@ contribution, and terms of the order of the strain in the equation of the wall p
 Source: Govindjee and Mihalic, Comput. Methods Appl. Mech. Eng. 136 (1996) 47 (inverse finite elastostatics).
 """
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -120,6 +121,9 @@ UNLOADING_HALVINGS = 5
 UNLOADING_FORCE_TOLERANCE = 2e-3
 """Residual force of the unloaded reference [N]."""
 
+NEIGHBOUR_ITERATIONS, NEIGHBOUR_TOLERANCE = 20, 1e-6
+"""Corrections of a neighbouring reference, and the residual force [N] that ends them."""
+
 
 def unload(mesh: VentricularMesh, tissue: Tissue, pressures: Floats) -> VentricularMesh:
     """Stress-free mesh whose relaxed equilibrium under ``pressures`` (2,) [Pa] is ``mesh``.
@@ -127,6 +131,25 @@ def unload(mesh: VentricularMesh, tissue: Tissue, pressures: Floats) -> Ventricu
     Fibres are pulled back, so that the inflated fibres are those of ``mesh``. The load is applied in increments, which
     are halved after a failure. Raises StepFailed if they fall below SMALLEST_INCREMENT.
     """
+    return _search_reference(mesh, tissue, pressures).reference
+
+
+def unload_neighbours(
+    mesh: VentricularMesh, tissue: Tissue, pressures: Floats, others: Sequence[tuple[Tissue, Floats]]
+) -> tuple[VentricularMesh, list[VentricularMesh]]:
+    """Stress-free mesh for ``tissue`` and ``pressures``, and those for ``others`` that differ a little from these.
+
+    Every neighbour is corrected with the one factorised tangent of the first mesh, so that their differences are exact
+    to NEIGHBOUR_TOLERANCE. Raises StepFailed as `unload` does, or if a correction does not converge.
+    """
+    search = _search_reference(mesh, tissue, pressures)
+    correct = search.corrector(pressures)
+    start = correct(search.unknowns, tissue, pressures)
+    return search.mesh_at(start), [search.mesh_at(correct(start, *other)) for other in others]
+
+
+def _search_reference(mesh: VentricularMesh, tissue: Tissue, pressures: Floats) -> "_ReferenceSearch":
+    """Search that has balanced the ``pressures``."""
     search, share, increment = _ReferenceSearch(mesh, tissue), 0.0, FIRST_INCREMENT
     while share < 1.0:
         following = min(share + increment, 1.0)
@@ -138,7 +161,7 @@ def unload(mesh: VentricularMesh, tissue: Tissue, pressures: Floats) -> Ventricu
             increment *= 0.5
         else:
             share = following
-    return search.reference
+    return search
 
 
 class _ReferenceSearch:
@@ -148,16 +171,16 @@ class _ReferenceSearch:
         self.loaded, self.reference, self.tissue = loaded, loaded, tissue
         body = FiniteElementBody(loaded, tissue)
         self._elimination = body.elimination
-        self._x = body.rest().x
+        self.unknowns = body.rest().x
 
     def balance(self, pressures: Floats) -> None:
         """Move the reference until it balances the cavity ``pressures`` (2,) [Pa]; on failure it stays unchanged."""
-        x, step, residual = self._x, *self._residual(self._x, pressures)
+        x, step, residual = self.unknowns, *self._residual(self.unknowns, pressures)
         anderson, previous, factor = Anderson(step.weights(x).ravel()), np.inf, None
         for _ in range(UNLOADING_ITERATIONS):
             size = step.size(residual)
             if size < UNLOADING_FORCE_TOLERANCE:
-                self._x, self.reference = x, step.body.reference
+                self.unknowns, self.reference = x, step.body.reference
                 return
             if factor is None or size > UNLOADING_CONTRACTION * previous:
                 factor = _tangent(step, x)
@@ -183,10 +206,31 @@ class _ReferenceSearch:
             f"{_failure_message(pressures)}: elements collapse, the wall is too soft for this pressure"
         )
 
-    def _residual(self, x: Floats, pressures: Floats) -> tuple[Step, Floats]:
+    def corrector(self, pressures: Floats) -> Callable[[Floats, Tissue, Floats], Floats]:
+        """Map from unknowns, a tissue and pressures (2,) [Pa] to the balanced unknowns, by the tangent found here."""
+        step, _ = self._residual(self.unknowns, pressures)
+        factor = _tangent(step, self.unknowns)
+
+        def correct(x: Floats, tissue: Tissue, loads: Floats) -> Floats:
+            for _ in range(NEIGHBOUR_ITERATIONS):
+                at_x, residual = self._residual(x, loads, tissue)
+                if at_x.size(residual) < NEIGHBOUR_TOLERANCE:
+                    return x
+                x = x - factor.solve(residual).reshape(x.shape)
+            raise StepFailed(
+                f"{_failure_message(loads)} near that of another tissue, residual {at_x.size(residual):.3g} N: "
+                "expected a smaller difference"
+            )
+
+        return correct
+
+    def mesh_at(self, x: Floats) -> VentricularMesh:
+        """Reference from which the displacements ``x`` lead to the loaded mesh."""
+        return _pull_back(self.loaded.with_points(self.loaded.points - x[:, :3]), self.loaded)
+
+    def _residual(self, x: Floats, pressures: Floats, tissue: Tissue | None = None) -> tuple[Step, Floats]:
         """Residual (N,) at the unknowns ``x``, whose displacements lead from the reference to the loaded mesh."""
-        reference = self.loaded.with_points(self.loaded.points - x[:, :3])
-        body = FiniteElementBody(_pull_back(reference, self.loaded), self.tissue, self._elimination)
+        body = FiniteElementBody(self.mesh_at(x), tissue or self.tissue, self._elimination)
         step = body.static_step(body.rest())
         return step, step.forces(x) - body.volume_gradients(x) @ pressures
 
