@@ -11,6 +11,8 @@ import time
 from dataclasses import dataclass
 from functools import cache
 
+import numpy as np
+
 from benchmarks.ventricles import FOLDER, ROOT
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.imaging.registration.track import track
@@ -24,17 +26,10 @@ from heartfit.synthetic.volunteer import Template, draw_anatomy, draw_heart, gen
 
 SEED = 640000
 """Seed of the first heart; nothing else uses it or the hundred after it."""
-SOUND = 22
-"""Number of sound hearts, the first ones."""
-EFFECTS: tuple[Mechanism, ...] = (
-    Scar(0.2, 1.05),
-    DelayedActivation(0.06),
-    Scar(0.25, 3.1),
-    DelayedActivation(0.09, 3.5, 0.4),
-    Scar(0.2, 5.2),
-    DelayedActivation(0.06, 1.5, 0.4),
-)
-"""Effects of the further hearts."""
+SOUND, AFFECTED = 24, 24
+"""Numbers of sound hearts, the first ones, and of hearts with an effect, by turns a scar and a late wall."""
+EXTENTS, LATENESSES, SHARES = (0.1, 0.3), (0.03, 0.1), (0.3, 0.6)
+"""Ranges of the extent of a scar [1], and of the lateness [s] and the share [1] of a late wall."""
 STEP, BEATS = 0.01, 2
 """Time step [s] and number of beats of a heart."""
 
@@ -55,7 +50,7 @@ class Sequence:
 
 
 def sequence(number: int) -> Sequence:
-    """Sequence of a number below SOUND + len(EFFECTS), made now if it is not on disk yet."""
+    """Sequence of a number below SOUND + AFFECTED, made now if it is not on disk yet."""
     path = FOLDER / "strain_noise" / f"{number}.pickle"
     if not path.exists():
         made_now = _acquire(number)
@@ -74,7 +69,7 @@ def _acquire(number: int) -> Sequence:
     protocol = error.model_copy(update={"numerics": numerics}).protocol(study.end_diastolic_pressure)
     anatomy = draw_anatomy(seed)
     heart, truth = draw_heart(study.cohort.heart, anatomy.period, seed)
-    effect = EFFECTS[number - SOUND] if number >= SOUND else None
+    effect = _effect(number)
     hidden = heart if effect is None else heart + effect
     volunteer = generate(template.deformed_to(anatomy.shape), (hidden, truth), protocol)
     images = image_beat(volunteer.mesh, volunteer.motion, study.scanner(), seed)
@@ -82,6 +77,17 @@ def _acquire(number: int) -> Sequence:
     true = volunteer.motion.resample(images.times)
     name = "" if effect is None else type(effect).__name__
     return Sequence(number, name, volunteer.mesh, true, registered, time.process_time() - begin)
+
+
+def _effect(number: int) -> Mechanism | None:
+    """Draw the effect of a heart, anywhere around the ventricle; a sound heart has none."""
+    rng = np.random.default_rng([SEED, number])
+    angle = float(rng.uniform(0.0, 2.0 * np.pi))
+    if number < SOUND:
+        return None
+    if number % 2 == 0:
+        return Scar(float(rng.uniform(*EXTENTS)), angle)
+    return DelayedActivation(float(rng.uniform(*LATENESSES)), angle, float(rng.uniform(*SHARES)))
 
 
 @cache
