@@ -1,40 +1,45 @@
-r"""Noise of curves that registration shrinks: gains and an error with memory, estimated from known truth.
+r"""Noise of curves that registration shrinks and mixes: gains and an error with memory, estimated from known truth.
 
-A registered curve of element s (a segment of the wall) at phase i of a sequence with the true curve e is modelled as
+A registered curve of element s (a segment of the wall) at phase i of a sequence with the true curves e is modelled as
 
-.. math:: y_{si} = (G + g + g_s)\, e_{si} + m_{si} - m_{s0}
+.. math:: y_{si} = (G + g)\, e_{si} + h_s\, p_{si} + m_{si} - m_{s0}
 
-with the mean gain G, a gain g ~ N(0, sd_g^2) of the sequence, gains g_s ~ N(0, sd_s^2) of the elements, and an error m
-of covariance :math:`s^2 e^{-|t_i - t_j| / \tau}`, independent between elements. Phase 0 is the reference of the curves
-and without error; late phases have twice the variance of m. With :math:`K_{ij} = \rho_{ij} - \rho_{i0} - \rho_{0j} + 1`
-and :math:`\rho_{ij} = e^{-|t_i - t_j| / \tau}` the covariance of all curves of a sequence is
+with the mean gain G, a gain :math:`g \sim N(0, \sigma_g^2)` of the sequence, gains :math:`h_s \sim N(0, \sigma_h^2)` of
+the elements, and an error m of covariance :math:`s^2 e^{-|t_i - t_j| / \tau}`, independent between elements. The gain of
+an element acts on a pattern p: its own curve :math:`e_s`, or the mean of all curves, as where a smooth displacement
+mixes the motion of an element with that of its neighbours; the error of an element that does not move by itself, such
+as a scar, then remains. Phase 0 is the reference of the curves and without error; late phases have twice the variance
+of m. With :math:`\rho_{ij} = e^{-|t_i - t_j| / \tau}` and :math:`K_{ij} = \rho_{ij} - \rho_{i0} - \rho_{0j} + 1` the
+covariance of all curves of a sequence is
 
-.. math:: \Sigma = sd_g^2\, e e^T + \mathrm{diag}_s(sd_s^2\, e_s e_s^T + s^2 K) .
+.. math:: \Sigma = \sigma_g^2\, e e^T + \mathrm{diag}_s(\sigma_h^2\, p_s p_s^T + s^2 K) .
 
-Estimates equate sums over the N sequences j with their expectations. The part of the residual :math:`d = y - G e` across
-the true curve is free of gains. With :math:`w_{js} = e_{js} \cdot e_{js}`, the projection
-:math:`P = 1 - e_{js} e_{js}^T / w_{js}` and steps :math:`\Delta` from phase to phase,
+Estimates equate sums over the N sequences j with their expectations. P projects across :math:`e_{js}` and
+:math:`p_{js}`, so that the projected residual :math:`d = y - G e` is free of gains; :math:`\Delta` are the steps from
+phase to phase:
 
 .. math::
-    G = \frac{\sum_{js} y_{js} \cdot e_{js}}{\sum_{js} w_{js}}, \quad
+    G = \frac{\sum_{js} y_{js} \cdot e_{js}}{\sum_{js} e_{js} \cdot e_{js}}, \quad
     \frac{\sum_{js} |\Delta P d_{js}|^2}{\sum_{js} |P d_{js}|^2} =
     \frac{\sum_{js} \mathrm{tr}\, \Delta P K P \Delta^T}{\sum_{js} \mathrm{tr}\, P K P}, \quad
     s^2 = \frac{\sum_{js} |P d_{js}|^2}{\sum_{js} \mathrm{tr}\, P K P} ,
 
-of which the second holds at one memory only. The part along the true curve has the gains,
+of which the second holds at one memory only. The residual along the patterns has the gains,
 
 .. math::
-    A = \frac{N}{N - 1} \sum_j \Bigl(\sum_s d_{js} \cdot e_{js}\Bigr)^2, \quad
-    B = \sum_{js} (d_{js} \cdot e_{js})^2, \quad
-    sd_g^2 = \frac{A - B}{\sum_j ((\sum_s w_{js})^2 - \sum_s w_{js}^2)}, \quad
-    sd_g^2 + sd_s^2 = \frac{B - s^2 \sum_{js} e_{js}^T K e_{js}}{\sum_{js} w_{js}^2} ,
+    A &= \frac{N}{N - 1} \sum_j \Bigl(\sum_s d_{js} \cdot p_{js}\Bigr)^2, \quad
+    B = \sum_{js} (d_{js} \cdot p_{js})^2, \quad c_{js} = e_{js} \cdot p_{js}, \\
+    \sigma_g^2 &= \frac{A - B}{\sum_j ((\sum_s c_{js})^2 - \sum_s c_{js}^2)}, \quad
+    \sigma_h^2 = \frac{B - s^2 \sum_{js} p_{js}^T K p_{js} - \sigma_g^2 \sum_{js} c_{js}^2}
+    {\sum_{js} (p_{js} \cdot p_{js})^2} ,
 
 where a variance below zero is zero, and N / (N - 1) accounts for the mean gain. A single curve has no gain of its own:
-the last fraction, with A in place of B, is then its :math:`sd_g^2`.
+the last equation, with A in place of B and :math:`\sigma_h = 0`, then gives its :math:`\sigma_g^2`.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -45,6 +50,8 @@ from heartfit.core.errors import InputError
 
 MEMORY_BOUNDS = (1e-3, 10.0)
 """Bounds of an estimated memory [s]: much less than a frame, and many beats."""
+Pattern = Literal["own", "mean"]
+"""Curve on which the gain of an element acts: its own, or the mean of all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +80,8 @@ class TrackedCurves:
 class GainNoise:
     """Noise of the curves of one kind.
 
-    gain: G [1]; common_sd: sd_g [1]; element_sd: sd_s [1]; sd: s in the unit of the curves; memory: tau [s];
-    sequences: number from which it was estimated.
+    gain: G [1]; common_sd: sigma_g [1]; element_sd: sigma_h [1]; sd: s in the unit of the curves; memory: tau [s];
+    sequences: number from which it was estimated; pattern: p.
     """
 
     gain: float
@@ -83,36 +90,33 @@ class GainNoise:
     sd: float
     memory: float
     sequences: int
+    pattern: Pattern = "mean"
 
     @classmethod
-    def from_sequences(cls, sequences: Sequence[TrackedCurves]) -> "GainNoise":
-        """Estimate the noise from sequences of known truth, as the module says.
+    def from_sequences(cls, sequences: Sequence[TrackedCurves], pattern: Pattern = "mean") -> "GainNoise":
+        """Estimate the noise from sequences of known truth by the equations of the module.
 
-        A single curve has no gain of its own: its element_sd is zero. Raises InputError for fewer than two sequences.
+        Raises InputError for fewer than two sequences.
         """
         if len(sequences) < 2:
             raise InputError(f"gain noise: {len(sequences)} sequences; expected at least two")
         gain = _mean_gain(sequences)
-        sd, memory = _error_scale(sequences, gain)
-        common, element = _gain_deviations(sequences, gain, sd, memory)
-        return cls(gain, common, element, sd, memory, len(sequences))
+        patterns = [patterns_of(one.true, pattern) for one in sequences]
+        sd, memory = _error_scale(sequences, patterns, gain)
+        common, element = _gain_deviations(sequences, patterns, gain, sd, memory)
+        return cls(gain, common, element, sd, memory, len(sequences), pattern)
 
     def covariance(self, true: Floats, times: Floats) -> Floats:
         """Sigma (k p, k p) of the registered curves, curve after curve, where the true ones are ``true`` (k, p).
 
-        times (p,): [s]. Rows of phase 0 are zero: leave this phase out of a likelihood.
+        times (p,): [s]. The unit is that of the curves, squared. Rows of phase 0 are zero: leave this phase out of a
+        likelihood. The pattern "mean" takes the mean over all k curves.
         """
-        unit = unit_covariance(times, self.memory)
-        blocks = [self.element_sd**2 * np.outer(one, one) + self.sd**2 * unit for one in true]
+        unit = self.sd**2 * unit_covariance(times, self.memory)
+        patterns = self.element_sd * patterns_of(true, self.pattern)
+        blocks = [np.outer(one, one) + unit for one in patterns]
         covariance: Floats = block_diag(*blocks) + self.common_sd**2 * np.outer(true, true)
         return covariance
-
-    def reduced_chi_square(self, sequence: TrackedCurves) -> float:
-        """(y - G e)' Sigma^-1 (y - G e) over the number of samples after phase 0; its expectation is 1."""
-        later = np.tile(np.arange(sequence.times.size) > 0, len(sequence.true))
-        residual = _residual(sequence, self.gain).ravel()[later]
-        covariance = self.covariance(sequence.true, sequence.times)[np.ix_(later, later)]
-        return float(residual @ np.linalg.solve(covariance, residual)) / residual.size
 
 
 def unit_covariance(times: Floats, memory: float) -> Floats:
@@ -120,6 +124,11 @@ def unit_covariance(times: Floats, memory: float) -> Floats:
     correlation = np.exp(-np.abs(times[:, None] - times) / memory)
     covariance: Floats = correlation - correlation[:, :1] - correlation[:1] + 1.0
     return covariance
+
+
+def patterns_of(true: Floats, pattern: Pattern) -> Floats:
+    """Curves p (k, p) on which the gains of the elements act."""
+    return true if pattern == "own" else np.broadcast_to(true.mean(axis=0), true.shape)
 
 
 def _mean_gain(sequences: Sequence[TrackedCurves]) -> float:
@@ -134,62 +143,64 @@ def _residual(sequence: TrackedCurves, gain: float) -> Floats:
     return residual
 
 
-def _error_scale(sequences: Sequence[TrackedCurves], gain: float) -> tuple[float, float]:
+def _error_scale(
+    sequences: Sequence[TrackedCurves], patterns: Sequence[Floats], gain: float
+) -> tuple[float, float]:
     """s in the unit of the curves and tau [s], within MEMORY_BOUNDS."""
-    across = [_projections(one) @ _residual(one, gain)[..., None] for one in sequences]
+    projections = [_projections(one.true, pattern) for one, pattern in zip(sequences, patterns, strict=True)]
+    across = [
+        np.einsum("kpq,kq->kp", projection, _residual(one, gain))
+        for one, projection in zip(sequences, projections, strict=True)
+    ]
     size = sum(float((part**2).sum()) for part in across)
     steps = sum(float((np.diff(part, axis=1) ** 2).sum()) for part in across)
 
+    def expected(memory: float) -> Floats:
+        units = (unit_covariance(one.times, memory) for one in sequences)
+        return np.sum([_across(P, unit) for P, unit in zip(projections, units, strict=True)], axis=0)
+
     def excess(log_memory: float) -> float:
-        expected_size, expected_steps = _expected_across(sequences, float(np.exp(log_memory)))
-        return expected_steps / expected_size - steps / size
+        expected_size, expected_steps = expected(np.exp(log_memory))
+        return float(expected_steps / expected_size * size - steps)
 
     low, high = np.log(MEMORY_BOUNDS)
     # a longer memory has smaller steps
     outside = low if excess(low) <= 0.0 else high if excess(high) >= 0.0 else None
     memory = float(np.exp(brentq(excess, low, high, xtol=1e-4) if outside is None else outside))
-    return float(np.sqrt(size / _expected_across(sequences, memory)[0])), memory
+    return float(np.sqrt(size / expected(memory)[0])), memory
 
 
-def _projections(sequence: TrackedCurves) -> Floats:
+def _projections(true: Floats, pattern: Floats) -> Floats:
     """P (k, p, p) of each curve; that of a curve without motion is the identity."""
-    weights = (sequence.true**2).sum(axis=1)
-    outer = sequence.true[:, :, None] * sequence.true[:, None, :]
-    scaled = outer / np.where(weights > 0.0, weights, 1.0)[:, None, None]
-    projections: Floats = np.eye(sequence.times.size) - scaled
+    columns = np.stack([true, pattern], axis=-1)
+    projections: Floats = np.eye(true.shape[1]) - columns @ np.linalg.pinv(columns, rcond=1e-9)
     return projections
 
 
-def _expected_across(sequences: Sequence[TrackedCurves], memory: float) -> tuple[float, float]:
-    """Sums of tr P K P and of tr D P K P D' with D the steps, at a memory [s]."""
-    size, steps = 0.0, 0.0
-    for one in sequences:
-        projections = _projections(one)
-        across = projections @ unit_covariance(one.times, memory) @ projections
-        diagonal = np.einsum("kii->ki", across)
-        size += float(diagonal.sum())
-        beside = np.einsum("kii->ki", across[:, 1:, :-1])
-        steps += float((diagonal[:, 1:] + diagonal[:, :-1] - 2.0 * beside).sum())
-    return size, steps
+def _across(projections: Floats, unit: Floats) -> Floats:
+    """Sums over the curves of tr P K P and of the same for the steps (2,)."""
+    across = projections @ unit @ projections
+    diagonal, beside = np.einsum("kii->ki", across), np.einsum("kii->ki", across[:, 1:, :-1])
+    return np.array([diagonal.sum(), (diagonal[:, 1:] + diagonal[:, :-1] - 2.0 * beside).sum()])
 
 
 def _gain_deviations(
-    sequences: Sequence[TrackedCurves], gain: float, sd: float, memory: float
+    sequences: Sequence[TrackedCurves], patterns: Sequence[Floats], gain: float, sd: float, memory: float
 ) -> tuple[float, float]:
-    """sd_g and sd_s [1]."""
-    along = [(_residual(one, gain) * one.true).sum(axis=1) for one in sequences]
-    weights = [(one.true**2).sum(axis=1) for one in sequences]
-    count = len(sequences)
+    """sigma_g and sigma_h [1]."""
+    pairs, count = list(zip(sequences, patterns, strict=True)), len(sequences)
+    along = [(_residual(one, gain) * pattern).sum(axis=1) for one, pattern in pairs]
+    shared = [(one.true * pattern).sum(axis=1) for one, pattern in pairs]
     A = count / (count - 1) * sum(float(part.sum()) ** 2 for part in along)
     B = sum(float((part**2).sum()) for part in along)
-    squares = sum(float((weight**2).sum()) for weight in weights)
     noise = sd**2 * sum(
-        float(np.einsum("sp,pq,sq->", one.true, unit_covariance(one.times, memory), one.true))
-        for one in sequences
+        float(np.einsum("sp,pq,sq->", pattern, unit_covariance(one.times, memory), pattern))
+        for one, pattern in pairs
     )
-    if all(len(weight) == 1 for weight in weights):
+    squares = sum(float((part**2).sum()) for part in shared)
+    if all(len(one.true) == 1 for one in sequences):
         return float(np.sqrt(max(0.0, (A - noise) / squares))), 0.0
-    between = sum(float(weight.sum()) ** 2 for weight in weights) - squares
-    common = max(0.0, (A - B) / between)
-    element = max(0.0, (B - noise) / squares - common)
+    common = max(0.0, (A - B) / (sum(float(part.sum()) ** 2 for part in shared) - squares))
+    weights = sum(float(((pattern**2).sum(axis=1) ** 2).sum()) for pattern in patterns)
+    element = max(0.0, (B - noise - common * squares) / weights)
     return float(np.sqrt(common)), float(np.sqrt(element))
