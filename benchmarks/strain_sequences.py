@@ -53,10 +53,10 @@ def sequence(number: int) -> Sequence:
     """Sequence of a number below SOUND + AFFECTED, made now if it is not on disk yet."""
     path = FOLDER / "strain_noise" / f"{number}.pickle"
     if not path.exists():
-        made_now = _acquire(number)
+        acquired = _acquire(number)
         path.parent.mkdir(parents=True, exist_ok=True)
         unfinished = path.with_suffix(".part")
-        unfinished.write_bytes(pickle.dumps(made_now))
+        unfinished.write_bytes(pickle.dumps(acquired))
         unfinished.rename(path)
     kept: Sequence = pickle.loads(path.read_bytes())
     return kept

@@ -1,16 +1,16 @@
 r"""Noise of curves that registration shrinks and mixes: gains and an error with memory, estimated from known truth.
 
-A registered curve of element s (a segment of the wall) at phase i of a sequence with the true curves e is modelled as
+A registered curve of element s (a segment of the wall) at phase i, where the true curves are e, is modelled as
 
 .. math:: y_{si} = (G + g)\, e_{si} + h_s\, p_{si} + m_{si} - m_{s0}
 
 with the mean gain G, a gain :math:`g \sim N(0, \sigma_g^2)` of the sequence, gains :math:`h_s \sim N(0, \sigma_h^2)` of
-the elements, and an error m of covariance :math:`s^2 e^{-|t_i - t_j| / \tau}`, independent between elements. The gain of
-an element acts on a pattern p: its own curve :math:`e_s`, or the mean of all curves, as where a smooth displacement
-mixes the motion of an element with that of its neighbours; the error of an element that does not move by itself, such
-as a scar, then remains. Phase 0 is the reference of the curves and without error; late phases have twice the variance
-of m. With :math:`\rho_{ij} = e^{-|t_i - t_j| / \tau}` and :math:`K_{ij} = \rho_{ij} - \rho_{i0} - \rho_{0j} + 1` the
-covariance of all curves of a sequence is
+the elements, and an error m of covariance :math:`s^2 e^{-|t_i - t_j| / \tau}`, independent between elements. The gain
+of an element acts on a pattern p: its own curve :math:`e_s`, or the mean of all curves. The mean stands for a smooth
+displacement, which mixes the motion of an element with that of its neighbours: an element that does not move by itself,
+such as a scar, then keeps an error. Phase 0 is the reference of the curves and without error; late phases have twice
+the variance of m. With :math:`\rho_{ij} = e^{-|t_i - t_j| / \tau}` and
+:math:`K_{ij} = \rho_{ij} - \rho_{i0} - \rho_{0j} + 1` the covariance of all curves of a sequence is
 
 .. math:: \Sigma = \sigma_g^2\, e e^T + \mathrm{diag}_s(\sigma_h^2\, p_s p_s^T + s^2 K) .
 

@@ -18,6 +18,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.linalg import solve_triangular
 
 from heartfit.core.arrays import Floats, Integers
 from heartfit.core.errors import InputError
@@ -73,7 +74,10 @@ class RegionalNoise:
                 "simulate and register more"
             )
         return cls(
-            {kind: GainNoise.from_sequences([pair.of_kind(kind) for pair in pairs], pattern) for kind in KINDS}
+            {
+                kind: GainNoise.from_sequences([pair.of_kind(kind) for pair in pairs], pattern)
+                for kind in KINDS
+            }
         )
 
     def corrected(self, measured: Mapping[str, Curve]) -> dict[str, Curve]:
@@ -110,20 +114,30 @@ class RegionalNoise:
         return covariance
 
     def reduced_chi_square(self, pair: RegionalPair, kind: str) -> float:
-        """Squared whitened residual over the number of samples [1] of the curves of a kind in a pair."""
-        white = self.whitened(pair, kind)
-        return float((white**2).mean())
+        """(y - G e)' Sigma^-1 (y - G e) / n [1] of the n samples of a kind after phase 0."""
+        return float((self.whitened(pair, kind) ** 2).mean())
+
+    def log_density(self, pair: RegionalPair, kind: str) -> float:
+        """ln N(y; G e, Sigma) / n [1] of the n samples of a kind after phase 0, in their unit."""
+        _, root = self._residual_and_root(pair, kind)
+        spread = np.log(np.diag(root)).mean() + 0.5 * np.log(2.0 * np.pi)
+        return float(-0.5 * self.reduced_chi_square(pair, kind) - spread)
 
     def whitened(self, pair: RegionalPair, kind: str) -> Floats:
-        """L^-1 (y - G e) (n,) of the curves of a kind after phase 0, with L the Cholesky factor of their covariance."""
-        names = names_of_kind(kind)
-        true = {name: pair.true[name] for name in names}
-        mean = self.expected(true)
-        residual = np.concatenate([pair.registered[name].values - mean[name].values for name in names])
+        """L^-1 (y - G e) (n,) of the samples of a kind after phase 0, with L the Cholesky factor of their covariance.
+
+        The samples are those of each curve in turn, by increasing segment.
+        """
+        residual, root = self._residual_and_root(pair, kind)
+        return np.asarray(solve_triangular(root, residual, lower=True), np.float64)
+
+    def _residual_and_root(self, pair: RegionalPair, kind: str) -> tuple[Floats, Floats]:
+        curves = pair.of_kind(kind)
+        true = {name: pair.true[name] for name in names_of_kind(kind)}
         later = later_samples(true)
-        root = np.linalg.cholesky(self.covariance(true)[np.ix_(later, later)])
-        white: Floats = np.linalg.solve(root, residual[later])
-        return white
+        residual = (curves.registered - self.kinds[kind].gain * curves.true).ravel()[later]
+        root: Floats = np.linalg.cholesky(self.covariance(true)[np.ix_(later, later)])
+        return residual, root
 
     def _gain(self, name: str) -> float:
         return self.kinds[kind_of(name)].gain
@@ -136,17 +150,15 @@ def later_samples(curves: Mapping[str, Curve]) -> Integers:
     return np.setdiff1d(np.arange(sum(sizes)), starts)
 
 
-def leave_one_out(pairs: Sequence[RegionalPair], pattern: Pattern = "mean") -> dict[str, list[float]]:
-    """Reduced chi-square [1] of each pair by kind, judged by the noise that all other pairs teach.
+def leave_one_out(pairs: Sequence[RegionalPair], pattern: Pattern = "mean") -> list[RegionalNoise]:
+    """Return for each pair the noise that all other pairs teach, to judge it by.
 
     Raises InputError where fewer than MIN_SEQUENCES pairs remain.
     """
-    chi_squares: dict[str, list[float]] = {kind: [] for kind in KINDS}
-    for place, pair in enumerate(pairs):
-        others = RegionalNoise.from_pairs([*pairs[:place], *pairs[place + 1 :]], pattern)
-        for kind, values in chi_squares.items():
-            values.append(others.reduced_chi_square(pair, kind))
-    return chi_squares
+    return [
+        RegionalNoise.from_pairs([*pairs[:place], *pairs[place + 1 :]], pattern)
+        for place in range(len(pairs))
+    ]
 
 
 def _rows_of_kind(kind: str, names: Sequence[str], frames: int) -> Integers:
