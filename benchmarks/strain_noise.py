@@ -24,9 +24,6 @@ from heartfit.observation.strain import SEGMENTS
 MODULE = "benchmarks.strain_noise"
 SOUND_HEARTS = "sound"
 ALL_HEARTS = "all"
-UNITS = {BASE_DESCENT: ("mm", 1e3)}
-"""Printed unit of a kind and its factor; the others are strains in percent."""
-PERCENT = ("%", 100.0)
 
 
 def main() -> None:
@@ -59,18 +56,20 @@ def acquired() -> tuple[list[RegionalPair], list[str], float]:
 
 
 def parameters_table(noise: RegionalNoise, cpu: float) -> pd.DataFrame:
-    """One row for each kind of curve: the parameters of its noise."""
+    """One row for each kind of curve: the parameters of its noise, by the symbols of the module of gain noise."""
     rows = []
     for kind, one in noise.kinds.items():
-        unit, factor = UNITS.get(kind, PERCENT)
+        single = kind == BASE_DESCENT
         rows.append(
             {
                 "curve": _printed(kind),
-                "gain": f"{one.gain:.3f}",
-                "sd of the sequence's gain": f"{one.common_sd:.3f}",
-                "sd of a segment's gain": "" if kind == BASE_DESCENT else f"{one.element_sd:.3f}",
-                "s": f"{factor * one.sd:.3g} {unit}",
-                "memory (ms)": f"{1e3 * one.memory:.0f}",
+                "G": f"{one.gain:.3f}",
+                "sd_g": f"{one.common_sd:.3f}",
+                "sd_h": "" if single else f"{one.element_sd:.3f}",
+                "s": f"{one.sd:.3g}",
+                "unit of s": "m" if single else "1",
+                "r": "" if single else f"{one.shared:.3f}",
+                "tau (s)": f"{one.memory:.3f}",
                 "sequences": one.sequences,
                 "CPU s per sequence": f"{cpu:.0f}",
             }

@@ -15,7 +15,7 @@ from heartfit.observation.gain_noise import (
 
 TIMES = 0.036 * np.arange(25)
 KNOWN = GainNoise(
-    gain=0.9, common_sd=0.08, element_sd=0.15, sd=0.01, memory=0.1, sequences=400, pattern="mean"
+    gain=0.9, common_sd=0.08, element_sd=0.15, sd=0.01, memory=0.1, shared=0.2, sequences=400, pattern="mean"
 )
 
 
@@ -33,7 +33,9 @@ def draw(noise: GainNoise, rng: np.random.Generator, true: np.ndarray) -> np.nda
     elements = noise.element_sd * rng.standard_normal((len(true), 1))
     lags = np.abs(TIMES[:, None] - TIMES)
     root = np.linalg.cholesky(np.exp(-lags / noise.memory) + 1e-12 * np.eye(TIMES.size))
-    error = noise.sd * rng.standard_normal(true.shape) @ root.T
+    own_error, common_error = rng.standard_normal(true.shape), rng.standard_normal(TIMES.size)
+    mixed = np.sqrt(1.0 - noise.shared) * own_error + np.sqrt(noise.shared) * common_error
+    error = noise.sd * mixed @ root.T
     own = (noise.gain + common) * true
     return own + elements * patterns_of(true, noise.pattern) + error - error[:, :1]
 
@@ -53,11 +55,12 @@ def test_gains_and_error_are_recovered_from_many_sequences(pattern: Pattern) -> 
     assert estimated.element_sd == pytest.approx(0.15, rel=0.1)
     assert estimated.sd == pytest.approx(0.01, rel=0.05)
     assert estimated.memory == pytest.approx(0.1, rel=0.1)
+    assert estimated.shared == pytest.approx(0.2, abs=0.03)
     assert estimated.sequences == 400
 
 
 def test_a_single_curve_has_a_common_gain_alone() -> None:
-    known = GainNoise(0.95, 0.1, 0.0, 0.01, 0.05, 400)
+    known = GainNoise(0.95, 0.1, 0.0, 0.01, 0.05, 0.0, 400)
     estimated = GainNoise.from_sequences(sequences(known, 400, seed=2, curves=1))
     assert estimated.gain == pytest.approx(0.95, abs=0.02)
     assert estimated.common_sd == pytest.approx(0.1, rel=0.15)
@@ -67,14 +70,15 @@ def test_a_single_curve_has_a_common_gain_alone() -> None:
 
 
 def test_no_gain_error_is_estimated_as_next_to_none() -> None:
-    known = GainNoise(1.0, 0.0, 0.0, 0.01, 0.1, 100)
+    known = GainNoise(1.0, 0.0, 0.0, 0.01, 0.1, 0.0, 100)
     estimated = GainNoise.from_sequences(sequences(known, 100, seed=3))
     assert estimated.common_sd < 0.02
     assert estimated.element_sd < 0.03
+    assert estimated.shared < 0.03
 
 
 def test_an_error_without_memory_has_the_shortest_one() -> None:
-    known = GainNoise(1.0, 0.0, 0.0, 0.01, 1e-4, 50)
+    known = GainNoise(1.0, 0.0, 0.0, 0.01, 1e-4, 0.0, 50)
     assert GainNoise.from_sequences(sequences(known, 50, seed=4)).memory <= 10.0 * MEMORY_BOUNDS[0]
 
 
@@ -109,10 +113,10 @@ def test_late_phases_have_twice_the_variance_of_the_error() -> None:
 def test_an_element_without_motion_keeps_the_error_of_the_mean() -> None:
     true = true_curves(np.random.default_rng(7), 4)
     true[0] = 0.0
-    noise = GainNoise(1.0, 0.0, 0.2, 1e-6, 0.1, 2, "mean")
+    noise = GainNoise(1.0, 0.0, 0.2, 1e-6, 0.1, 0.0, 2, "mean")
     sd = np.sqrt(np.diag(noise.covariance(true, TIMES))[:25])
     assert sd == pytest.approx(0.2 * np.abs(true.mean(axis=0)), abs=1e-5)
-    own = GainNoise(1.0, 0.0, 0.2, 1e-6, 0.1, 2, "own")
+    own = GainNoise(1.0, 0.0, 0.2, 1e-6, 0.1, 0.0, 2, "own")
     assert np.sqrt(np.diag(own.covariance(true, TIMES))[:25]) == pytest.approx(np.zeros(25), abs=1e-5)
 
 

@@ -23,9 +23,9 @@ PERIOD = 0.9
 TIMES = np.arange(15) * PERIOD / 15
 KNOWN = RegionalNoise(
     {
-        CIRCUMFERENTIAL: GainNoise(0.9, 0.05, 0.1, 0.008, 0.1, 100),
-        LONGITUDINAL: GainNoise(1.1, 0.0, 0.2, 0.012, 0.15, 100),
-        BASE_DESCENT: GainNoise(0.95, 0.05, 0.0, 2e-4, 0.06, 100),
+        CIRCUMFERENTIAL: GainNoise(0.9, 0.05, 0.1, 0.008, 0.1, 0.0, 100),
+        LONGITUDINAL: GainNoise(1.1, 0.0, 0.2, 0.012, 0.15, 0.1, 100),
+        BASE_DESCENT: GainNoise(0.95, 0.05, 0.0, 2e-4, 0.06, 0.0, 100),
     }
 )
 SIZES = {CIRCUMFERENTIAL: -0.2, LONGITUDINAL: -0.14, BASE_DESCENT: 0.012}
@@ -62,6 +62,7 @@ def test_each_kind_has_its_own_noise() -> None:
         assert one.common_sd == pytest.approx(known.common_sd, abs=0.02)
         assert one.element_sd == pytest.approx(known.element_sd, rel=0.15)
         assert one.sd == pytest.approx(known.sd, rel=0.15)
+        assert one.shared == pytest.approx(known.shared, abs=0.03)
 
 
 def test_the_correction_divides_by_the_gain() -> None:

@@ -129,15 +129,16 @@ class RegionalNoise:
         The samples are those of each curve in turn, by increasing segment.
         """
         residual, root = self._residual_and_root(pair, kind)
-        return np.asarray(solve_triangular(root, residual, lower=True), np.float64)
+        white: Floats = np.asarray(solve_triangular(root, residual, lower=True), np.float64)
+        return white
 
     def _residual_and_root(self, pair: RegionalPair, kind: str) -> tuple[Floats, Floats]:
         curves = pair.of_kind(kind)
         true = {name: pair.true[name] for name in names_of_kind(kind)}
         later = later_samples(true)
-        residual = (curves.registered - self.kinds[kind].gain * curves.true).ravel()[later]
-        root: Floats = np.linalg.cholesky(self.covariance(true)[np.ix_(later, later)])
-        return residual, root
+        residual: Floats = (curves.registered - self.kinds[kind].gain * curves.true).ravel()[later]
+        covariance: Floats = self.covariance(true)[np.ix_(later, later)]
+        return residual, np.asarray(np.linalg.cholesky(covariance), np.float64)
 
     def _gain(self, name: str) -> float:
         return self.kinds[kind_of(name)].gain
