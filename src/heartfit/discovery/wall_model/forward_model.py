@@ -18,6 +18,7 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.forward_model import observe_curve
 from heartfit.discovery.wall_model.unknowns import NAMES, REFERENCE, Subject, subject_at
+from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.geometry.fibres import FibreRule
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.heart.beat import Beat, nodal_motion
@@ -51,6 +52,14 @@ class WallForwardModel:
     numerics: Numerics = NUMERICS
     simulations: int = 0
     tangents: int = 0
+
+    @classmethod
+    def at_samples(
+        cls, recording: WallRecording, nominal: Subject, numerics: Numerics = NUMERICS
+    ) -> "WallForwardModel":
+        """The model of the wall of a recording at all of its samples."""
+        times = {block.curve: block.times for block in recording.data().blocks}
+        return cls(recording.mesh, nominal, times, recording.frames, numerics)
 
     @cached_property
     def _rule(self) -> FibreRule:

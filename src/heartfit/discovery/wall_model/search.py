@@ -104,9 +104,9 @@ def _decide(evidences: Evidences, fitted: bool) -> Decision:
 
 
 def _fit_baseline(context: FitContext, model: WallForwardModel) -> Explanation:
-    """The baseline's fit, with the slopes of its end."""
+    """The baseline's fit, its slopes renewed once on the way."""
     baseline, x = hypothesis(model), np.zeros(len(COORDINATES))
-    for steps in (*BASELINE_STEPS, 0):
+    for steps in BASELINE_STEPS:
         tangent = model.slopes(x)
         if tangent is None:
             raise InputError("wall search: the beat of the baseline fails; expected one to start from")

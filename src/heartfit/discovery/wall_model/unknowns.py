@@ -68,6 +68,11 @@ class Subject:
     loads: Floats
     helix: Floats = field(default_factory=lambda: np.zeros(2))
 
+    @classmethod
+    def loaded(cls, heart: Heart, left: float, right: float) -> "Subject":
+        """The subject with these end-diastolic pressures [Pa]."""
+        return cls(heart, np.array([left, right]))
+
 
 NAMES = tuple([*(parameter.name for parameter in PARAMETERS), *LOADS, *HELIX, *CONTRACTILITY, *ACTIVATION])
 COORDINATES = tuple(map(Coordinate, NAMES))

@@ -70,12 +70,10 @@ class WallRecording:
         curves = {name: one for name, one in self.recording.curves.items() if not name.endswith("_pressure")}
         return replace(self, recording=replace(self.recording, curves=curves))
 
-    def data(self, regional: bool = True) -> Data:
-        """Data of the search: volumes, pressures and the balance of both sides, then the regional curves if wanted."""
+    def data(self) -> Data:
+        """Data of the search: volumes, pressures and the balance of both sides, then the regional curves."""
         both = "rv_volume" in self.recording.curves
         whole = search_data(replace(self.recording, unsearched={}, balanced=both))
-        if not regional:
-            return whole
         curves = self.noise.corrected(regional_curves(self.mesh, self.motion))
         blocks = tuple(_block(name, curves[name]) for name in SEARCHED)
         values = np.concatenate([whole.values, *(curves[name].values[1:] for name in SEARCHED)])
