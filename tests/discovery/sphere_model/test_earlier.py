@@ -123,6 +123,7 @@ def test_later_the_instruments_are_the_same(before: Recording, earlier: EarlierH
     assert CHANGE_RULES.beside_structure(CHANGE_SCALES[0]) == CHANGE_RULES, "functions raise no threshold"
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("few_mechanisms")
 def test_a_leak_since_an_earlier_recording_is_named() -> None:
     diagnosis = diagnose_change(recorded(LEAK), recorded(PlantedPlan(1, "none")))
