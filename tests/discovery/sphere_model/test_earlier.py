@@ -22,6 +22,7 @@ from tests.discovery.sphere_model.hearts import LEAK, recorded
 
 BANK = Path(__file__).parents[3] / "resources" / "other_worlds"
 AT_MEAN = np.zeros(BASE)
+pytestmark = pytest.mark.usefixtures("coarse_search")
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +39,7 @@ def before(hearts: tuple[OtherHeart, OtherHeart]) -> Recording:
 
 
 @pytest.fixture(scope="module")
-def earlier(before: Recording) -> EarlierHeart:
+def earlier(before: Recording, coarse_search: None) -> EarlierHeart:
     return EarlierHeart.from_recording(before)
 
 
