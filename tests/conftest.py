@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from heartfit.discovery.sphere_model import forward_model
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.finite_elements.body import FiniteElementBody, Tissue
 from heartfit.heart.finite_elements.unloading import unload
@@ -64,6 +63,8 @@ def coarse_search() -> Iterator[None]:
 
     For a test about what a search concludes, of which a heart and its recording leave no doubt.
     """
+    from heartfit.discovery.sphere_model import forward_model
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(forward_model, "NUMERICS", replace(forward_model.NUMERICS, time_step=1e-2, drift=1e-4))
         yield
