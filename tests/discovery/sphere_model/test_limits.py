@@ -6,6 +6,7 @@ from heartfit.discovery.sphere_model import limits as module
 from heartfit.discovery.sphere_model.limits import detection_limits
 
 
+@pytest.mark.usefixtures("coarse_search")
 def test_a_delay_is_detectable_and_a_scar_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
     """At the least and the largest size."""
     monkeypatch.setattr(module, "SIZES", (module.SIZES[0], module.SIZES[-1]))
