@@ -72,13 +72,12 @@ class WallForwardModel:
 
     def predict(self, x: Floats, effects: Sequence[Mechanism] = ()) -> Floats | None:
         """The curves (n,) [SI], one after the other, at the coordinates x (b,); None where the simulation fails."""
+        self.simulations += 1
         try:
             subject = self._subject(x, effects)
-            body = self._body(subject)
+            beat = simulate(subject.heart, self._body(subject), self.numerics)
         except (ValueError, StepFailed):  # outside the range of a parameter, or no stress-free wall
             return None
-        self.simulations += 1
-        beat = simulate(subject.heart, body, self.numerics)
         return self.observe(beat, subject.heart) if beat.completed else None
 
     def observe(self, beat: Beat, heart: Heart) -> Floats:
