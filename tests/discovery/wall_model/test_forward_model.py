@@ -13,7 +13,7 @@ from heartfit.discovery.wall_model.unknowns import (
     CONTRACTILITY_SD,
     NAMES,
     REFERENCE,
-    Subject,
+    HeartInWall,
     WallVariation,
     subject_at,
 )
@@ -33,7 +33,7 @@ CURVES = {"lv_volume": TIMES, "rv_volume": TIMES, "lv_pressure": TIMES, STRAIN: 
 @pytest.fixture(scope="module")
 def model(ventricle: VentricularMesh) -> WallForwardModel:
     numerics = Numerics(time_step=10e-3, max_beats=10, drift=1e-3, keep_positions=True)
-    return WallForwardModel(ventricle, Subject.loaded(Heart(), 1000.0, 500.0), CURVES, FRAMES, numerics)
+    return WallForwardModel(ventricle, HeartInWall.loaded(Heart(), 1000.0, 500.0), CURVES, FRAMES, numerics)
 
 
 @pytest.fixture(scope="module")
@@ -95,7 +95,7 @@ def test_the_wall_varies_by_segment() -> None:
     x[NAMES.index("segment.07")], x[NAMES.index("delay.11")] = 2.0, 1.0
     (variation,) = [
         m
-        for m in subject_at(Subject.loaded(Heart(), 1.0, 1.0), x).heart.mechanisms
+        for m in subject_at(HeartInWall.loaded(Heart(), 1.0, 1.0), x).heart.mechanisms
         if isinstance(m, WallVariation)
     ]
     kept = 1.0 - variation.lost_share()

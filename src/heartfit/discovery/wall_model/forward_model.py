@@ -17,7 +17,7 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.forward_model import observe_curve
-from heartfit.discovery.wall_model.unknowns import NAMES, REFERENCE, Subject, subject_at
+from heartfit.discovery.wall_model.unknowns import NAMES, REFERENCE, HeartInWall, subject_at
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.geometry.fibres import FibreRule
 from heartfit.geometry.mesh import Motion, VentricularMesh
@@ -46,7 +46,7 @@ class WallForwardModel:
     """
 
     mesh: VentricularMesh
-    nominal: Subject
+    nominal: HeartInWall
     times: Mapping[str, Floats]
     frames: Floats
     numerics: Numerics = NUMERICS
@@ -55,7 +55,7 @@ class WallForwardModel:
 
     @classmethod
     def at_samples(
-        cls, recording: WallRecording, nominal: Subject, numerics: Numerics = NUMERICS
+        cls, recording: WallRecording, nominal: HeartInWall, numerics: Numerics = NUMERICS
     ) -> "WallForwardModel":
         """The model of the wall of a recording at all of its samples."""
         times = {block.curve: block.times for block in recording.data().blocks}
@@ -92,8 +92,8 @@ class WallForwardModel:
 
     def _regional_curves(self, beat: Beat) -> dict[str, Floats]:
         motion = nodal_motion(beat)
-        seen = Motion(self.frames, beat.period, np.array([motion.at(time) for time in self.frames]))
-        curves = regional_curves(self.mesh, seen)
+        imaged = Motion(self.frames, beat.period, np.array([motion.at(time) for time in self.frames]))
+        curves = regional_curves(self.mesh, imaged)
         return {name: curves[name].values[1:] for name in self.regional}
 
     def slopes(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Floats, Floats] | None:
@@ -107,8 +107,8 @@ class WallForwardModel:
         subject = self._subject(x, effects)
         steps = STEP * np.eye(len(NAMES))
         others = [self._subject(x[: len(NAMES)] + step, effects) for step in steps]
-        moved = [index for index, name in enumerate(NAMES) if name in REFERENCE]
-        body, bodies = self._neighbouring_bodies(subject, others, moved)
+        rebuilt = [index for index, name in enumerate(NAMES) if name in REFERENCE]
+        body, bodies = self._neighbouring_bodies(subject, others, rebuilt)
         neighbours = [Neighbour(other.heart, own, STEP) for other, own in zip(others, bodies, strict=True)]
         self.tangents += 1
         tangent = differentiate(subject.heart, body, neighbours, self.numerics)
@@ -119,28 +119,28 @@ class WallForwardModel:
         ]
         return predicted, np.column_stack(columns)
 
-    def _subject(self, x: Floats, effects: Sequence[Mechanism]) -> Subject:
+    def _subject(self, x: Floats, effects: Sequence[Mechanism]) -> HeartInWall:
         subject = subject_at(self.nominal, x)
         return replace(subject, heart=reduce(add, effects, subject.heart))
 
-    def _body(self, subject: Subject) -> FiniteElementBody:
+    def _body(self, subject: HeartInWall) -> FiniteElementBody:
         wall = self._loaded(subject)
         return FiniteElementBody(unload(wall.mesh, wall.tissue, wall.pressures), wall.tissue)
 
     def _neighbouring_bodies(
-        self, subject: Subject, others: Sequence[Subject], moved: Sequence[int]
+        self, subject: HeartInWall, others: Sequence[HeartInWall], rebuilt: Sequence[int]
     ) -> tuple[FiniteElementBody, list[FiniteElementBody]]:
-        """Bodies of the subject and of the others, of which those that are ``moved`` have another reference."""
-        walls = (self._loaded(member) for member in (subject, *(others[i] for i in moved)))
+        """Bodies of the subject and of the others, those ``rebuilt`` on a reference of their own."""
+        walls = (self._loaded(member) for member in (subject, *(others[i] for i in rebuilt)))
         reference, references = unload_neighbours(next(walls), list(walls))
-        shapes = dict(zip(moved, references, strict=True))
+        shapes = dict(zip(rebuilt, references, strict=True))
         own = FiniteElementBody(reference, subject.heart.muscle)
         return own, [
             FiniteElementBody(shapes.get(i, reference), other.heart.muscle, own.elimination)
             for i, other in enumerate(others)
         ]
 
-    def _loaded(self, subject: Subject) -> LoadedWall:
+    def _loaded(self, subject: HeartInWall) -> LoadedWall:
         """The measured wall of a subject, with its helix angles."""
         mesh, rule = self.mesh, self._rule
         if subject.helix.any():

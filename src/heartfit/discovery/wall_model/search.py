@@ -2,7 +2,8 @@ r"""The search for a missing effect in three dimensions, with the strain of the 
 
 The baseline, all unknowns free, is fitted with the slopes of a tangent-linear beat, which are renewed at its end. Every
 mechanism, regional ones at six angles, is then switched on once; the secant ranks it by the evidence of the linear
-model. Only the best are fitted, from the baseline's fit, one beat a step. They are judged by their evidence as on the
+model. Only the best are fitted, from the baseline's fit, one beat a step, the best of them once more with slopes of
+its own. They are judged by their evidence as on the
 sphere; an effect of a region, which rests on strain, needs ten and must beat the smooth discrepancies of the segments.
 """
 
@@ -35,6 +36,8 @@ BASELINE_STEPS, EFFECT_STEPS = (6, 5), 6
 """Largest numbers of steps of the baseline, before and after its slopes are renewed, and of an effect."""
 REFITTED = 5
 """Number of placements of effects that are fitted."""
+SUSPECTED = 2.0
+"""Gain of the best fit over the baseline [ln Z] above which its slopes are renewed."""
 LEAST_PREDICTED = 1.0
 """Predicted gain over the baseline [ln Z] below which an effect is not fitted."""
 STARTS = (0.5, 3.0)
@@ -78,6 +81,8 @@ def search_wall(
     best = [one for one in predictions if one.log_evidence > base.log_evidence + LEAST_PREDICTED]
     fits = [_fit_effect(context, one) for one in best[:REFITTED]]
     singles = rank(fitted for fitted in fits if fitted is not None)
+    if singles and singles[0].log_evidence - base.log_evidence > SUSPECTED:
+        singles = rank([_polish(context, model, singles[0], tried), *singles[1:]])
     base = _refit_baseline(context, base, singles)
     survey = Survey(base, _one_for_each_effect(singles) or (base,))
     evidences = survey.evidences(context.discrepancy)
@@ -136,6 +141,21 @@ def _predict_all(
     ]
     completed = [prediction for prediction in predictions if prediction is not None]
     return sorted(completed, key=lambda prediction: -prediction.log_evidence)
+
+
+def _polish(
+    context: FitContext, model: WallForwardModel, best: Explanation, tried: Sequence[Candidate]
+) -> Explanation:
+    """The fit of an effect, continued with fresh slopes of all its unknowns."""
+    x, b = best.fit.x, len(COORDINATES)
+    (effect,) = (candidate for candidate in tried if (candidate.name,) == best.effects)
+    tangent = model.slopes(x, [effect.at(x[b:])])
+    if tangent is None:
+        return best
+    predicted, shared = tangent
+    own = differences(CountedHypothesis(best.fit.hypothesis), x, predicted, range(b, x.size))
+    again = _fit(context, best.fit.hypothesis, x, predicted, np.column_stack([shared, own]), EFFECT_STEPS)
+    return again if again.fit.objective < best.fit.objective else best
 
 
 def _fit_effect(context: FitContext, prediction: PredictedEvidence) -> Explanation | None:

@@ -61,7 +61,7 @@ class WallVariation(Availability, Delay):
 
 
 @dataclass(frozen=True, eq=False)
-class Subject:
+class HeartInWall:
     """A heart, the pressures (2,) [Pa] that load its measured wall, and the changes (2,) of its helix angles [rad]."""
 
     heart: Heart
@@ -69,7 +69,7 @@ class Subject:
     helix: Floats = field(default_factory=lambda: np.zeros(2))
 
     @classmethod
-    def loaded(cls, heart: Heart, left: float, right: float) -> "Subject":
+    def loaded(cls, heart: Heart, left: float, right: float) -> "HeartInWall":
         """The subject with these end-diastolic pressures [Pa]."""
         return cls(heart, np.array([left, right]))
 
@@ -80,7 +80,7 @@ REFERENCE = frozenset({"tissue.passive.c_1", "tissue.right.stiffness", *LOADS, *
 """Unknowns that change the stress-free reference of the wall."""
 
 
-def subject_at(nominal: Subject, x: Floats) -> Subject:
+def subject_at(nominal: HeartInWall, x: Floats) -> HeartInWall:
     """The subject at the coordinates x (b,); raises ValueError outside the range of a parameter."""
     counts = np.cumsum([len(PARAMETERS), len(LOADS), len(HELIX), APEX])
     own, loads, helix, contractility, activation = np.split(x[: len(NAMES)], counts)
