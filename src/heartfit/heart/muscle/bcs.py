@@ -46,6 +46,9 @@ from heartfit.heart.time_step import TimeStep
 BRIDGE_FLOOR = 1.0
 """Smallest bridge stiffness k_c [Pa]: keeps sqrt(k_c) differentiable in a relaxed muscle."""
 
+NEWTON_ITERATIONS = 60
+"""Largest number of Newton steps of the scalar equation of a fibre."""
+
 LARGEST_INCREMENT = 0.1
 """Largest change of e_c in a step: beyond it the scalar equation has spurious roots."""
 
@@ -120,18 +123,26 @@ class BestelClementSorine:
         out[4] = e_old
         return out
 
-    def respond(self, drive: "Drive", e_old: Floats, e_new: Floats, state: Floats, out: Floats) -> None:
+    def respond(
+        self,
+        drive: "Drive",
+        e_old: Floats,
+        e_new: Floats,
+        state: Floats,
+        out: Floats,
+        iterations: int = NEWTON_ITERATIONS,
+    ) -> None:
         """Fill the rows of ``out`` (5, m), created by :meth:`begin`, at the strains ``e_new`` (m,).
 
         The rows are the mean fibre stress over the step [Pa], its derivative by ``e_new``, the increment of ``e_c``,
-        its derivative, and ``e_new`` itself, from which the next call starts. In a static step (``drive.dt`` infinite)
+        its derivative, and ``e_new`` itself, from which the next call starts its ``iterations``. In a static step (``drive.dt`` infinite)
         all bridges detach: relaxed fibres have no stress, and ``e_c`` follows the strain.
         """
         if np.isinf(drive.dt):
             out[:2], out[2] = 0.0, self.unstressed(e_new) - state[0]
             return
         inputs = drive.rate, drive.attach, drive.n_0
-        _respond(*inputs, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, out)
+        _respond(*inputs, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, iterations, out)
 
     def advance(self, drive: "Drive", state: Floats, increment: Floats) -> Floats:
         """State (4, m) at the end of a step in which ``e_c`` changed by ``increment`` (m,).
@@ -218,12 +229,12 @@ def friction(constants, root, droot):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy")
-def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, d):  # type: ignore[no-untyped-def]
+def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, d, iterations=NEWTON_ITERATIONS):  # type: ignore[no-untyped-def]
     """Stress, its slope, increment and its slope, by Newton's method from the guess ``d``, safeguarded by bisection."""
     E_s, additive = constants[4], constants[5] > 0.0
     low, high = -LARGEST_INCREMENT, LARGEST_INCREMENT
     d = min(max(d, low), high)
-    for _ in range(60):
+    for _ in range(iterations):
         _, _, tau, tau_d, root, droot = bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
         s, s_e, s_d, c, c_e, c_d = spring_response(d, e_old, e_new, e_c, E_s, additive)
         mu, mu_d = friction(constants, root, droot)
@@ -244,13 +255,13 @@ def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new,
 
 
 @njit(cache=True, error_model="numpy")
-def _respond(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, out):  # type: ignore[no-untyped-def]
+def _respond(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, iterations, out):  # type: ignore[no-untyped-def]
     for i in range(e_new.size):
         guess = out[2, i] + out[3, i] * (e_new[i] - out[4, i])
         drive = rate[i], attach[i], n_0[i]
         fibre = e_old[i], e_new[i], state[0, i], state[1, i], state[2, i], guess
         out[0, i], out[1, i], out[2, i], out[3, i] = fibre_response(
-            *drive, dt, second_order, constants, *fibre
+            *drive, dt, second_order, constants, *fibre, iterations
         )
         out[4, i] = e_new[i]
 
