@@ -21,7 +21,8 @@ from heartfit.heart.finite_elements import assembly, kinematics
 from heartfit.heart.finite_elements.elements import ELEMENTS, Element
 from heartfit.heart.finite_elements.kinematics import StepFailed as StepFailed
 from heartfit.heart.finite_elements.solver import Elimination, Factor
-from heartfit.heart.muscle.bcs import NEWTON_ITERATIONS, Drive
+from heartfit.heart.muscle.bcs import Drive
+from heartfit.heart.muscle.control import Schedule
 from heartfit.heart.muscle.tissue import Tissue as Tissue
 from heartfit.heart.time_step import STATIC_STEP, TimeStep
 
@@ -63,11 +64,12 @@ class FiniteElementBody:
         self.stiffness = tissue.support.stiffness(reference)
         self.damping = tissue.support.damping(reference)
         self.passive_scale = tissue.support.passive_scale(reference)
-        self.activation, self.kept = np.asarray(reference.activation), np.ones(len(self.tets))
+        activation, self.kept = np.asarray(reference.activation), np.ones(len(self.tets))
         if not tissue.uniform:
-            self.activation = self.activation + tissue.delays()[reference.segments]
+            activation = activation + tissue.delays()[reference.segments]
             self.kept = 1.0 - tissue.losses()[reference.segments]
             self.passive_scale = self.passive_scale * tissue.stiffenings()[reference.segments]
+        self.schedule = Schedule(tissue.control, activation)
         self.cavities = [Cavity.from_endocardium(reference, f"{chamber}_endo") for chamber in CHAMBERS]
 
     @cached_property
@@ -105,7 +107,7 @@ class FiniteElementBody:
 
     def step(self, state: BodyState, step: TimeStep) -> "Step":
         """Equations of ``step`` from ``state``."""
-        control = self.tissue.control.mean(step.start, step.length, self.activation, step.period)
+        control = self.schedule.mean(step.start, step.length, step.period)
         return Step(self, state, step, self.tissue.active.drive(step, control, state.fibres, self.kept))
 
     def static_step(self, state: BodyState) -> "Step":
@@ -144,7 +146,7 @@ class Step:
         self._S, self._e = np.empty((m, 6)), np.empty(m)
         self._e_old = kinematics.fibre_strain(state.C, body.dyads)
         self._fibre = body.tissue.active.begin(self._e_old, state.fibres)
-        self._corrections = NEWTON_ITERATIONS
+        self._find_fibres = body.tissue.active.respond
         self._viscosity = 0.5 * body.tissue.passive.eta / time_step.effective
         self._start = time_step.starting_value(state.x, state.x_before)
 
@@ -153,9 +155,7 @@ class Step:
         body, tissue = self.body, self.body.tissue
         self._deform(x)
         tissue.passive.stress(self._C, self._J, body.passive_scale, body.dyads, self._S)
-        tissue.active.respond(
-            self.drive, self._e_old, self._e, self.state.fibres, self._fibre, self._corrections
-        )
+        self._find_fibres(self.drive, self._e_old, self._e, self.state.fibres, self._fibre)
         tension = self.time_step.end_value(self._fibre[0], self.state.stress)
         p, _ = body.element.pressure(x, body.tets, self._J, tissue.passive.K)
         assembly.add_stresses(
@@ -189,7 +189,7 @@ class Step:
         """
         self._fibre[2:] = other._fibre[2:]
         self._fibre[4] += self._e_old - other._e_old
-        self._corrections = 1
+        self._find_fibres = self.body.tissue.active.correct
 
     def follow(self, x: Floats) -> None:
         """Move to ``x`` near the last evaluation of the forces: the response of the fibres is extrapolated linearly."""
@@ -250,8 +250,9 @@ class Step:
     def commit(self, x: Floats) -> BodyState:
         """State at the end of the step, at the unknowns ``x`` at which the forces were last evaluated."""
         fibres = self.body.tissue.active.advance(self.drive, self.state.fibres, self._fibre[2])
-        stress = self._fibre[0].copy()
-        return BodyState(x.copy(), fibres, self._C.copy(), stress, self.state.x, self.state.C)
+        return BodyState(
+            x.copy(), fibres, self._C.copy(), self._fibre[0].copy(), self.state.x, self.state.C
+        )
 
     def size(self, residual: Floats) -> float:
         """Norm of a residual [N]; wall-volume equations are weighted by shear modulus over length."""

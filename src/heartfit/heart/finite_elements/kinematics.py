@@ -37,12 +37,12 @@ def deformation_gradient(u: Floats, tets: Integers, gradients: Floats, F: Floats
         _deformation_gradient(u, tets[e], gradients[e], F[e])
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def _deformation_gradient(u: Floats, corners: Integers, gradients: Floats, F: Floats) -> None:
     """Fill ``F`` (3, 3) of one element; the gradients of its shape functions add up to zero."""
-    p, q, r, s = corners
     for i in range(3):
-        a, b, c = u[q, i] - u[p, i], u[r, i] - u[p, i], u[s, i] - u[p, i]
+        first = u[corners[0], i]
+        a, b, c = u[corners[1], i] - first, u[corners[2], i] - first, u[corners[3], i] - first
         for j in range(3):
             F[i, j] = a * gradients[1, j] + b * gradients[2, j] + c * gradients[3, j]
         F[i, i] += 1.0
@@ -58,7 +58,9 @@ def right_cauchy_green(F: Floats, C: Floats, J: Floats) -> None:
 @njit(cache=True)
 def _cauchy_green(F: Floats, C: Floats) -> float:
     r"""Fill ``C`` (6,) with :math:`F^T F` of one element; return :math:`\det F`."""
-    (a, b, c), (d, e, f), (g, h, i) = F
+    a, b, c = F[0, 0], F[0, 1], F[0, 2]
+    d, e, f = F[1, 0], F[1, 1], F[1, 2]
+    g, h, i = F[2, 0], F[2, 1], F[2, 2]
     C[0], C[1], C[2] = a * a + d * d + g * g, b * b + e * e + h * h, c * c + f * f + i * i
     C[3], C[4], C[5] = a * b + d * e + g * h, a * c + d * f + g * i, b * c + e * f + h * i
     determinant: float = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)

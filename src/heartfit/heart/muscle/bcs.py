@@ -46,9 +46,6 @@ from heartfit.heart.time_step import TimeStep
 BRIDGE_FLOOR = 1.0
 """Smallest bridge stiffness k_c [Pa]: keeps sqrt(k_c) differentiable in a relaxed muscle."""
 
-NEWTON_ITERATIONS = 60
-"""Largest number of Newton steps of the scalar equation of a fibre."""
-
 LARGEST_INCREMENT = 0.1
 """Largest change of e_c in a step: beyond it the scalar equation has spurious roots."""
 
@@ -123,26 +120,23 @@ class BestelClementSorine:
         out[4] = e_old
         return out
 
-    def respond(
-        self,
-        drive: "Drive",
-        e_old: Floats,
-        e_new: Floats,
-        state: Floats,
-        out: Floats,
-        iterations: int = NEWTON_ITERATIONS,
-    ) -> None:
+    def respond(self, drive: "Drive", e_old: Floats, e_new: Floats, state: Floats, out: Floats) -> None:
         """Fill the rows of ``out`` (5, m), created by :meth:`begin`, at the strains ``e_new`` (m,).
 
         The rows are the mean fibre stress over the step [Pa], its derivative by ``e_new``, the increment of ``e_c``,
-        its derivative, and ``e_new`` itself, from which the next call starts its ``iterations``. In a static step (``drive.dt`` infinite)
+        its derivative, and ``e_new`` itself, from which the next call starts. In a static step (``drive.dt`` infinite)
         all bridges detach: relaxed fibres have no stress, and ``e_c`` follows the strain.
         """
         if np.isinf(drive.dt):
             out[:2], out[2] = 0.0, self.unstressed(e_new) - state[0]
             return
         inputs = drive.rate, drive.attach, drive.n_0
-        _respond(*inputs, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, iterations, out)
+        _respond(*inputs, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, out)
+
+    def correct(self, drive: "Drive", e_old: Floats, e_new: Floats, state: Floats, out: Floats) -> None:
+        """As :meth:`respond` in a step of finite length, with a single correction of the guess in ``out``."""
+        inputs = drive.rate, drive.attach, drive.n_0
+        _correct(*inputs, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, out)
 
     def advance(self, drive: "Drive", state: Floats, increment: Floats) -> Floats:
         """State (4, m) at the end of a step in which ``e_c`` changed by ``increment`` (m,).
@@ -228,17 +222,24 @@ def friction(constants, root, droot):  # type: ignore[no-untyped-def]
     return mu * (rest + (1.0 - rest) * bound), mu * (1.0 - rest) * 4.0 * root * droot / k_0
 
 
-@njit(cache=True, error_model="numpy")
-def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, d, iterations=NEWTON_ITERATIONS):  # type: ignore[no-untyped-def]
+@njit(cache=True, error_model="numpy", inline="always")
+def _imbalance(d, rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam):  # type: ignore[no-untyped-def]
+    """Left-hand side of the equation of ``d`` and its slope; the stress, its derivatives by e and d, and dc/de."""
+    _, _, tau, tau_d, root, droot = bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
+    s, s_e, s_d, c, c_e, c_d = spring_response(d, e_old, e_new, e_c, constants[4], constants[5] > 0.0)
+    mu, mu_d = friction(constants, root, droot)
+    return tau + mu * d / dt - c, tau_d + (mu + mu_d * d) / dt - c_d, s, s_e, s_d, c_e
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, d):  # type: ignore[no-untyped-def]
     """Stress, its slope, increment and its slope, by Newton's method from the guess ``d``, safeguarded by bisection."""
-    E_s, additive = constants[4], constants[5] > 0.0
     low, high = -LARGEST_INCREMENT, LARGEST_INCREMENT
     d = min(max(d, low), high)
-    for _ in range(iterations):
-        _, _, tau, tau_d, root, droot = bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
-        s, s_e, s_d, c, c_e, c_d = spring_response(d, e_old, e_new, e_c, E_s, additive)
-        mu, mu_d = friction(constants, root, droot)
-        value, slope = tau + mu * d / dt - c, tau_d + (mu + mu_d * d) / dt - c_d
+    for _ in range(60):
+        value, slope, s, s_e, s_d, c_e = _imbalance(
+            d, rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam
+        )
         if value > 0.0:
             high = d
         else:
@@ -255,14 +256,27 @@ def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new,
 
 
 @njit(cache=True, error_model="numpy")
-def _respond(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, iterations, out):  # type: ignore[no-untyped-def]
+def _respond(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, out):  # type: ignore[no-untyped-def]
     for i in range(e_new.size):
         guess = out[2, i] + out[3, i] * (e_new[i] - out[4, i])
-        drive = rate[i], attach[i], n_0[i]
-        fibre = e_old[i], e_new[i], state[0, i], state[1, i], state[2, i], guess
+        e_c, k, lam = state[0, i], state[1, i], state[2, i]
         out[0, i], out[1, i], out[2, i], out[3, i] = fibre_response(
-            *drive, dt, second_order, constants, *fibre, iterations
+            rate[i], attach[i], n_0[i], dt, second_order, constants, e_old[i], e_new[i], e_c, k, lam, guess
         )
+        out[4, i] = e_new[i]
+
+
+@njit(cache=True, error_model="numpy")
+def _correct(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, out):  # type: ignore[no-untyped-def]
+    for i in range(e_new.size):
+        d = out[2, i] + out[3, i] * (e_new[i] - out[4, i])
+        e_c, k, lam = state[0, i], state[1, i], state[2, i]
+        value, slope, s, s_e, s_d, c_e = _imbalance(
+            d, rate[i], attach[i], n_0[i], dt, second_order, constants, e_old[i], e_new[i], e_c, k, lam
+        )
+        change, increment_slope = -value / slope, c_e / slope
+        out[0, i], out[1, i] = s + s_d * change, s_e + s_d * increment_slope
+        out[2, i], out[3, i] = d + change, increment_slope
         out[4, i] = e_new[i]
 
 
