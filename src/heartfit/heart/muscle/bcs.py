@@ -170,7 +170,7 @@ def tension(state: Floats) -> Floats:
     return result
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", inline="always")
 def _bridge_root(d, rate, attach, n_0, dt, second_order, constants, k):  # type: ignore[no-untyped-def]
     """k_c at the end of the step, mean of sqrt(k_c) of the scheme, and the derivative of the mean by ``d``."""
     k_0, alpha = constants[1], constants[2]
@@ -191,7 +191,7 @@ def _bridge_root(d, rate, attach, n_0, dt, second_order, constants, k):  # type:
     return root * root, 0.5 * (old + root), 0.5 * change
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", inline="always")
 def bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam):  # type: ignore[no-untyped-def]
     """Response of the bridges to the increment ``d`` of e_c.
 
@@ -285,8 +285,9 @@ def _advance(rate, attach, n_0, dt, second_order, constants, state, increment): 
     new = np.empty_like(state)
     for i in range(increment.size):
         d, k, lam = increment[i], state[1, i], state[2, i]
-        drive = rate[i], attach[i], n_0[i], dt, second_order
-        stiffness, mean = bridges(d, *drive, constants, k, lam)[:2]
+        stiffness, mean, _, _, _, _ = bridges(
+            d, rate[i], attach[i], n_0[i], dt, second_order, constants, k, lam
+        )
         new[0, i] = state[0, i] + d
         new[1, i] = stiffness
         new[2, i] = 2.0 * mean - lam
