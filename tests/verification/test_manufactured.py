@@ -62,7 +62,7 @@ def test_the_stress_is_that_of_the_wall_point_by_point(problem, X):
     S = np.empty_like(C)
     problem.material.stress(C, J, np.ones(len(F)), np.empty_like(C), S)
     tension, dyads = np.full(len(F), problem.sigma), np.repeat(fibre_dyads(FIBRE[None]), len(F), axis=0)
-    add_stresses(C, J, problem.pressure(X), C, 0.0, tension, dyads, S)
+    add_stresses(C, J, problem.pressure(X), C, C, 0.0, 0.0, tension, dyads, S)
     assert problem.stress(problem.deformation_gradient(X)) == pytest.approx(
         np.moveaxis(F @ S[:, VOIGT], 0, -1), rel=1e-10, abs=1e-7
     )

@@ -55,11 +55,15 @@ class TimeStep:
         """Length w of the equivalent backward-Euler step [s]."""
         return self.length / (1.0 + self.memory)
 
+    @property
+    def ahead(self) -> float:
+        """Share of the change during the step before that is added to the value at the start, see starting_value."""
+        return self.effective * self.memory / self.last if self.last and self.memory else 0.0
+
     def starting_value(self, now: Value, before: Value) -> Value:
         """Value y* at which the effective step starts, from those ``now`` and one step ``before``."""
-        if not self.memory:
-            return now
-        return now + self.effective * self.memory / self.last * (now - before)  # type: ignore[operator]
+        ahead = self.ahead
+        return now + ahead * (now - before) if ahead else now
 
     def end_value(self, mean: Value, before: Value) -> Value:
         """Value at the end of the step, extrapolated from the means in this step and in the one ``before``."""

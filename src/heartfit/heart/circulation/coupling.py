@@ -20,7 +20,7 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.heart.circulation.circuit import Circuit
 from heartfit.heart.circulation.enclosure import EnclosedBody
-from heartfit.heart.circulation.network import Circulation, NetworkStep
+from heartfit.heart.circulation.network import Circulation, Network, NetworkStep
 from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import StepFailed
 from heartfit.heart.muscle.tissue import Tissue
@@ -168,6 +168,7 @@ class Coupling:
         self, body: Body, circulation: Circulation, mechanisms: Sequence[Mechanism], tolerances: Tolerances
     ) -> None:
         self.circulation, self.mechanisms = circulation, mechanisms
+        self._branches = Network(circulation, mechanisms)
         loaded = any(isinstance(m, External) for m in mechanisms)
         self.body = EnclosedBody(body, mechanisms) if loaded else body
         self.tolerances = tolerances
@@ -210,6 +211,7 @@ class Coupling:
             step.period,
             start,
             state.starting_atria(step),
+            self._branches,
         )
         return CoupledStep(self.body, equations, network, step, state)
 

@@ -155,7 +155,7 @@ class NetworkStep:
 
     ``dt`` [s] is the effective length of the step, ``start`` (2, k) are the starting values of flow and opening of the
     branches, zero without any; ``atrial_start`` (2, 2) those of the volumes [m^3] of the atria and of the pressures
-    [Pa] of the veins.
+    [Pa] of the veins. Steps may share a ``network``, that of their circulation and mechanisms.
     """
 
     def __init__(
@@ -167,8 +167,10 @@ class NetworkStep:
         period: float,
         start: Floats | None = None,
         atrial_start: Floats | None = None,
+        network: Network | None = None,
     ) -> None:
-        self._circulation, network = circulation, Network(circulation, mechanisms)
+        network = network or Network(circulation, mechanisms)
+        self._circulation = circulation
         self.dt, self._names = dt, network.names
         self.atrial = circulation.atrial(time, period, mechanisms)
         self._arterial = mechanism_pressures(ARTERIES, time, period, mechanisms)
@@ -179,7 +181,7 @@ class NetworkStep:
         if start is not None:
             self.branch_states[START_FLOW : START_FLOW + 2] = start
         self._stateful = network.leaflets.any(axis=1)
-        self.atria = network.atria
+        self.atria = None if network.atria is None else network.atria.copy()
         if self.atria is not None:
             contraction, self.atria[OUTSIDE] = atrial_walls(time, period, mechanisms)
             self.atria[STIFFENING] = contraction * self.atria[ACTIVE]

@@ -12,18 +12,24 @@ def add_stresses(
     C: Floats,
     J: Floats,
     p: Floats,
-    C_start: Floats,
+    C_now: Floats,
+    C_before: Floats,
+    ahead: float,
     viscosity: float,
     tension: Floats,
     dyads: Floats,
     S: Floats,
 ) -> None:
-    r"""Add :math:`p J C^{-1}`, ``viscosity`` times :math:`C - C_{start}` and ``tension`` along the fibres to ``S``."""
+    r"""Add :math:`p J C^{-1}`, ``viscosity`` times :math:`C - C^*` and ``tension`` along the fibres to ``S``.
+
+    The starting value is :math:`C^* = C_{now} + a (C_{now} - C_{before})` with a = ``ahead``.
+    """
     Ci = np.empty(6)
     for e in range(C.shape[0]):
         inverse(C[e], J[e] * J[e], Ci)
         for i in range(6):
-            viscous = viscosity * (C[e, i] - C_start[e, i])
+            start = C_now[e, i] + ahead * (C_now[e, i] - C_before[e, i])
+            viscous = viscosity * (C[e, i] - start)
             S[e, i] += p[e] * J[e] * Ci[i] + viscous + tension[e] * dyads[e, i]
 
 
@@ -59,18 +65,31 @@ def add_nodal_forces(
     F: Floats, S: Floats, gradients: Floats, volumes: Floats, tets: Integers, out: Floats
 ) -> None:
     r"""Add :math:`\int F S \nabla N_a` to the first three columns of ``out`` (n, >= 3)."""
-    P = np.empty((3, 3))
     for e in range(tets.shape[0]):
+        f, s, g, v = F[e], S[e], gradients[e], volumes[e]
         for i in range(3):
-            P[i, 0] = F[e, i, 0] * S[e, 0] + F[e, i, 1] * S[e, 3] + F[e, i, 2] * S[e, 4]
-            P[i, 1] = F[e, i, 0] * S[e, 3] + F[e, i, 1] * S[e, 1] + F[e, i, 2] * S[e, 5]
-            P[i, 2] = F[e, i, 0] * S[e, 4] + F[e, i, 1] * S[e, 5] + F[e, i, 2] * S[e, 2]
-        for a in range(4):
-            for i in range(3):
-                force = 0.0
-                for j in range(3):
-                    force += P[i, j] * gradients[e, a, j]
-                out[tets[e, a], i] += volumes[e] * force
+            x = v * (f[i, 0] * s[0] + f[i, 1] * s[3] + f[i, 2] * s[4])
+            y = v * (f[i, 0] * s[3] + f[i, 1] * s[1] + f[i, 2] * s[5])
+            z = v * (f[i, 0] * s[4] + f[i, 1] * s[5] + f[i, 2] * s[2])
+            for a in range(4):
+                out[tets[e, a], i] += x * g[a, 0] + y * g[a, 1] + z * g[a, 2]
+
+
+@njit(cache=True)
+def add_support_forces(
+    stiffness: Floats, damping: Floats, rate: float, x: Floats, start: Floats, out: Floats
+) -> None:
+    """Add the forces of springs (n, 3, 3) at the displacements ``x`` and of dampers at ``rate`` (x - start) to ``out``.
+
+    Only the first three columns of ``x``, ``start`` and ``out`` (n, >= 3) count.
+    """
+    for n in range(len(x)):
+        for i in range(3):
+            force = 0.0
+            for j in range(3):
+                force += stiffness[n, i, j] * x[n, j]
+                force += rate * damping[n, i, j] * (x[n, j] - start[n, j])
+            out[n, i] += force
 
 
 @njit(cache=True, error_model="numpy")

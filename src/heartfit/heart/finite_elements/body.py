@@ -22,6 +22,7 @@ from heartfit.heart.finite_elements.elements import ELEMENTS, Element
 from heartfit.heart.finite_elements.kinematics import StepFailed as StepFailed
 from heartfit.heart.finite_elements.solver import Elimination, Factor
 from heartfit.heart.muscle.bcs import Drive
+from heartfit.heart.muscle.control import Schedule
 from heartfit.heart.muscle.tissue import Tissue as Tissue
 from heartfit.heart.time_step import STATIC_STEP, TimeStep
 
@@ -63,11 +64,12 @@ class FiniteElementBody:
         self.stiffness = tissue.support.stiffness(reference)
         self.damping = tissue.support.damping(reference)
         self.passive_scale = tissue.support.passive_scale(reference)
-        self.activation, self.kept = np.asarray(reference.activation), np.ones(len(self.tets))
+        activation, self.kept = np.asarray(reference.activation), np.ones(len(self.tets))
         if not tissue.uniform:
-            self.activation = self.activation + tissue.delays()[reference.segments]
+            activation = activation + tissue.delays()[reference.segments]
             self.kept = 1.0 - tissue.losses()[reference.segments]
             self.passive_scale = self.passive_scale * tissue.stiffenings()[reference.segments]
+        self.schedule = Schedule(tissue.control, activation)
         self.cavities = [Cavity.from_endocardium(reference, f"{chamber}_endo") for chamber in CHAMBERS]
 
     @cached_property
@@ -105,7 +107,7 @@ class FiniteElementBody:
 
     def step(self, state: BodyState, step: TimeStep) -> "Step":
         """Equations of ``step`` from ``state``."""
-        control = self.tissue.control.mean(step.start, step.length, self.activation, step.period)
+        control = self.schedule.mean(step.start, step.length, step.period)
         return Step(self, state, step, self.tissue.active.drive(step, control, state.fibres, self.kept))
 
     def static_step(self, state: BodyState) -> "Step":
@@ -144,22 +146,29 @@ class Step:
         self._S, self._e = np.empty((m, 6)), np.empty(m)
         self._e_old = kinematics.fibre_strain(state.C, body.dyads)
         self._fibre = body.tissue.active.begin(self._e_old, state.fibres)
-        self._C_start = time_step.starting_value(state.C, state.C_before)
+        self._find_fibres = body.tissue.active.respond
         self._viscosity = 0.5 * body.tissue.passive.eta / time_step.effective
-        self._support = body.stiffness + body.damping / time_step.effective
-        start = time_step.starting_value(state.x[:, :3], state.x_before[:, :3])
-        self._drag = np.einsum("nij,nj->ni", body.damping / time_step.effective, start)
+        self._start = time_step.starting_value(state.x, state.x_before)
 
     def forces(self, x: Floats) -> Floats:
         """Internal and support forces (N,) at ``x`` (n, dofs) [N]; raises StepFailed if an element collapses."""
         body, tissue = self.body, self.body.tissue
         self._deform(x)
         tissue.passive.stress(self._C, self._J, body.passive_scale, body.dyads, self._S)
-        tissue.active.respond(self.drive, self._e_old, self._e, self.state.fibres, self._fibre)
+        self._find_fibres(self.drive, self._e_old, self._e, self.state.fibres, self._fibre)
         tension = self.time_step.end_value(self._fibre[0], self.state.stress)
         p, _ = body.element.pressure(x, body.tets, self._J, tissue.passive.K)
         assembly.add_stresses(
-            self._C, self._J, p, self._C_start, self._viscosity, tension, body.dyads, self._S
+            self._C,
+            self._J,
+            p,
+            self.state.C,
+            self.state.C_before,
+            self.time_step.ahead,
+            self._viscosity,
+            tension,
+            body.dyads,
+            self._S,
         )
         return self._assemble_forces(x)
 
@@ -174,8 +183,13 @@ class Step:
         return self
 
     def start_near(self, other: "Step") -> None:
-        """Start the responses of the fibres from those of another step, of a wall that differs a little."""
+        """Find the responses of the fibres by one correction, from those of another wall that differs a little.
+
+        The guess is the same relation between the increments of strain and contractile strain.
+        """
         self._fibre[2:] = other._fibre[2:]
+        self._fibre[4] += self._e_old - other._e_old
+        self._find_fibres = self.body.tissue.active.correct
 
     def follow(self, x: Floats) -> None:
         """Move to ``x`` near the last evaluation of the forces: the response of the fibres is extrapolated linearly."""
@@ -199,7 +213,8 @@ class Step:
         assembly.add_nodal_forces(self._F, self._S, body.gradients, body.element_volumes, body.tets, out)
         K, G = body.tissue.passive.K, body.tissue.passive.shear_modulus
         body.element.add_forces(x, body.tets, self._J, body.element_volumes, K, G, out)
-        out[:, :3] += np.einsum("nij,nj->ni", self._support, x[:, :3]) - self._drag
+        rate = 1.0 / self.time_step.effective
+        assembly.add_support_forces(body.stiffness, body.damping, rate, x, self._start, out)
         return out.ravel()
 
     def tangent(self, x: Floats) -> Factor:
@@ -220,7 +235,7 @@ class Step:
         K, G = body.tissue.passive.K, body.tissue.passive.shear_modulus
         body.element.fill_stiffness(slopes, body.element_volumes, K, G, elements)
         nodes = np.zeros((len(x), dofs, dofs))
-        nodes[:, :3, :3] = self._support
+        nodes[:, :3, :3] = body.stiffness + body.damping / self.time_step.effective
         return elements, nodes
 
     def _material_tangent(self, x: Floats) -> Floats:
@@ -235,8 +250,9 @@ class Step:
     def commit(self, x: Floats) -> BodyState:
         """State at the end of the step, at the unknowns ``x`` at which the forces were last evaluated."""
         fibres = self.body.tissue.active.advance(self.drive, self.state.fibres, self._fibre[2])
-        stress = self._fibre[0].copy()
-        return BodyState(x.copy(), fibres, self._C.copy(), stress, self.state.x, self.state.C)
+        return BodyState(
+            x.copy(), fibres, self._C.copy(), self._fibre[0].copy(), self.state.x, self.state.C
+        )
 
     def size(self, residual: Floats) -> float:
         """Norm of a residual [N]; wall-volume equations are weighted by shear modulus over length."""

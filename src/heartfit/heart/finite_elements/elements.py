@@ -97,11 +97,11 @@ def _add_volume_equations(
     x: Floats, tets: Integers, J: Floats, volumes: Floats, compliance: Floats, out: Floats
 ) -> None:
     for e in range(len(tets)):
+        change, v = 0.25 * (J[e] - 1.0), volumes[e]
+        p, q, r, s = x[tets[e, 0], 3], x[tets[e, 1], 3], x[tets[e, 2], 3], x[tets[e, 3], 3]
         for a in range(4):
-            value = 0.25 * (J[e] - 1.0)
-            for b in range(4):
-                value -= compliance[a, b] * x[tets[e, b], 3]
-            out[tets[e, a], 3] += volumes[e] * value
+            c = compliance[a]
+            out[tets[e, a], 3] += v * (change - c[0] * p - c[1] * q - c[2] * r - c[3] * s)
 
 
 @njit(cache=True)

@@ -34,26 +34,37 @@ def shape_gradients(points: Floats, tets: Integers) -> tuple[Floats, Floats]:
 def deformation_gradient(u: Floats, tets: Integers, gradients: Floats, F: Floats) -> None:
     r"""Fill ``F`` (m, 3, 3) with :math:`F = I + \sum_a u_a \otimes \nabla N_a`; ``u`` is (n, >= 3)."""
     for e in range(tets.shape[0]):
-        for i in range(3):
-            for j in range(3):
-                value = 1.0 if i == j else 0.0
-                for a in range(4):
-                    value += u[tets[e, a], i] * gradients[e, a, j]
-                F[e, i, j] = value
+        _deformation_gradient(u, tets[e], gradients[e], F[e])
+
+
+@njit(cache=True, inline="always")
+def _deformation_gradient(u: Floats, corners: Integers, gradients: Floats, F: Floats) -> None:
+    """Fill ``F`` (3, 3) of one element; the gradients of its shape functions add up to zero."""
+    for i in range(3):
+        first = u[corners[0], i]
+        a, b, c = u[corners[1], i] - first, u[corners[2], i] - first, u[corners[3], i] - first
+        for j in range(3):
+            F[i, j] = a * gradients[1, j] + b * gradients[2, j] + c * gradients[3, j]
+        F[i, i] += 1.0
 
 
 @njit(cache=True)
 def right_cauchy_green(F: Floats, C: Floats, J: Floats) -> None:
     r"""Fill ``C`` (m, 6) with :math:`F^T F` and ``J`` (m,) with :math:`\det F`."""
     for e in range(F.shape[0]):
-        for i in range(6):
-            r, c = ROW[i], COLUMN[i]
-            C[e, i] = F[e, 0, r] * F[e, 0, c] + F[e, 1, r] * F[e, 1, c] + F[e, 2, r] * F[e, 2, c]
-        J[e] = (
-            F[e, 0, 0] * (F[e, 1, 1] * F[e, 2, 2] - F[e, 1, 2] * F[e, 2, 1])
-            - F[e, 0, 1] * (F[e, 1, 0] * F[e, 2, 2] - F[e, 1, 2] * F[e, 2, 0])
-            + F[e, 0, 2] * (F[e, 1, 0] * F[e, 2, 1] - F[e, 1, 1] * F[e, 2, 0])
-        )
+        J[e] = _cauchy_green(F[e], C[e])
+
+
+@njit(cache=True)
+def _cauchy_green(F: Floats, C: Floats) -> float:
+    r"""Fill ``C`` (6,) with :math:`F^T F` of one element; return :math:`\det F`."""
+    a, b, c = F[0, 0], F[0, 1], F[0, 2]
+    d, e, f = F[1, 0], F[1, 1], F[1, 2]
+    g, h, i = F[2, 0], F[2, 1], F[2, 2]
+    C[0], C[1], C[2] = a * a + d * d + g * g, b * b + e * e + h * h, c * c + f * f + i * i
+    C[3], C[4], C[5] = a * b + d * e + g * h, a * c + d * f + g * i, b * c + e * f + h * i
+    determinant: float = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    return determinant
 
 
 @njit(cache=True)
@@ -61,13 +72,21 @@ def deform(
     x: Floats, tets: Integers, gradients: Floats, dyads: Floats, F: Floats, C: Floats, J: Floats, e: Floats
 ) -> float:
     """Fill F, C, J and the fibre strains ``e`` (m,) at the unknowns ``x`` (n, >= 3); return the smallest J."""
-    deformation_gradient(x, tets, gradients, F)
-    right_cauchy_green(F, C, J)
+    smallest = np.inf
     for i in range(e.size):
-        normal = dyads[i, 0] * C[i, 0] + dyads[i, 1] * C[i, 1] + dyads[i, 2] * C[i, 2]
-        shear = dyads[i, 3] * C[i, 3] + dyads[i, 4] * C[i, 4] + dyads[i, 5] * C[i, 5]
-        e[i] = 0.5 * (normal - 1.0) + shear
-    return J.min()
+        _deformation_gradient(x, tets[i], gradients[i], F[i])
+        J[i] = _cauchy_green(F[i], C[i])
+        e[i] = _strain_along(C[i], dyads[i])
+        smallest = min(smallest, J[i])
+    return smallest
+
+
+@njit(cache=True)
+def _strain_along(C: Floats, dyad: Floats) -> float:
+    normal = dyad[0] * C[0] + dyad[1] * C[1] + dyad[2] * C[2]
+    shear = dyad[3] * C[3] + dyad[4] * C[4] + dyad[5] * C[5]
+    strain: float = 0.5 * (normal - 1.0) + shear
+    return strain
 
 
 @njit(cache=True)
@@ -104,8 +123,10 @@ def push_forward(dyads: Floats, F: Floats) -> Floats:
     return unit
 
 
+@njit(cache=True)
 def fibre_strain(C: Floats, dyads: Floats) -> Floats:
     r"""Green-Lagrange fibre strain :math:`e_{1D} = (f \cdot C f - 1)/2`, (m,); its mean for mean dyads."""
-    doubled = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
-    strain: Floats = 0.5 * (np.einsum("ei,ei->e", C, dyads * doubled) - 1.0)
+    strain = np.empty(len(C))
+    for e in range(len(C)):
+        strain[e] = _strain_along(C[e], dyads[e])
     return strain

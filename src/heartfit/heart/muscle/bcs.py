@@ -133,6 +133,11 @@ class BestelClementSorine:
         inputs = drive.rate, drive.attach, drive.n_0
         _respond(*inputs, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, out)
 
+    def correct(self, drive: "Drive", e_old: Floats, e_new: Floats, state: Floats, out: Floats) -> None:
+        """As :meth:`respond` in a step of finite length, with a single correction of the guess in ``out``."""
+        inputs = drive.rate, drive.attach, drive.n_0
+        _correct(*inputs, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, out)
+
     def advance(self, drive: "Drive", state: Floats, increment: Floats) -> Floats:
         """State (4, m) at the end of a step in which ``e_c`` changed by ``increment`` (m,).
 
@@ -165,7 +170,7 @@ def tension(state: Floats) -> Floats:
     return result
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", inline="always")
 def _bridge_root(d, rate, attach, n_0, dt, second_order, constants, k):  # type: ignore[no-untyped-def]
     """k_c at the end of the step, mean of sqrt(k_c) of the scheme, and the derivative of the mean by ``d``."""
     k_0, alpha = constants[1], constants[2]
@@ -186,7 +191,7 @@ def _bridge_root(d, rate, attach, n_0, dt, second_order, constants, k):  # type:
     return root * root, 0.5 * (old + root), 0.5 * change
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", inline="always")
 def bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam):  # type: ignore[no-untyped-def]
     """Response of the bridges to the increment ``d`` of e_c.
 
@@ -217,17 +222,24 @@ def friction(constants, root, droot):  # type: ignore[no-untyped-def]
     return mu * (rest + (1.0 - rest) * bound), mu * (1.0 - rest) * 4.0 * root * droot / k_0
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", inline="always")
+def _imbalance(d, rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam):  # type: ignore[no-untyped-def]
+    """Left-hand side of the equation of ``d`` and its slope; the stress, its derivatives by e and d, and dc/de."""
+    _, _, tau, tau_d, root, droot = bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
+    s, s_e, s_d, c, c_e, c_d = spring_response(d, e_old, e_new, e_c, constants[4], constants[5] > 0.0)
+    mu, mu_d = friction(constants, root, droot)
+    return tau + mu * d / dt - c, tau_d + (mu + mu_d * d) / dt - c_d, s, s_e, s_d, c_e
+
+
+@njit(cache=True, error_model="numpy", inline="always")
 def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, d):  # type: ignore[no-untyped-def]
     """Stress, its slope, increment and its slope, by Newton's method from the guess ``d``, safeguarded by bisection."""
-    E_s, additive = constants[4], constants[5] > 0.0
     low, high = -LARGEST_INCREMENT, LARGEST_INCREMENT
     d = min(max(d, low), high)
     for _ in range(60):
-        _, _, tau, tau_d, root, droot = bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
-        s, s_e, s_d, c, c_e, c_d = spring_response(d, e_old, e_new, e_c, E_s, additive)
-        mu, mu_d = friction(constants, root, droot)
-        value, slope = tau + mu * d / dt - c, tau_d + (mu + mu_d * d) / dt - c_d
+        value, slope, s, s_e, s_d, c_e = _imbalance(
+            d, rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam
+        )
         if value > 0.0:
             high = d
         else:
@@ -247,11 +259,24 @@ def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new,
 def _respond(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, out):  # type: ignore[no-untyped-def]
     for i in range(e_new.size):
         guess = out[2, i] + out[3, i] * (e_new[i] - out[4, i])
-        drive = rate[i], attach[i], n_0[i]
-        fibre = e_old[i], e_new[i], state[0, i], state[1, i], state[2, i], guess
+        e_c, k, lam = state[0, i], state[1, i], state[2, i]
         out[0, i], out[1, i], out[2, i], out[3, i] = fibre_response(
-            *drive, dt, second_order, constants, *fibre
+            rate[i], attach[i], n_0[i], dt, second_order, constants, e_old[i], e_new[i], e_c, k, lam, guess
         )
+        out[4, i] = e_new[i]
+
+
+@njit(cache=True, error_model="numpy")
+def _correct(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, out):  # type: ignore[no-untyped-def]
+    for i in range(e_new.size):
+        d = out[2, i] + out[3, i] * (e_new[i] - out[4, i])
+        e_c, k, lam = state[0, i], state[1, i], state[2, i]
+        value, slope, s, s_e, s_d, c_e = _imbalance(
+            d, rate[i], attach[i], n_0[i], dt, second_order, constants, e_old[i], e_new[i], e_c, k, lam
+        )
+        change, increment_slope = -value / slope, c_e / slope
+        out[0, i], out[1, i] = s + s_d * change, s_e + s_d * increment_slope
+        out[2, i], out[3, i] = d + change, increment_slope
         out[4, i] = e_new[i]
 
 
@@ -260,8 +285,9 @@ def _advance(rate, attach, n_0, dt, second_order, constants, state, increment): 
     new = np.empty_like(state)
     for i in range(increment.size):
         d, k, lam = increment[i], state[1, i], state[2, i]
-        drive = rate[i], attach[i], n_0[i], dt, second_order
-        stiffness, mean = bridges(d, *drive, constants, k, lam)[:2]
+        stiffness, mean, _, _, _, _ = bridges(
+            d, rate[i], attach[i], n_0[i], dt, second_order, constants, k, lam
+        )
         new[0, i] = state[0, i] + d
         new[1, i] = stiffness
         new[2, i] = 2.0 * mean - lam

@@ -124,6 +124,26 @@ class Control:
         return cycles * whole + begun
 
 
+class Schedule:
+    """Means of one control at points activated at ``activation`` (m,) [s]; those of the last step are kept."""
+
+    def __init__(self, control: Control, activation: Floats) -> None:
+        self.control, self.activation = control, activation
+        self._step: tuple[float, ...] = ()
+        self._means = activation, activation
+
+    def mean(self, start: float, dt: float, period: float) -> tuple[Floats, Floats]:
+        """Means of |u| and of |u|_+ (m,) [1/s] as those of :meth:`Control.mean`; not to be changed."""
+        if self._step != (start, dt, period):
+            self._means = self.control.mean(start, dt, self.activation, period)
+            self._step = start, dt, period
+        return self._means
+
+    def equals(self, other: "Schedule") -> bool:
+        """True if the means are those of the ``other`` at all times."""
+        return self.control == other.control and np.array_equal(self.activation, other.activation)
+
+
 TABLE_EXTENSIONS = np.array([-0.1668, -0.0073, 0.0534, 0.0969, 0.1326, 0.2016, 0.4663, 0.9187, 1.1762])
 TABLE_FRACTIONS = np.array([0.0, 0.5614, 0.7748, 0.8933, 0.9618, 1.0, 1.0, 0.1075, 0.0])
 """Piecewise linear table of PhysioBlocks: extensions of the sarcomere, and fractions n of available bridges."""

@@ -254,15 +254,11 @@ def commit_fibres(active, step, sides, fibres):  # type: ignore[no-untyped-def]
     for v in range(sides.shape[1]):
         sides[rows.STRESS, v] = 0.0
         for i in range(v * count, (v + 1) * count):
-            d, lam = fibres[rows.INCREMENT, i], fibres[rows.LAMBDA, i]
-            drive = (
-                fibres[rows.U, i],
-                fibres[rows.U_PLUS, i],
-                fibres[rows.N_0, i],
-                step.length,
-                step.second_order,
+            d, k, lam = fibres[rows.INCREMENT, i], fibres[rows.K_C, i], fibres[rows.LAMBDA, i]
+            rate, attach, n_0 = fibres[rows.U, i], fibres[rows.U_PLUS, i], fibres[rows.N_0, i]
+            stiffness, mean, _, _, _, _ = bridges(
+                d, rate, attach, n_0, step.length, step.second_order, active, k, lam
             )
-            stiffness, mean = bridges(d, *drive, active, fibres[rows.K_C, i], lam)[:2]
             fibres[rows.E_C, i] += d
             fibres[rows.K_C, i], fibres[rows.LAMBDA, i] = stiffness, 2.0 * mean - lam
             fibres[rows.RATE, i] = d / step.length

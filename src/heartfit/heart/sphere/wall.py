@@ -101,10 +101,12 @@ def fibre_tension(active, step, sides, fibres, v):  # type: ignore[no-untyped-de
     count = fibres.shape[1] // sides.shape[1]
     total, slope = 0.0, 0.0
     for i in range(v * count, (v + 1) * count):
-        drive = fibres[rows.U, i], fibres[rows.U_PLUS, i], fibres[rows.N_0, i], step.length, step.second_order
+        rate, attach, n_0 = fibres[rows.U, i], fibres[rows.U_PLUS, i], fibres[rows.N_0, i]
         guess = fibres[rows.INCREMENT, i] + fibres[rows.INCREMENT_SLOPE, i] * move
-        fibre = fibres[rows.E_C, i], fibres[rows.K_C, i], fibres[rows.LAMBDA, i], guess
-        stress, stiffness, increment, increment_slope = fibre_response(*drive, active, e_old, e_new, *fibre)
+        e_c, k, lam = fibres[rows.E_C, i], fibres[rows.K_C, i], fibres[rows.LAMBDA, i]
+        stress, stiffness, increment, increment_slope = fibre_response(
+            rate, attach, n_0, step.length, step.second_order, active, e_old, e_new, e_c, k, lam, guess
+        )
         fibres[rows.SIGMA, i], fibres[rows.SLOPE, i] = stress, stiffness
         fibres[rows.INCREMENT, i], fibres[rows.INCREMENT_SLOPE, i] = increment, increment_slope
         total += stress
