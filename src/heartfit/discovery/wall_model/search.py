@@ -32,7 +32,7 @@ from heartfit.discovery.wall_model.wall_data import WallRecording
 RULES = Rules(detected=7.0)
 REGIONAL_RULES = Rules(detected=10.0)
 """For an effect of a region, which rests on strain."""
-BASELINE_STEPS, EFFECT_STEPS = (6, 5), 6
+BASELINE_STEPS, EFFECT_STEPS = (8, 8), 8
 """Largest numbers of steps of the baseline, before and after its slopes are renewed, and of an effect."""
 REFITTED = 5
 """Number of placements of effects that are fitted."""

@@ -6,8 +6,8 @@ over the mean gain of their kind; the noise of that registration ties them toget
 .. math:: \mathrm{Cov}(y) = R + c^2\, \Sigma(e), \qquad c \in \{0.7, 1, 1.5\},
 
 with R the roughness of any simulation and Sigma that of :mod:`heartfit.observation.regional_noise` at the measured
-strain, held while models are fitted. Longitudinal strain of the apical segments is left out: registration shows none
-of it.
+strain, held while models are fitted. Strain of the apical segments, which registration does not follow, and
+longitudinal strain, whose noise is as large as what a scar changes, are left out.
 """
 
 from dataclasses import dataclass, replace
@@ -23,20 +23,15 @@ from heartfit.observation.regional import (
     BASE_DESCENT,
     CIRCUMFERENTIAL,
     KINDS,
-    LONGITUDINAL,
     kind_of,
     names_of_kind,
     regional_curves,
 )
 from heartfit.observation.regional_noise import RegionalNoise
 
-SEARCHED_LONGITUDINAL = 12
-"""The basal and the middle segments, whose longitudinal strain is searched."""
-SEARCHED = (
-    *names_of_kind(CIRCUMFERENTIAL),
-    *names_of_kind(LONGITUDINAL)[:SEARCHED_LONGITUDINAL],
-    BASE_DESCENT,
-)
+FOLLOWED = 12
+"""Number of the basal and the middle segments, which registration follows."""
+SEARCHED = (*names_of_kind(CIRCUMFERENTIAL)[:FOLLOWED], BASE_DESCENT)
 """Names of the regional curves that a search explains."""
 STRAIN = Noise((1e-4,), 0.0, 0.004, 0.02)
 DESCENT = Noise((1e-5,), 0.0, 3e-4, 2e-3)
