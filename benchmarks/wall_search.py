@@ -9,11 +9,12 @@ pressure and without one, and on the sphere that is centred on one beat of its m
 import pickle
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from benchmarks.in_turn import searched_in_turn, spread_evenly
 from benchmarks.measured_table import store_table
 from benchmarks.planted_ventricles import study, ventricles, wall_model, wall_recording
-from benchmarks.ventricles import FOLDER
+from benchmarks.ventricles import FOLDER, ROOT
 from heartfit.discovery.inference.decide import Effects
 from heartfit.discovery.refit.model import Reference
 from heartfit.discovery.sphere_model.recording import Recording
@@ -24,6 +25,9 @@ from heartfit.discovery.wall_model.territory import (
     most_probable_angle,
     probability_of_segments,
 )
+from heartfit.geometry.territory import APEX
+from heartfit.io.tables import write_figure
+from heartfit.results.bullseye import plot_bullseye
 from heartfit.results.wall_search import NAMING, WallResult, WallTrial, hearts_table, rates_table
 from heartfit.roles import registered
 from heartfit.synthetic.campaign import PlantedPlan
@@ -31,6 +35,7 @@ from heartfit.synthetic.case import REST, PlantedCase
 from heartfit.synthetic.ventricles import ImagedBeat
 
 MODULE = "benchmarks.wall_search"
+FIGURE = ROOT / "docs" / "figures" / "wall_search_bullseye.png"
 SEED, SCALES = 450000, 2.0
 SOUND, SCARRED, LATE = 12, 10, 2
 OTHERS = ("MitralRegurgitation", "AorticStenosis", "CatheterOffset", "ImageTriggerDelay")
@@ -41,6 +46,18 @@ def main() -> None:
     for searched in searched_in_turn(search, plans(), hearts_table):
         store_table("wall_search_hearts", hearts_table(searched), MODULE)
         store_table("wall_search", rates_table(searched), MODULE)
+        scarred = [trial for trial in searched if trial.effect == "Scar"]
+        if scarred:
+            write_figure(FIGURE, _bullseye(scarred[0]))
+
+
+def _bullseye(trial: WallTrial) -> Figure:
+    """Draw the segments of a planted scar beside their probabilities."""
+    panels = [("planted", np.asarray(trial.affected, dtype=float))]
+    for title, result in (("with a pressure", trial.pressure), ("images alone", trial.images)):
+        probability = np.zeros(APEX) if result.probability is None else result.probability
+        panels.append((title, probability))
+    return plot_bullseye(panels, "probability of a scar")
 
 
 def plans() -> list[PlantedPlan]:

@@ -20,6 +20,7 @@ from heartfit.discovery.wall_model.unknowns import (
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics
+from heartfit.mechanisms.image_trigger_delay import ImageTriggerDelay
 from heartfit.mechanisms.scar import Scar
 from heartfit.observation.regional import strain_name
 from heartfit.roles import registered
@@ -81,6 +82,19 @@ def test_a_scar_takes_the_strain_of_its_segment(model: WallForwardModel) -> None
     assert scarred is not None
     assert part(sound, STRAIN).min() < -0.08
     assert part(scarred, STRAIN).min() > 0.6 * part(sound, STRAIN).min()
+
+
+def test_late_images_delay_strain_as_they_delay_the_volume(model: WallForwardModel) -> None:
+    x, frame = np.zeros(len(NAMES)), FRAMES[1]
+    true, late = model.predict(x), model.predict(x, [ImageTriggerDelay(delay=frame)])
+    assert true is not None
+    assert late is not None
+    for name in ("lv_volume", STRAIN):
+        before, after = part(true, name), part(late, name)
+        if name == STRAIN:  # the late first frame is the reference
+            before = before - before[3:9].mean() + after[4:10].mean()
+        assert after[4:10] == pytest.approx(before[3:9], abs=0.12 * np.ptp(before))
+        assert np.abs(after[4:10] - before[4:10]).max() > 0.12 * np.ptp(before)
 
 
 def test_a_wall_outside_the_range_has_no_prediction(model: WallForwardModel) -> None:

@@ -16,7 +16,7 @@ from operator import add
 import numpy as np
 
 from heartfit.core.arrays import Floats
-from heartfit.discovery.sphere_model.forward_model import observe_curve
+from heartfit.discovery.sphere_model.forward_model import interpolate, observe_curve
 from heartfit.discovery.wall_model.unknowns import NAMES, REFERENCE, HeartInWall, subject_at
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.geometry.fibres import FibreRule
@@ -28,10 +28,12 @@ from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.tangent import Neighbour, differentiate
 from heartfit.observation.regional import regional_curves
-from heartfit.roles import Mechanism
+from heartfit.roles import Mechanism, Sensor
 
 NUMERICS = Numerics(time_step=5e-3, max_beats=8, drift=3e-3, keep_positions=True)
 """Derivatives of the tangent are those of the limit cycle; the beat itself may be this far from it."""
+IMAGED, DISTORTED_PHASES = "lv_volume", 100
+"""Curve by which an error of the images is known, and number of phases at which it distorts regional curves."""
 STEP = 0.02
 """Distance of a neighbour [prior standard deviations]."""
 
@@ -82,7 +84,7 @@ class WallForwardModel:
 
     def observe(self, beat: Beat, heart: Heart) -> Floats:
         """The curves (n,) [SI] of a beat that kept its nodes, through the sensors of the heart."""
-        regional = self._regional_curves(beat) if self.regional else {}
+        regional = self._regional_curves(beat, heart) if self.regional else {}
         return np.concatenate(
             [
                 regional[name] if name in regional else observe_curve(beat, heart, name, times)
@@ -90,11 +92,23 @@ class WallForwardModel:
             ]
         )
 
-    def _regional_curves(self, beat: Beat) -> dict[str, Floats]:
-        motion = nodal_motion(beat)
-        imaged = Motion(self.frames, beat.period, np.array([motion.at(time) for time in self.frames]))
-        curves = regional_curves(self.mesh, imaged)
-        return {name: curves[name].values[1:] for name in self.regional}
+    def _regional_curves(self, beat: Beat, heart: Heart) -> dict[str, Floats]:
+        """Regional curves at the frames after the first, through the errors of the images, which distort motion."""
+        acting = [sensor for sensor in heart.sensors if IMAGED in sensor.measures]
+        phases = beat.period * np.arange(DISTORTED_PHASES) / DISTORTED_PHASES
+        times, motion = (phases if acting else self.frames), nodal_motion(beat)
+        imaged = Motion(times, beat.period, np.array([motion.at(time) for time in times]))
+        curves = {name: curve.values for name, curve in regional_curves(self.mesh, imaged).items()}
+        if not acting:
+            return {name: curves[name][1:] for name in self.regional}
+        return {name: self._distorted(curves[name], times, beat.period, acting) for name in self.regional}
+
+    def _distorted(self, values: Floats, times: Floats, period: float, acting: Sequence[Sensor]) -> Floats:
+        """Values at the frames after the first, of which the first one is the reference again."""
+        for sensor in acting:
+            values = sensor.distort(times, values, period)
+        at_frames = interpolate(np.mod(self.frames, period) / period, values)
+        return at_frames[1:] - at_frames[0]
 
     def slopes(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Floats, Floats] | None:
         """Prediction (n,) and its derivatives (n, b) by the unknowns that all hypotheses share; None on failure."""
