@@ -1,0 +1,123 @@
+"""The search on a wall in closed form: scars and late walls are named and placed, sound walls are not."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.discovery.inference.data import Block, Data, Noise
+from heartfit.discovery.sphere_model.forward_model import Candidate
+from heartfit.discovery.wall_model.search import WallFindings, search_wall
+from heartfit.discovery.wall_model.territory import most_probable_angle, probability_of_segments
+from heartfit.discovery.wall_model.unknowns import ACTIVATION_SD, CONTRACTILITY_SD, NAMES
+from heartfit.geometry.territory import territory_weights
+from heartfit.mechanisms.delayed_activation import DelayedActivation
+from heartfit.mechanisms.scar import Scar
+from heartfit.observation.regional import strain_name
+from heartfit.roles import Availability, Delay, Mechanism
+
+PERIOD = 0.8
+TIMES = np.arange(1, 20) * PERIOD / 20
+FOLLOWED = 12
+LIBRARY = [Candidate.from_mechanism(kind) for kind in (Scar, DelayedActivation)]
+FIRST, LATE = NAMES.index("segment.01"), NAMES.index("delay.01")
+
+
+@dataclass
+class EvenWall:
+    """Segments that shorten by one pulse, weaker where bridges are lost and later where the wave is late."""
+
+    simulations: int = 0
+    tangents: int = 0
+    times: dict[str, Floats] = field(default_factory=dict)
+
+    def predict(self, x: Floats, effects: tuple[Mechanism, ...] | list[Mechanism] = ()) -> Floats | None:
+        self.simulations += 1
+        kept = np.exp(CONTRACTILITY_SD * x[FIRST : FIRST + FOLLOWED])
+        late = ACTIVATION_SD * x[LATE : LATE + FOLLOWED]
+        for effect in effects:
+            kept *= 1.0 - effect.lost_share()[1 : FOLLOWED + 1] if isinstance(effect, Availability) else 1.0
+            late = late + (effect.delay()[1 : FOLLOWED + 1] if isinstance(effect, Delay) else 0.0)
+        phase = np.pi * np.mod(TIMES - late[:, None], PERIOD) / PERIOD
+        strain = -0.18 * np.exp(0.2 * x[0]) * kept[:, None] * np.sin(phase) ** 2
+        return np.concatenate([1.5e-4 * (1.0 + 1.5 * strain.mean(axis=0)), strain.ravel()])
+
+    def slopes(
+        self, x: Floats, effects: list[Mechanism] | tuple[Mechanism, ...] = ()
+    ) -> tuple[Floats, Floats]:
+        self.tangents += 1
+        step = 1e-4 * np.eye(x.size)[: len(NAMES)]
+        predicted = self.predict(x, effects)
+        return predicted, np.column_stack([(self.predict(x + s, effects) - predicted) / 1e-4 for s in step])
+
+
+@dataclass
+class Measured:
+    """Volume and strain of twelve segments with independent noise."""
+
+    values: Floats
+    has_pressure: bool = False
+
+    def data(self) -> Data:
+        volume = Block("lv_volume", "m^3", TIMES, PERIOD, Noise((1e-6,), 0.0, 0.0, 2e-6))
+        strains = (
+            Block(strain_name("circumferential", s), "1", TIMES, PERIOD, Noise((0.01,), 0.0, 0.004, 0.02))
+            for s in range(1, FOLLOWED + 1)
+        )
+        return Data(self.values, (volume, *strains))
+
+
+def searched(effects: list[Mechanism], seed: int) -> WallFindings:
+    """Search a wall that varies naturally, with noise and these effects."""
+    rng, wall = np.random.default_rng(seed), EvenWall()
+    x = np.zeros(len(NAMES))
+    x[[0, *range(FIRST, FIRST + FOLLOWED), *range(LATE, LATE + FOLLOWED)]] = rng.standard_normal(
+        1 + 2 * FOLLOWED
+    )
+    noise = np.concatenate(
+        [1e-6 * rng.standard_normal(TIMES.size), 0.01 * rng.standard_normal(FOLLOWED * TIMES.size)]
+    )
+    return search_wall(wall, Measured(wall.predict(x, effects) + noise), LIBRARY)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_sound_wall_has_no_name(seed: int) -> None:
+    assert searched([], seed).decision.verdict == "none"
+
+
+@pytest.mark.parametrize(
+    ("angle", "seed"), [(0.2, 10), (1.2, 11), (2.4, 12), (3.6, 13), (4.6, 14), (5.8, 15)]
+)
+def test_a_scar_is_named_where_it_is(angle: float, seed: int) -> None:
+    findings = searched([Scar(extent=0.24, angle=angle)], seed)
+    assert (findings.decision.verdict, findings.decision.effects) == ("named", ("Scar",))
+    assert findings.log_bayes_factor("Scar") > 10.0
+    singles = findings.survey.singles
+    error = np.angle(np.exp(1j * (most_probable_angle(singles, "Scar") - angle)))
+    assert abs(error) < np.deg2rad(30.0)
+    probability = probability_of_segments(singles, "Scar")[:FOLLOWED]
+    weights = territory_weights(angle, 0.24)[1 : FOLLOWED + 1]
+    core, sound = probability[weights == weights.max()], probability[weights == 0.0]
+    assert core.min() > 0.5
+    assert core.min() > sound.max() + 0.3
+
+
+def test_a_late_wall_is_no_scar() -> None:
+    findings = searched([DelayedActivation(lateness=0.1, angle=3.5, share=0.5)], 20)
+    assert findings.decision.effects == ("DelayedActivation",)
+
+
+def test_an_effect_that_was_not_fitted_has_no_evidence() -> None:
+    assert searched([], 0).log_bayes_factor("AorticStenosis") == -np.inf
+
+
+def test_a_baseline_that_does_not_beat_is_an_error() -> None:
+    class Stopped(EvenWall):
+        def slopes(self, x: Floats, effects: object = ()) -> None:  # type: ignore[override]
+            return None
+
+    measured = Measured(np.zeros((1 + FOLLOWED) * TIMES.size))
+    with pytest.raises(InputError, match="wall search: the beat of the baseline fails"):
+        search_wall(Stopped(), measured, LIBRARY)
