@@ -13,7 +13,6 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.measured_table import store_table
-from benchmarks.planted_ventricles import regional_noise
 from benchmarks.ventricles import ROOT
 from heartfit.discovery.refit.model import activate
 from heartfit.discovery.wall_model.forward_model import WallForwardModel
@@ -25,6 +24,7 @@ from heartfit.heart.heart import Heart
 from heartfit.io.configuration import read_study
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.refits import read_measured_case
+from heartfit.io.regional_noise import read_regional_noise
 from heartfit.io.tables import write_figure
 from heartfit.mechanisms.mitral_dynamics import MitralDynamics
 from heartfit.mechanisms.relaxed_friction import RelaxedFriction
@@ -67,7 +67,7 @@ def measured_wall(case: Path) -> tuple[WallRecording, WallForwardModel]:
     curves = read_measured_case(files).recording()
     mesh = activate(read_mesh(case / "geometry" / "mesh.vtu"))
     motion = read_motion(case / "registration" / "motion.npz")
-    recording = WallRecording(curves, mesh, motion, regional_noise())
+    recording = WallRecording(curves, mesh, motion, read_regional_noise())
     heart: Heart = study.setting(SETTING).base_heart(curves.period)
     for mechanism in NAMED:
         heart = heart + mechanism

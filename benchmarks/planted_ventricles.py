@@ -2,8 +2,6 @@
 
 from functools import cache
 
-import pandas as pd
-
 from benchmarks.ventricles import ROOT
 from heartfit.discovery.refit.model import activate
 from heartfit.discovery.sphere_model.recording import Recording
@@ -11,15 +9,11 @@ from heartfit.discovery.wall_model.forward_model import WallForwardModel
 from heartfit.discovery.wall_model.unknowns import HeartInWall
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.io.configuration import read_study
-from heartfit.observation.gain_noise import GainNoise
-from heartfit.observation.regional import BASE_DESCENT, KINDS
-from heartfit.observation.regional_noise import RegionalNoise
+from heartfit.io.regional_noise import read_regional_noise
 from heartfit.study.study import Study
 from heartfit.synthetic.case import REST, PlantedCase
 from heartfit.synthetic.ventricles import ImagedBeat, Imaging, Ventricles
 from heartfit.synthetic.volunteer import Template
-
-NOISE = ROOT / "docs" / "measured" / "strain_noise.tsv"
 
 
 @cache
@@ -39,26 +33,11 @@ def ventricles() -> Ventricles:
     return Ventricles(hidden, study().cohort.heart, protocol, imaging)
 
 
-@cache
-def regional_noise() -> RegionalNoise:
-    """Return the noise of regional strain that the registration page prints."""
-    table = pd.read_csv(NOISE, sep="\t", comment="#", index_col="curve").fillna(0.0)
-    rows = {kind: table.loc["base descent" if kind == BASE_DESCENT else f"{kind} strain"] for kind in KINDS}
-    return RegionalNoise(
-        {
-            kind: GainNoise(
-                row["G"], row["sd_g"], row["sd_h"], row["s"], row["tau (s)"], row["r"], row["sequences"]
-            )
-            for kind, row in rows.items()
-        }
-    )
-
-
 def wall_recording(imaged: ImagedBeat, case: PlantedCase, pressure: bool = True) -> WallRecording:
     """Return all that was measured of a planted heart: both volumes, the wall's motion, and pressure if wanted."""
     curves = {**imaged.volumes, **({"lv_pressure": case.curves[REST]["lv_pressure"]} if pressure else {})}
     recording = Recording.from_curves(curves)
-    return WallRecording(recording, activate(imaged.mesh), imaged.motion, regional_noise())
+    return WallRecording(recording, activate(imaged.mesh), imaged.motion, read_regional_noise())
 
 
 def wall_model(recording: WallRecording) -> WallForwardModel:

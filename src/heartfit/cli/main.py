@@ -3,12 +3,12 @@
 import sys
 from collections.abc import Sequence
 
-from heartfit.cli import campaign, check, diagnose, init, pages, simulate
+from heartfit.cli import campaign, check, diagnose, init, pages, simulate, wall
 from heartfit.cli.console import Parser, refusal
 from heartfit.core.errors import InputError
 from heartfit.io.fingerprint import made_by
 
-SUBJECTS = (simulate, init, check, diagnose, campaign, pages)
+SUBJECTS = (simulate, init, check, diagnose, wall, campaign, pages)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

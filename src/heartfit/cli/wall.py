@@ -1,0 +1,85 @@
+"""Command that searches a recorded heart with the strain of its wall."""
+
+import argparse
+from pathlib import Path
+
+from heartfit.cli.console import Command, add_configuration
+from heartfit.core.errors import InputError
+from heartfit.io.configuration import read_study
+from heartfit.io.files import require_writable, write_text
+from heartfit.io.meshes import read_mesh, read_motion
+from heartfit.io.recordings import read_recording
+from heartfit.io.regional_noise import LEARNED, read_regional_noise
+
+
+def wall_arguments(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of `diagnose-wall`."""
+    add_configuration(command)
+    command.add_argument(
+        "measured", type=Path, help="curves (.csv) as for `diagnose`: volumes, pressure if measured"
+    )
+    command.add_argument("--mesh", type=Path, required=True, help="ventricles (.vtu) in the first frame")
+    command.add_argument(
+        "--motion",
+        type=Path,
+        required=True,
+        help="its nodes in all frames (.npz), as registration writes",
+    )
+    command.add_argument(
+        "--noise", type=Path, default=LEARNED, help="noise of strain of that registration (.csv)"
+    )
+    command.add_argument("--setting", default="physical", help="name of a setting of the configuration")
+    command.add_argument(
+        "-o", "--output", type=Path, default=Path("wall"), help="folder of the card and its figure"
+    )
+
+
+def diagnose_wall(arguments: argparse.Namespace) -> int:
+    """Name the mechanism that a simulation lacks to explain volumes, pressures and the strain of the wall."""
+    from heartfit.discovery.refit.model import activate
+    from heartfit.discovery.wall_model.forward_model import WallForwardModel
+    from heartfit.discovery.wall_model.search import search_wall
+    from heartfit.discovery.wall_model.unknowns import HeartInWall
+    from heartfit.discovery.wall_model.wall_data import WallRecording
+    from heartfit.results.wall_card import wall_card, wall_sentence
+
+    require_writable(arguments.output)
+    study, curves = read_study(arguments.config), read_recording(arguments.measured)
+    if arguments.setting not in study.settings:
+        raise InputError(f"no setting {arguments.setting!r}; known are {', '.join(study.settings)}")
+    mesh, motion = activate(read_mesh(arguments.mesh)), read_motion(arguments.motion)
+    if motion.positions.shape[1] != len(mesh.points):
+        raise InputError(
+            f"{arguments.motion}: {motion.positions.shape[1]} nodes; expected the {len(mesh.points)} of the mesh: "
+            "take the motion of this mesh"
+        )
+    recording = WallRecording(curves, mesh, motion, read_regional_noise(arguments.noise))
+    pressures = study.end_diastolic_pressure
+    heart = study.setting(arguments.setting).base_heart(curves.period)
+    nominal = HeartInWall.loaded(heart, pressures.lv, pressures.rv)
+    findings = search_wall(WallForwardModel.at_samples(recording, nominal), recording)
+    write_text(arguments.output / "wall.md", wall_card(findings, f"The wall of {arguments.measured.name}"))
+    _draw(findings, arguments.output / "wall.png")
+    print(f"{wall_sentence(findings)} See {arguments.output / 'wall.md'}.")
+    return 0
+
+
+def _draw(findings: object, path: Path) -> None:
+    """Write the bull's-eye of the best effect of a region, if one was fitted."""
+    from heartfit.discovery.wall_model.territory import probability_of_segments
+    from heartfit.io.tables import write_figure
+    from heartfit.results.bullseye import plot_bullseye
+    from heartfit.results.cause_card import spaced_name
+    from heartfit.results.wall_card import best_regional
+
+    best = best_regional(findings)  # type: ignore[arg-type]
+    if best is not None:
+        name = best.effects[0]
+        probability = probability_of_segments(findings.survey.singles, name)  # type: ignore[attr-defined]
+        label = "probability of a segment, if it is present"
+        write_figure(path, plot_bullseye([(spaced_name(name), probability)], label))
+
+
+COMMANDS: tuple[Command, ...] = (
+    (diagnose_wall, wall_arguments, "name what a simulation lacks, the strain of a registered wall included"),
+)

@@ -1,0 +1,88 @@
+"""Card of a search with the strain of the wall: the verdict, the affected segments, and the evidence."""
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.discovery.inference.evidence import Explanation
+from heartfit.discovery.sphere_model.forward_model import Candidate
+from heartfit.discovery.wall_model.hypotheses import is_regional
+from heartfit.discovery.wall_model.search import WallFindings
+from heartfit.discovery.wall_model.territory import probability_of_segments
+from heartfit.results.cause_card import spaced_name
+from heartfit.results.residual import SEGMENT_NAMES
+from heartfit.results.text import AMPLITUDE_UNITS
+from heartfit.roles import registered
+
+PROBABLE = 0.5
+"""Least probability of a segment that the sentence names."""
+NAMES = (*SEGMENT_NAMES, "apex")
+"""Names of the segments 1 to 17."""
+
+
+def wall_card(findings: WallFindings, title: str) -> str:
+    """Return the card as Markdown."""
+    parts = [f"# {title}", wall_sentence(findings), _evidence(findings)]
+    regional = best_regional(findings)
+    if regional is not None and regional.effects == findings.decision.effects:
+        parts.append(_segments(probability_of_segments(findings.survey.singles, regional.effects[0])))
+    return "\n\n".join(parts) + "\n"
+
+
+def best_regional(findings: WallFindings) -> Explanation | None:
+    """The best fit of an effect of a region, None if none was fitted."""
+    regional = (fit for fit in findings.survey.singles if is_regional(registered()[fit.effects[0]]))
+    return max(regional, key=lambda fit: fit.log_evidence, default=None)
+
+
+def wall_sentence(findings: WallFindings) -> str:
+    """Return the verdict as a sentence that a cardiologist reads first."""
+    decision = findings.decision
+    if decision.verdict == "none":
+        return (
+            "No missing mechanism detected: volumes, pressures and the strain of the wall are those of a "
+            "normal heart of this shape, within their noise."
+        )
+    if decision.verdict == "unknown":
+        return (
+            "Something is missing that no single mechanism of the library explains; the strain of the wall "
+            "differs from that of every simulated heart."
+        )
+    names = [_with_size(findings, effects[0]) for effects in (decision.effects, *decision.alternatives)]
+    if decision.verdict == "group":
+        return f"Missing mechanism: one of {'; '.join(names)}. These data do not distinguish them."
+    return f"Missing mechanism: {names[0]} (ln Bayes factor {findings.log_bayes_factor(decision.effects[0]):.1f})."
+
+
+def _with_size(findings: WallFindings, name: str) -> str:
+    fit = max(
+        (one for one in findings.survey.singles if one.effects == (name,)), key=lambda one: one.log_evidence
+    )
+    amplitude = next(u for u in Candidate.from_mechanism(registered()[name]).unknowns if u.off is not None)
+    middle, low, high = (amplitude.at(value) for value in fit.interval(f"{name}.{amplitude.name}"))
+    unit, factor = AMPLITUDE_UNITS.get(amplitude.unit, (amplitude.unit, 1.0))
+    size = f"{factor * middle:.2g} ({factor * low:.2g} to {factor * high:.2g}) {unit}".rstrip()
+    text = f"{spaced_name(name)}, {amplitude.meaning} {size}"
+    if not is_regional(registered()[name]):
+        return text
+    probability = probability_of_segments(findings.survey.singles, name)
+    affected = [NAMES[s] for s in np.flatnonzero(probability > PROBABLE)]
+    return f"{text}, in {', '.join(affected) or 'no segment that is more probable than not'}"
+
+
+def _evidence(findings: WallFindings) -> str:
+    base = findings.survey.baseline.log_evidence
+    rows = [
+        f"| {spaced_name(one.effects[0])} | {one.log_evidence - base:.1f} |"
+        for one in findings.survey.singles
+    ]
+    rows.append(f"| smooth discrepancies of all curves | {findings.evidences.discrepancy - base:.1f} |")
+    return "\n".join(["| explanation | ln Bayes factor |", "|---|---|", *rows])
+
+
+def _segments(probability: Floats) -> str:
+    rows = [
+        f"| {place + 1} | {NAMES[place]} | {value:.2f} |"
+        for place, value in enumerate(probability)
+        if value >= 0.05
+    ]
+    return "\n".join(["| segment | wall | probability |", "|---|---|---|", *rows])
