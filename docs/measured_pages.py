@@ -42,6 +42,7 @@ PAGES = {
             "sensitivity",
             "study",
             "unknown_places",
+            "wall_search",
         )
     },
 }

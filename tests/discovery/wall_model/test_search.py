@@ -109,6 +109,15 @@ def test_a_late_wall_is_no_scar() -> None:
     assert findings.decision.effects == ("DelayedActivation",)
 
 
+def test_a_misfit_of_no_mechanism_is_unknown() -> None:
+    """The volume alone swings, which no strain follows."""
+    wall, x = EvenWall(), np.zeros(len(NAMES))
+    values = wall.predict(x)
+    values[: TIMES.size] += 6e-6 * np.sin(4.0 * np.pi * TIMES / PERIOD)
+    findings = search_wall(wall, Measured(values), LIBRARY)
+    assert findings.decision.verdict == "unknown"
+
+
 def test_an_effect_that_was_not_fitted_has_no_evidence() -> None:
     assert searched([], 0).log_bayes_factor("AorticStenosis") == -np.inf
 

@@ -57,6 +57,18 @@ class Fit:
     objective: float
     converged: bool
 
+    @classmethod
+    def at_end(cls, hypothesis: Hypothesis, descent: Descent) -> "Fit":
+        """The state of a descent as a fit."""
+        return cls(
+            hypothesis,
+            descent.x,
+            descent.predicted,
+            descent.jacobian,
+            descent.objective,
+            descent.converged,
+        )
+
 
 def fit(
     model: CountedHypothesis,
@@ -85,14 +97,7 @@ def fit(
     descent = Descent(problem, SCHEDULE, *first, jacobian, differences, slopes is None, target)
     while not descent.ended and model.runs < limit:
         descent.advance()
-    return Fit(
-        model.hypothesis,
-        descent.x,
-        descent.predicted,
-        descent.jacobian,
-        descent.objective,
-        descent.converged,
-    )
+    return Fit.at_end(model.hypothesis, descent)
 
 
 @dataclass(frozen=True, eq=False)

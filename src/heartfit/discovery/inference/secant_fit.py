@@ -38,14 +38,7 @@ def fit_with_slopes(
         if descent.ended:
             break
         descent.advance()
-    return Fit(
-        model.hypothesis,
-        descent.x,
-        descent.predicted,
-        descent.jacobian,
-        descent.objective,
-        descent.converged,
-    )
+    return Fit.at_end(model.hypothesis, descent)
 
 
 def differences(model: CountedHypothesis, x: Floats, predicted: Floats, columns: range) -> Floats:

@@ -28,6 +28,7 @@ from heartfit.discovery.wall_model.forward_model import WallForwardModel
 from heartfit.discovery.wall_model.hypotheses import candidates, hypothesis, is_regional, placements
 from heartfit.discovery.wall_model.unknowns import COORDINATES
 from heartfit.discovery.wall_model.wall_data import WallRecording
+from heartfit.roles import registered
 
 RULES = Rules(detected=7.0)
 REGIONAL_RULES = Rules(detected=10.0)
@@ -87,7 +88,7 @@ def search_wall(
     survey = Survey(base, _one_for_each_effect(singles) or (base,))
     evidences = survey.evidences(context.discrepancy)
     return WallFindings(
-        _decide(evidences, bool(singles)),
+        _decide(evidences),
         evidences,
         replace(survey, singles=singles),
         tuple((one.hypothesis.effects[0], one.log_evidence - base.log_evidence) for one in predictions),
@@ -98,14 +99,10 @@ def search_wall(
     )
 
 
-def _decide(evidences: Evidences, fitted: bool) -> Decision:
-    """The verdict; an effect of a region that strain alone supports needs more evidence."""
-    from heartfit.roles import registered
-
-    if not fitted:
-        return Decision("none")
-    best = evidences.single[0]
-    return decide(evidences, REGIONAL_RULES if is_regional(registered()[best]) else RULES)
+def _decide(evidences: Evidences) -> Decision:
+    """The verdict; an effect of a region, which rests on strain, needs more evidence."""
+    regional = any(is_regional(registered()[name]) for name in evidences.single)
+    return decide(evidences, REGIONAL_RULES if regional else RULES)
 
 
 def _fit_baseline(context: FitContext, model: WallForwardModel) -> Explanation:

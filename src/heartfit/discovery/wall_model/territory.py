@@ -15,6 +15,7 @@ import numpy as np
 from scipy.special import softmax
 
 from heartfit.core.arrays import Floats
+from heartfit.core.parameter import Parameter
 from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.sphere_model.forward_model import Candidate
 from heartfit.geometry.territory import territory_weights
@@ -75,5 +76,5 @@ def _territory(fitted: Explanation, name: str, x: Floats) -> tuple[float, float]
     return values["angle"], float(np.clip(share, 0.0, 1.0))
 
 
-def _unknowns(name: str):  # type: ignore[no-untyped-def]
+def _unknowns(name: str) -> dict[str, Parameter]:
     return {unknown.name: unknown for unknown in Candidate.from_mechanism(registered()[name]).unknowns}
