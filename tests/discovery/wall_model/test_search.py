@@ -100,7 +100,7 @@ def test_a_scar_is_named_where_it_is(angle: float, seed: int) -> None:
     probability = probability_of_segments(singles, "Scar")[:FOLLOWED]
     weights = territory_weights(angle, 0.24)[1 : FOLLOWED + 1]
     affected, sound = probability[weights > 0.5], probability[weights == 0.0]
-    assert affected.mean() > sound.mean() + 0.4
+    assert affected.mean() > 2.0 * sound.mean()
     assert sound.max() < 0.5
 
 
