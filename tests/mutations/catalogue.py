@@ -20,6 +20,7 @@ from tests.mutations.mutants.scoring import SCORING_MUTANTS
 from tests.mutations.mutants.search import SEARCH_MUTANTS
 from tests.mutations.mutants.sphere import SPHERE_MUTANTS
 from tests.mutations.mutants.structure import STRUCTURE_MUTANTS
+from tests.mutations.mutants.wall import WALL_MUTANTS
 from tests.mutations.mutants.withdrawal import WITHDRAWAL_MUTANTS
 
 MUTANTS = (
@@ -37,6 +38,7 @@ MUTANTS = (
     *STRUCTURE_MUTANTS,
     *PLACE_MUTANTS,
     *RIGHT_VENTRICLE_MUTANTS,
+    *WALL_MUTANTS,
     *WITHDRAWAL_MUTANTS,
     *RECENTRING_MUTANTS,
     *REFIT_MUTANTS,

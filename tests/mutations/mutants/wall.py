@@ -1,0 +1,57 @@
+"""Mutants of the search with the strain of the wall."""
+
+from tests.mutations.mutant import changes
+
+WALL = "tests/discovery/wall_model"
+
+WALL_MUTANTS = (
+    *changes(
+        "discovery/wall_model/hypotheses.py",
+        f"{WALL}/test_forward_model.py",
+        ("regional effects tried at one angle", "AROUND = 6", "AROUND = 1"),
+    ),
+    *changes(
+        "discovery/wall_model/wall_data.py",
+        f"{WALL}/test_wall_data.py",
+        (
+            "gains of registration forgotten",
+            "        structure[tied, tied] = self._covariance(curves)\n",
+            "",
+        ),
+        (
+            "measured strain not over its gain",
+            "self.noise.corrected(regional_curves(",
+            "dict(regional_curves(",
+        ),
+    ),
+    *changes(
+        "discovery/wall_model/territory.py",
+        f"{WALL}/test_territory.py",
+        (
+            "fits count alike",
+            "softmax([fitted.log_evidence for fitted in own])",
+            "softmax([0.0 for fitted in own])",
+        ),
+        ("segments of any weight", "AFFECTED = 0.5", "AFFECTED = 0.0"),
+    ),
+    *changes(
+        "discovery/wall_model/unknowns.py",
+        f"{WALL}/test_forward_model.py",
+        ("variation of the wall inverted", "1.0 - np.exp(CONTRACTILITY_SD", "1.0 - np.exp(-CONTRACTILITY_SD"),
+    ),
+    *changes(
+        "discovery/wall_model/search.py",
+        f"{WALL}/test_search.py",
+        ("effects fitted from the baseline alone", "best[:REFITTED]", "best[:0]"),
+        (
+            "any gain of a region named",
+            "REGIONAL_RULES = Rules(detected=10.0)",
+            "REGIONAL_RULES = Rules(detected=-50.0)",
+        ),
+    ),
+    *changes(
+        "discovery/inference/data.py",
+        f"{WALL}/test_wall_data.py",
+        ("levels of the independent blocks lost", "[*best[:-1], *levels]", "[*levels]"),
+    ),
+)
