@@ -110,7 +110,8 @@ def differentiate(
     last = run.beat()
     weights, k = last.continuation(first), len(neighbours)
     signals = last.signals + (last.signals - first.signals) @ weights
-    last.positions += np.einsum("ij,i...->j...", weights.astype(np.float32), last.positions - first.positions)
+    change = (last.positions - first.positions).reshape(len(weights), -1)
+    last.positions += (weights.T.astype(np.float32) @ change).reshape(last.positions.shape)
     by_name = dict(zip(run.names, signals[..., :k].swapaxes(0, 1), strict=True))
     return TangentBeat(beat, tuple(neighbours), by_name, last.positions[:k])
 

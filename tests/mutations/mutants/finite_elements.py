@@ -48,7 +48,7 @@ ELEMENT_MUTANTS = (
             "CONSISTENT_MASS / K + PROJECTION_DEFECT / G",
             "CONSISTENT_MASS / K + 0.0 * PROJECTION_DEFECT / G",
         ),
-        ("compressible the wrong way", "value -= compliance[a, b]", "value += compliance[a, b]"),
+        ("compressible the wrong way", "(change - c[0] * p", "(change + c[0] * p"),
         (
             "pressure rows not coupled",
             "out[e, 4 * b + 3, 4 * a + i] = coupling",

@@ -250,9 +250,7 @@ class Step:
     def commit(self, x: Floats) -> BodyState:
         """State at the end of the step, at the unknowns ``x`` at which the forces were last evaluated."""
         fibres = self.body.tissue.active.advance(self.drive, self.state.fibres, self._fibre[2])
-        return BodyState(
-            x.copy(), fibres, self._C.copy(), self._fibre[0].copy(), self.state.x, self.state.C
-        )
+        return BodyState(x.copy(), fibres, self._C.copy(), self._fibre[0].copy(), self.state.x, self.state.C)
 
     def size(self, residual: Floats) -> float:
         """Norm of a residual [N]; wall-volume equations are weighted by shear modulus over length."""
