@@ -72,6 +72,11 @@ class FiniteElementBody:
         self.schedule = Schedule(tissue.control, activation)
         self.cavities = [Cavity.from_endocardium(reference, f"{chamber}_endo") for chamber in CHAMBERS]
 
+    @property
+    def activation(self) -> Floats:
+        """Times (m,) at which the tetrahedra are activated [s]."""
+        return self.schedule.activation
+
     @cached_property
     def elimination(self) -> Elimination:
         """Symbolic factorisation of the tangent, valid for all bodies of the same tetrahedra."""
