@@ -75,9 +75,9 @@ def _ventricles() -> Ventricles:
 def search(trial: Trial) -> PlaceTrial:
     """Diagnose a planted heart with places."""
     study, plan = _study(), trial.plan
-    mesh, case = _ventricles().plant(plan)
+    imaged, case = _ventricles().plant(plan)
     numerics = study.discovery_benchmark.ventricles.diagnoser.numerics
-    reference = Reference(mesh, study.nominal_setting(), study.end_diastolic_pressure, numerics)
+    reference = Reference(imaged.mesh, study.nominal_setting(), study.end_diastolic_pressure, numerics)
     diagnosed = reference.search(Recording.from_curves(case.curves[REST]), PLACES, trial.left_out)
     return PlaceTrial(plan.seed, trial.group, "".join(plan.names), plan.scales, diagnosed, diagnosed)
 

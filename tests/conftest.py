@@ -1,5 +1,7 @@
 """Fixtures and markers that tests of several folders share."""
 
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -53,6 +55,19 @@ def spheres(spherical_heart: Heart) -> SphericalBody:
     """Ventricles of two spheres, which beat in a second."""
     left, right = Sphere.from_volumes(80e-6, 130e-6), Sphere.from_volumes(90e-6, 45e-6)
     return SphericalBody(left, right, spherical_heart.tissue)
+
+
+@pytest.fixture(scope="module")
+def coarse_search() -> Iterator[None]:
+    """The search simulates beats at twice its time step and to ten times its drift, in half of the time.
+
+    For a test about what a search concludes, of which a heart and its recording leave no doubt.
+    """
+    from heartfit.discovery.sphere_model import forward_model
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(forward_model, "NUMERICS", replace(forward_model.NUMERICS, time_step=1e-2, drift=1e-4))
+        yield
 
 
 def _first_folder(places: tuple[str, ...], content: str) -> Path | None:

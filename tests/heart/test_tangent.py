@@ -11,7 +11,7 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.beat import Beat
 from heartfit.heart.circulation.coupling import Tolerances
 from heartfit.heart.finite_elements.body import FiniteElementBody
-from heartfit.heart.finite_elements.unloading import unload, unload_neighbours
+from heartfit.heart.finite_elements.unloading import LoadedWall, unload, unload_neighbours
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.tangent import Neighbour, TangentBeat, differentiate
@@ -65,8 +65,10 @@ SMALL = {"volume": 1e-6, "pressure": 60.0, "length": 5e-4}
 def tangent(ventricle: VentricularMesh) -> TangentBeat:
     """Derivatives by all coordinates at once."""
     hearts = [coordinate(SIZE) for coordinate in COORDINATES.values()]
-    others = [(heart.muscle, END_DIASTOLIC_PRESSURE) for heart in hearts]
-    reference, references = unload_neighbours(ventricle, NOMINAL.muscle, END_DIASTOLIC_PRESSURE, others)
+    wall, *others = (
+        LoadedWall(ventricle, heart.muscle, END_DIASTOLIC_PRESSURE) for heart in (NOMINAL, *hearts)
+    )
+    reference, references = unload_neighbours(wall, others)
     body = FiniteElementBody(reference, NOMINAL.muscle)
     neighbours = [
         Neighbour(heart, FiniteElementBody(shape, heart.muscle, body.elimination), SIZE)

@@ -18,9 +18,9 @@ def beating(mesh: VentricularMesh, frames: int = FRAMES) -> Motion:
 
 
 def images(mesh: VentricularMesh, frames: int = FRAMES) -> ImageSequence:
-    """Noise in voxels of 2 mm about the mesh."""
+    """Noise in voxels of 4 mm about the mesh."""
     low = mesh.points.min(axis=0) - 0.02
-    size = (np.ptp(mesh.points, axis=0) + 0.04) // 2e-3
-    grid = Grid((int(size[0]), int(size[1]), int(size[2])), np.full(3, 2e-3), low, np.eye(3))
+    size = (np.ptp(mesh.points, axis=0) + 0.04) // 4e-3
+    grid = Grid((int(size[0]), int(size[1]), int(size[2])), np.full(3, 4e-3), low, np.eye(3))
     voxels = np.random.default_rng(0).random((frames, *grid.shape)).astype(np.float32)
     return ImageSequence(grid, voxels, np.arange(frames) * PERIOD / frames, PERIOD)

@@ -1,4 +1,4 @@
-"""A copy of the workflow that tests may edit, with the library beside it."""
+"""A copy of the workflow that tests may edit, with a library of its own where they edit that, too."""
 
 import os
 import shutil
@@ -11,16 +11,20 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PARTS = ("Snakefile", "workflow", "config", "resources", "profiles", "src", "docs/templates")
+PARTS = ("Snakefile", "workflow", "config", "resources", "profiles", "docs/templates")
 
 
 class Workflow:
-    """A project in its own folder, without any measured heart unless one is linked."""
+    """A project in its own folder, without any measured heart unless one is linked.
 
-    def __init__(self, folder: Path) -> None:
+    It has a library of its own if that is to be edited; kernels of a copied library would be compiled again.
+    """
+
+    def __init__(self, folder: Path, own_library: bool = False) -> None:
         self.folder = folder
+        self.library = (folder if own_library else ROOT) / "src"
         folder.mkdir()
-        for part in PARTS:
+        for part in (*PARTS, *(["src"] if own_library else [])):
             source = ROOT / part
             if source.is_dir():
                 ignore = shutil.ignore_patterns("__pycache__", "bivme_patient1", "*.nbc", "*.nbi")
@@ -29,9 +33,9 @@ class Workflow:
                 shutil.copy(source, folder / part)
 
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Run Snakemake with the folder's own library; output and errors in one."""
+        """Run Snakemake with the project's library; output and errors in one."""
         command = [sys.executable, "-m", "snakemake", "--workflow-profile", "none", *arguments]
-        environment = os.environ | {"PYTHONPATH": str(self.folder / "src")}
+        environment = os.environ | {"PYTHONPATH": str(self.library)}
         return subprocess.run(
             command,
             cwd=self.folder,
@@ -76,7 +80,7 @@ def workflow(tmp_path):
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory):
     """Workflow after drawing the sigma points of one case, and these points."""
-    workflow = Workflow(tmp_path_factory.mktemp("drawn") / "project")
+    workflow = Workflow(tmp_path_factory.mktemp("drawn") / "project", own_library=True)
     points = "results/volunteer1/physical/calibration/points.json"
     assert workflow.snakemake("--cores", "1", points).returncode == 0
     return workflow, points

@@ -17,6 +17,6 @@ imaging = Imaging(
 )
 template = Template(hidden, synthesis.mesh.edge_length, synthesis.mesh.tolerance)
 ventricles = Ventricles(template, params.standard, synthesis.protocol(params.pressures), imaging)
-mesh, case = ventricles.plant(params.plan)
-write_mesh(Path(out.mesh), mesh)
+imaged, case = ventricles.plant(params.plan)
+write_mesh(Path(out.mesh), imaged.mesh)
 write_planted(case, Path(out.measured), Path(out.sealed))

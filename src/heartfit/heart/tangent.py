@@ -9,11 +9,10 @@ its difference at the step before, and one Newton correction with the K of the h
 leaves an error of the order of :math:`h^2`: a step of all columns takes one factorisation, one evaluation of the forces
 for each column and one substitution for all of them.
 
-**Limit cycle.** A beat maps the difference d at its start to :math:`A d + b` at its end, and shows the curves
-:math:`H d + g`. After the first beat, from d = 0, the pressures of the Windkessels, the slowest coordinates, are
-shifted to :math:`(I - A)^{-1} b`, their A measured by two columns of their own. From the starts d and d' of both beats
-the images :math:`A (d' - d)` and :math:`H (d' - d)` are known for as many directions as there are columns. What is
-missing to the difference :math:`d^*` that a beat reproduces, :math:`r = A d' + b - d'`, is sought among them,
+**Limit cycle.** A beat maps the difference d at its start to :math:`d' = A d + b` at its end, and shows the curves
+:math:`H d + g`. From two beats the images :math:`A (d' - d)` and :math:`H (d' - d)` are known for as many directions as
+there are columns; two columns of their own start with a higher pressure in one Windkessel, the slowest coordinates.
+What is missing to the difference :math:`d^*` that a beat reproduces, :math:`r = A d' + b - d'`, is sought among them,
 
 .. math:: (I - A) \sum_i c_i (d'_i - d_i) = r, \qquad H d^* + g = H d' + g + \sum_i c_i H (d'_i - d_i),
 
@@ -105,9 +104,7 @@ def differentiate(
     if not beat.completed:
         raise InputError(f"tangent: {beat.reason}; expected a beat to differentiate")
     run = _Lockstep(heart, body, neighbours, chosen, history[-1])
-    first = run.beat()
-    run.shift(first)
-    last = run.beat()
+    first, last = run.beat(), run.beat()
     weights, k = last.continuation(first), len(neighbours)
     signals = last.signals + (last.signals - first.signals) @ weights
     change = (last.positions - first.positions).reshape(len(weights), -1)
@@ -185,23 +182,6 @@ class _Lockstep:
             positions.append(self._positions())
         slow.append(self._slow())
         return _Differences(np.array(signals), np.stack(positions, axis=1), np.array(slow))
-
-    def shift(self, beat: _Differences) -> None:
-        """Shift the pressures of the Windkessels, after the first ``beat``, to those that the next one will hold.
-
-        With the response A (2, 2) of the end to the start, which the last two columns show, and the ends b of the
-        others these are (I - A)^-1 b. A closed circuit keeps its blood, and so its pressures.
-        """
-        if self.states[0].atria is not None:
-            return
-        ends = beat.slow[1, :2]
-        wanted = np.linalg.solve(np.eye(2) - ends[:, -2:], ends[:, :-2])
-        pressures = _tree_pressures(self.states[0])[:, None]
-        shifts = (wanted - ends[:, :-2]) * pressures * self.sizes[:-2]
-        shifted = [
-            state.shift_pressures(shift) for state, shift in zip(self.states[2:-2], shifts.T, strict=True)
-        ]
-        self.states[2:-2] = shifted
 
     def _advance(self, states: list[HeartState], step: TimeStep, cuts: int) -> list[HeartState]:
         try:

@@ -62,14 +62,19 @@ VOLUME = "lv_volume"
 
 @dataclass(frozen=True, eq=False)
 class ImagedBeat:
-    """Imaged beat: the diagnoser's mesh in the first frame, and the left volume [m^3] of the registered mesh.
+    """Imaged beat: the diagnoser's mesh in the first frame, and its registered motion.
 
-    error: root mean square error of the volume over the largest volume.
+    error: root mean square error of the left volume over the largest volume.
     """
 
     mesh: VentricularMesh
-    volume: Curve
+    motion: Motion
     error: float
+
+    @property
+    def volumes(self) -> dict[str, Curve]:
+        """Volumes of both ventricles [m^3] of the registered mesh, by name."""
+        return cavity_volumes(self.mesh, self.motion)
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,10 +92,11 @@ class Imaging:
         outline = volunteer.mesh.with_points(motion.at(0.0))
         images = image_beat(outline, motion, replace(self.scanner, frames=frames), seed)
         mesh = self.template.fill_wall_of(outline, self.hidden)
-        volume = cavity_volumes(mesh, track(images, mesh, self.registration).motion)[VOLUME]
+        registered = track(images, mesh, self.registration).motion
+        volume = cavity_volumes(mesh, registered)[VOLUME]
         true = cavity_volumes(outline, motion.resample(images.times))[VOLUME]
         error = np.sqrt(np.mean((volume.values - true.values) ** 2)) / true.values.max()
-        return ImagedBeat(mesh, volume, float(error))
+        return ImagedBeat(mesh, registered, float(error))
 
 
 def distort_motion(motion: Motion, sensors: Sequence[Sensor]) -> Motion:
@@ -117,13 +123,13 @@ class Ventricles:
     protocol: Protocol
     imaging: Imaging
 
-    def plant(self, plan: PlantedPlan) -> tuple[VentricularMesh, PlantedCase]:
-        """Return the diagnoser's mesh of the first frame, and the case; implausible draws are repeated."""
+    def plant(self, plan: PlantedPlan) -> tuple[ImagedBeat, PlantedCase]:
+        """Return the imaged beat on the diagnoser's mesh, and the case; implausible draws are repeated."""
         return draw_admissible(plan.seed, lambda rng, rejected: self._draw_case(plan, rng, rejected))
 
     def _draw_case(
         self, plan: PlantedPlan, rng: np.random.Generator, rejected: Mapping[str, int]
-    ) -> tuple[VentricularMesh, PlantedCase]:
+    ) -> tuple[ImagedBeat, PlantedCase]:
         anatomy, normal, protocol = (
             draw_anatomy(int(rng.integers(2**31))),
             Normal(rng),
@@ -137,11 +143,11 @@ class Ventricles:
         volunteer = self._simulate(self.template.deformed_to(anatomy.shape), heart)
         imaged = self._image(volunteer, heart, protocol.frames, int(rng.integers(2**31)))
         pressure = record_pressure(beat_curves(volunteer.beat, heart.sensors)["lv_pressure"], rng)
-        curves = {REST: {"lv_volume": imaged.volume, "lv_pressure": pressure}}
+        curves = {REST: {VOLUME: imaged.volumes[VOLUME], "lv_pressure": pressure}}
         require_recordable(curves)
         planted = effects_of(effects, plan.scales)
         answer = Answer(plan.seed, plan.kind, planted, dict(rejected), deviates, imaged.error)
-        return imaged.mesh, PlantedCase(curves, answer)
+        return imaged, PlantedCase(curves, answer)
 
     def _average_heart(self, period: float) -> Heart:
         """Return the nominal heart of this period [s]."""

@@ -140,6 +140,7 @@ def test_intervals_cover_the_hidden_amplitudes(effect) -> None:
     assert held >= 33
 
 
+@pytest.mark.long
 def test_false_alarms_without_an_effect_are_rare() -> None:
     verdicts = [
         search(

@@ -11,7 +11,7 @@ from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
 NAMES = ("CatheterDelay", "CatheterOffset", "ImageShrinkage", "MitralRegurgitation")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def few_mechanisms() -> Iterator[None]:
     """Search among four mechanisms instead of all."""
     with pytest.MonkeyPatch.context() as patch:

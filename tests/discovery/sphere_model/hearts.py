@@ -1,6 +1,7 @@
 """Recordings of hearts of another model than the diagnoser's."""
 
 from dataclasses import replace
+from functools import cache
 
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.synthetic.campaign import PlantedPlan
@@ -9,6 +10,7 @@ from heartfit.synthetic.case import plant
 LEAK = PlantedPlan(1, "single", ("MitralRegurgitation",), 2.5)
 
 
+@cache
 def recorded(plan: PlantedPlan, condition: str = "rest") -> Recording:
     """Recording of a planted case."""
     curves = plant(replace(plan, reloaded=condition != "rest")).curves[condition]

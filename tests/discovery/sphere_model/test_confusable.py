@@ -1,5 +1,7 @@
 """A late activation is not named slow relaxation: the spread of activation is free in every heart."""
 
+import pytest
+
 from heartfit.discovery.sphere_model import forward_model as library
 from heartfit.discovery.sphere_model import searched_recording as searching
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
@@ -13,6 +15,7 @@ def competing_candidates(model: SphereForwardModel) -> dict[str, library.Candida
     return {"SlowRelaxation": library.candidates(model)["SlowRelaxation"]}
 
 
+@pytest.mark.usefixtures("coarse_search")
 def test_a_late_activation_is_not_named_slow_relaxation(monkeypatch):
     assert "spread" in {parameter.name for parameter in SPHERE_PARAMETERS}
     monkeypatch.setattr(searching, "candidates", competing_candidates)

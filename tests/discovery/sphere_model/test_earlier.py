@@ -22,6 +22,7 @@ from tests.discovery.sphere_model.hearts import LEAK, recorded
 
 BANK = Path(__file__).parents[3] / "resources" / "other_worlds"
 AT_MEAN = np.zeros(BASE)
+pytestmark = pytest.mark.usefixtures("coarse_search")
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +39,7 @@ def before(hearts: tuple[OtherHeart, OtherHeart]) -> Recording:
 
 
 @pytest.fixture(scope="module")
-def earlier(before: Recording) -> EarlierHeart:
+def earlier(before: Recording, coarse_search: None) -> EarlierHeart:
     return EarlierHeart.from_recording(before)
 
 
@@ -123,6 +124,7 @@ def test_later_the_instruments_are_the_same(before: Recording, earlier: EarlierH
     assert CHANGE_RULES.beside_structure(CHANGE_SCALES[0]) == CHANGE_RULES, "functions raise no threshold"
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("few_mechanisms")
 def test_a_leak_since_an_earlier_recording_is_named() -> None:
     diagnosis = diagnose_change(recorded(LEAK), recorded(PlantedPlan(1, "none")))

@@ -1,9 +1,15 @@
 """A clearly observable effect has a small detection limit; an effect that the model absorbs has none."""
 
+import pytest
+
+from heartfit.discovery.sphere_model import limits as module
 from heartfit.discovery.sphere_model.limits import detection_limits
 
 
-def test_a_delay_is_detectable_and_a_scar_is_not():
+@pytest.mark.usefixtures("coarse_search")
+def test_a_delay_is_detectable_and_a_scar_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At the least and the largest size."""
+    monkeypatch.setattr(module, "SIZES", (module.SIZES[0], module.SIZES[-1]))
     limits = {
         (limit.name, limit.sign): limit for limit in detection_limits(1, names=("CatheterDelay", "Scar"))
     }

@@ -17,6 +17,7 @@ from heartfit.discovery.sphere_model.recording import search_data
 from heartfit.synthetic.campaign import PlantedPlan
 from tests.discovery.sphere_model.hearts import healthy, recorded
 
+pytestmark = pytest.mark.usefixtures("coarse_search")
 CALIBRATED = ("cavity", "sigma_0", "mu", "c_1", "R_p", "k_RS", "k_ATP")
 IS_CALIBRATED = np.array([parameter.name.rsplit(".", 1)[-1] in CALIBRATED for parameter in FREE_PARAMETERS])
 

@@ -59,7 +59,7 @@ def test_a_wall_that_is_not_segmented_has_the_stated_thickness(segmentation: Seg
     parts = {name: mask for name, mask in segmentation.parts.items() if name != "rv_wall"}
     for thickness in (3e-3, 4.5e-3):
         surface = wall_surface(Segmentation(segmentation.grid, parts), Shaping(right_wall=thickness))
-        free = surface.points[np.unique(surface.surfaces["epi"])]
+        free = surface.points[np.unique(surface.surfaces["epi"])[::3]]
         to_left, to_right = (distances(free, surface, name) for name in ("lv_endo", "rv_endo"))
         over_right = to_right < 0.7 * to_left
         assert np.median(to_right[over_right]) == pytest.approx(thickness, abs=0.3e-3)

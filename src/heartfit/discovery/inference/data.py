@@ -84,8 +84,9 @@ class Block:
 class Data:
     """The measured values (n,), block after block.
 
-    structure: covariance S (n, n) of what the structure of the model leaves, None where the model is trusted; scales:
-    of S, equally likely. Raises InputError unless values and times match in number and all values are finite.
+    structure: covariance S (n, n) of what the structure of the model leaves, or of errors that several curves share;
+    None where the model is trusted; scales: of S, equally likely. Blocks before the first one that has a part in S are
+    independent of all others. Raises InputError unless values and times match in number and all values are finite.
     """
 
     values: Floats
@@ -109,6 +110,13 @@ class Data:
         return np.asarray(block_diag(*covariances), np.float64)
 
     @property
+    def independent(self) -> int:
+        """Number of blocks before the first one that has a part in the structure."""
+        if self.structure is None:
+            return len(self.blocks)
+        return next((i for i, rows in enumerate(self.rows) if self.structure[rows].any()), len(self.blocks))
+
+    @property
     def rows(self) -> tuple[slice, ...]:
         """Slices of ``values``, one for each block."""
         ends = np.cumsum([block.times.size for block in self.blocks])
@@ -119,8 +127,8 @@ class Data:
 class Whitening:
     """Inverse Cholesky factors of each group of rows and level, (l, k, k), and the logarithms of their densities at 0.
 
-    A group is a block or, with structure, which ties the blocks, all of them; its levels are then all combinations of
-    the blocks' levels and of the scales of the structure, whose numbers are ``combined``.
+    A group is a block or, with structure, all blocks that it ties, the last group; its levels are then all combinations
+    of the blocks' levels and of the scales of the structure, whose numbers are ``combined``.
     """
 
     rows: tuple[slice, ...]
@@ -136,8 +144,11 @@ class Whitening:
         rows, groups = data.rows, blocks
         combined: tuple[int, ...] = ()
         if data.structure is not None:
-            rows, groups = (slice(0, data.values.size),), [_combine(blocks, data.structure, data.scales)]
-            combined = (*(len(block) for block in blocks), len(data.scales))
+            free = data.independent
+            tied = slice(rows[free].start if free < len(rows) else data.values.size, data.values.size)
+            rows = (*rows[:free], tied)
+            groups = [*blocks[:free], _combine(blocks[free:], data.structure[tied, tied], data.scales)]
+            combined = (*(len(block) for block in blocks[free:]), len(data.scales))
         roots = tuple(np.asarray(np.linalg.inv(np.linalg.cholesky(group)), np.float64) for group in groups)
         return cls(rows, roots, tuple(_peaks(root) for root in roots), combined, data.scales)
 
@@ -150,8 +161,8 @@ class Whitening:
         best = [int(np.argmax(level)) for level in self._levels(residual)]
         if not self.combined:
             return best, 0.0
-        *levels, scale = (int(place) for place in np.unravel_index(best[0], self.combined))
-        return levels, self.scales[scale]
+        *levels, scale = (int(place) for place in np.unravel_index(best[-1], self.combined))
+        return [*best[:-1], *levels], self.scales[scale]
 
     def normal(self, residual: Floats, jacobian: Floats) -> tuple[Floats, Floats]:
         """J' L r (d,) and J' L J (d, d) with the mean precision L."""

@@ -19,7 +19,7 @@ Source: Govindjee and Mihalic, Comput. Methods Appl. Mech. Eng. 136 (1996) 47 (i
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,7 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.finite_elements import kinematics
 from heartfit.heart.finite_elements.body import FiniteElementBody, Step, Tissue, mean_dyads
 from heartfit.heart.finite_elements.kinematics import VOIGT, StepFailed
+from heartfit.heart.finite_elements.solver import Elimination
 from heartfit.heart.time_step import Anderson
 
 
@@ -134,18 +135,28 @@ def unload(mesh: VentricularMesh, tissue: Tissue, pressures: Floats) -> Ventricu
     return _search_reference(mesh, tissue, pressures).reference
 
 
+@dataclass(frozen=True, eq=False)
+class LoadedWall:
+    """A mesh that was measured under the pressures (2,) [Pa] in its cavities, and its tissue."""
+
+    mesh: VentricularMesh
+    tissue: Tissue
+    pressures: Floats
+
+
 def unload_neighbours(
-    mesh: VentricularMesh, tissue: Tissue, pressures: Floats, others: Sequence[tuple[Tissue, Floats]]
+    wall: LoadedWall, others: Sequence[LoadedWall]
 ) -> tuple[VentricularMesh, list[VentricularMesh]]:
-    """Stress-free mesh for ``tissue`` and ``pressures``, and those for ``others`` that differ a little from these.
+    """Stress-free mesh of ``wall``, and those of ``others`` at the same positions, which differ a little otherwise.
 
     Every neighbour is corrected with the one factorised tangent of the first mesh, so that their differences are exact
     to NEIGHBOUR_TOLERANCE. Raises StepFailed as `unload` does, or if a correction does not converge.
     """
-    search = _search_reference(mesh, tissue, pressures)
-    correct = search.corrector(pressures)
-    start = correct(search.unknowns, tissue, pressures)
-    return search.mesh_at(start), [search.mesh_at(correct(start, *other)) for other in others]
+    search = _search_reference(wall.mesh, wall.tissue, wall.pressures)
+    correct = search.corrector(wall.pressures)
+    start = correct(search.unknowns, wall)
+    meshes = [_reference_at(other.mesh, correct(start, other)) for other in others]
+    return _reference_at(wall.mesh, start), meshes
 
 
 def _search_reference(mesh: VentricularMesh, tissue: Tissue, pressures: Floats) -> "_ReferenceSearch":
@@ -206,33 +217,38 @@ class _ReferenceSearch:
             f"{_failure_message(pressures)}: elements collapse, the wall is too soft for this pressure"
         )
 
-    def corrector(self, pressures: Floats) -> Callable[[Floats, Tissue, Floats], Floats]:
-        """Map from unknowns, a tissue and pressures (2,) [Pa] to the balanced unknowns, by the tangent found here."""
+    def corrector(self, pressures: Floats) -> Callable[[Floats, LoadedWall], Floats]:
+        """Map from unknowns (n, dofs) and a wall to the balanced unknowns, with the tangent at the last balance."""
         step, _ = self._residual(self.unknowns, pressures)
         factor = _tangent(step, self.unknowns)
 
-        def correct(x: Floats, tissue: Tissue, loads: Floats) -> Floats:
+        def correct(x: Floats, wall: LoadedWall) -> Floats:
             for _ in range(NEIGHBOUR_ITERATIONS):
-                at_x, residual = self._residual(x, loads, tissue)
+                at_x, residual = _residual_at(x, wall, self._elimination)
                 if at_x.size(residual) < NEIGHBOUR_TOLERANCE:
                     return x
                 x = x - factor.solve(residual).reshape(x.shape)
             raise StepFailed(
-                f"{_failure_message(loads)} near that of another tissue, residual {at_x.size(residual):.3g} N: "
-                "expected a smaller difference"
+                f"{_failure_message(wall.pressures)} near that of another wall, residual "
+                f"{at_x.size(residual):.3g} N: expected a smaller difference"
             )
 
         return correct
 
-    def mesh_at(self, x: Floats) -> VentricularMesh:
-        """Reference from which the displacements ``x`` lead to the loaded mesh."""
-        return _pull_back(self.loaded.with_points(self.loaded.points - x[:, :3]), self.loaded)
+    def _residual(self, x: Floats, pressures: Floats) -> tuple[Step, Floats]:
+        return _residual_at(x, LoadedWall(self.loaded, self.tissue, pressures), self._elimination)
 
-    def _residual(self, x: Floats, pressures: Floats, tissue: Tissue | None = None) -> tuple[Step, Floats]:
-        """Residual (N,) at the unknowns ``x``, whose displacements lead from the reference to the loaded mesh."""
-        body = FiniteElementBody(self.mesh_at(x), tissue or self.tissue, self._elimination)
-        step = body.static_step(body.rest())
-        return step, step.forces(x) - body.volume_gradients(x) @ pressures
+
+def _residual_at(x: Floats, wall: LoadedWall, elimination: Elimination) -> tuple[Step, Floats]:
+    """Residual (N,) at the unknowns ``x``, whose displacements lead from the reference to the loaded mesh."""
+    body = FiniteElementBody(_reference_at(wall.mesh, x), wall.tissue, elimination)
+    step = body.static_step(body.rest())
+    return step, step.forces(x) - body.volume_gradients(x) @ wall.pressures
+
+
+def _reference_at(loaded: VentricularMesh, x: Floats) -> VentricularMesh:
+    """Reference from which the displacements ``x`` lead to the loaded mesh, with its fibres."""
+    return _pull_back(loaded.with_points(loaded.points - x[:, :3]), loaded)
 
 
 def _failure_message(pressures: Floats) -> str:

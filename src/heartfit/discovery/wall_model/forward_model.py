@@ -1,0 +1,149 @@
+r"""Predictions of measured curves, strain of the wall included, by a heart in three dimensions.
+
+The measured wall at end diastole is unloaded for every heart anew. Curves follow from the beat on the limit cycle, as
+those of the search on the sphere do; regional curves from its nodes at the times of the frames,
+
+.. math:: f(x) = (V(t_i), P(t_j), E_s(t_k), d(t_k)),
+
+with all image times counted from the trigger of that heart. Slopes by many unknowns come from one tangent-linear beat.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, reduce
+from operator import add
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.discovery.sphere_model.forward_model import observe_curve
+from heartfit.discovery.wall_model.unknowns import NAMES, REFERENCE, HeartInWall, subject_at
+from heartfit.discovery.wall_model.wall_data import WallRecording
+from heartfit.geometry.fibres import FibreRule
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.heart.beat import Beat, nodal_motion
+from heartfit.heart.finite_elements.body import FiniteElementBody, StepFailed
+from heartfit.heart.finite_elements.unloading import LoadedWall, unload, unload_neighbours
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics, simulate
+from heartfit.heart.tangent import Neighbour, differentiate
+from heartfit.observation.regional import regional_curves
+from heartfit.roles import Mechanism
+
+NUMERICS = Numerics(time_step=5e-3, max_beats=8, drift=3e-3, keep_positions=True)
+"""Derivatives of the tangent are those of the limit cycle; the beat itself may be this far from it."""
+STEP = 0.02
+"""Distance of a neighbour [prior standard deviations]."""
+
+
+@dataclass(eq=False)
+class WallForwardModel:
+    """Model of one measured wall.
+
+    mesh: the wall at end diastole, prepared and activated; nominal: the subject at the prior mean; times: of every
+    curve [s after the trigger], by name; frames (p,): times of the images [s], the first one the reference of strain.
+    simulations: number of beats that were run, ``tangents``: of tangent-linear ones.
+    """
+
+    mesh: VentricularMesh
+    nominal: HeartInWall
+    times: Mapping[str, Floats]
+    frames: Floats
+    numerics: Numerics = NUMERICS
+    simulations: int = 0
+    tangents: int = 0
+
+    @classmethod
+    def at_samples(
+        cls, recording: WallRecording, nominal: HeartInWall, numerics: Numerics = NUMERICS
+    ) -> "WallForwardModel":
+        """The model of the wall of a recording at all of its samples."""
+        times = {block.curve: block.times for block in recording.data().blocks}
+        return cls(recording.mesh, nominal, times, recording.frames, numerics)
+
+    @cached_property
+    def _rule(self) -> FibreRule:
+        return FibreRule.from_mesh(self.mesh)
+
+    @cached_property
+    def regional(self) -> tuple[str, ...]:
+        """Names of the regional curves."""
+        return tuple(name for name in self.times if name.startswith(("strain_", "base_descent")))
+
+    def predict(self, x: Floats, effects: Sequence[Mechanism] = ()) -> Floats | None:
+        """The curves (n,) [SI], one after the other, at the coordinates x (b,); None where the simulation fails."""
+        self.simulations += 1
+        try:
+            subject = self._subject(x, effects)
+            beat = simulate(subject.heart, self._body(subject), self.numerics)
+        except (ValueError, StepFailed):  # outside the range of a parameter, or no stress-free wall
+            return None
+        return self.observe(beat, subject.heart) if beat.completed else None
+
+    def observe(self, beat: Beat, heart: Heart) -> Floats:
+        """The curves (n,) [SI] of a beat that kept its nodes, through the sensors of the heart."""
+        regional = self._regional_curves(beat) if self.regional else {}
+        return np.concatenate(
+            [
+                regional[name] if name in regional else observe_curve(beat, heart, name, times)
+                for name, times in self.times.items()
+            ]
+        )
+
+    def _regional_curves(self, beat: Beat) -> dict[str, Floats]:
+        motion = nodal_motion(beat)
+        imaged = Motion(self.frames, beat.period, np.array([motion.at(time) for time in self.frames]))
+        curves = regional_curves(self.mesh, imaged)
+        return {name: curves[name].values[1:] for name in self.regional}
+
+    def slopes(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Floats, Floats] | None:
+        """Prediction (n,) and its derivatives (n, b) by the unknowns that all hypotheses share; None on failure."""
+        try:
+            return self._differentiate(x, effects)
+        except (ValueError, StepFailed):
+            return None
+
+    def _differentiate(self, x: Floats, effects: Sequence[Mechanism]) -> tuple[Floats, Floats]:
+        subject = self._subject(x, effects)
+        steps = STEP * np.eye(len(NAMES))
+        others = [self._subject(x[: len(NAMES)] + step, effects) for step in steps]
+        rebuilt = [index for index, name in enumerate(NAMES) if name in REFERENCE]
+        body, bodies = self._neighbouring_bodies(subject, others, rebuilt)
+        neighbours = [Neighbour(other.heart, own, STEP) for other, own in zip(others, bodies, strict=True)]
+        self.tangents += 1
+        tangent = differentiate(subject.heart, body, neighbours, self.numerics)
+        predicted = self.observe(tangent.beat, subject.heart)
+        columns = [
+            (self.observe(tangent.near(index), other.heart) - predicted) / STEP
+            for index, other in enumerate(others)
+        ]
+        return predicted, np.column_stack(columns)
+
+    def _subject(self, x: Floats, effects: Sequence[Mechanism]) -> HeartInWall:
+        subject = subject_at(self.nominal, x)
+        return replace(subject, heart=reduce(add, effects, subject.heart))
+
+    def _body(self, subject: HeartInWall) -> FiniteElementBody:
+        wall = self._loaded(subject)
+        return FiniteElementBody(unload(wall.mesh, wall.tissue, wall.pressures), wall.tissue)
+
+    def _neighbouring_bodies(
+        self, subject: HeartInWall, others: Sequence[HeartInWall], rebuilt: Sequence[int]
+    ) -> tuple[FiniteElementBody, list[FiniteElementBody]]:
+        """Bodies of the subject and of the others, those ``rebuilt`` on a reference of their own."""
+        walls = (self._loaded(member) for member in (subject, *(others[i] for i in rebuilt)))
+        reference, references = unload_neighbours(next(walls), list(walls))
+        shapes = dict(zip(rebuilt, references, strict=True))
+        own = FiniteElementBody(reference, subject.heart.muscle)
+        return own, [
+            FiniteElementBody(shapes.get(i, reference), other.heart.muscle, own.elimination)
+            for i, other in enumerate(others)
+        ]
+
+    def _loaded(self, subject: HeartInWall) -> LoadedWall:
+        """The measured wall of a subject, with its helix angles."""
+        mesh, rule = self.mesh, self._rule
+        if subject.helix.any():
+            rule = replace(rule, endo=rule.endo + subject.helix[0], epi=rule.epi + subject.helix[1])
+            mesh = replace(mesh, fibres=rule.fibres(), orientation=rule.orientation())
+        return LoadedWall(mesh, subject.heart.muscle, subject.loads)

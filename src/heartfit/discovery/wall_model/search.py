@@ -1,0 +1,188 @@
+r"""The search for a missing effect in three dimensions, with the strain of the wall among the data.
+
+The baseline, all unknowns free, is fitted with the slopes of a tangent-linear beat, which are renewed at its end. Every
+mechanism, regional ones at six angles, is then switched on once; the secant ranks it by the evidence of the linear
+model. Only the best are fitted, from the baseline's fit, one beat a step, the best of them once more with slopes of
+its own. They are judged by their evidence as on the
+sphere; an effect of a region, which rests on strain, needs ten and must beat the smooth discrepancies of the segments.
+"""
+
+import time as clock
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
+from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.data import Data
+from heartfit.discovery.inference.decide import Decision, Evidences, Rules, decide
+from heartfit.discovery.inference.evidence import Explanation
+from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
+from heartfit.discovery.inference.predicted_evidence import PredictedEvidence, predict_evidence
+from heartfit.discovery.inference.search import Survey, rank
+from heartfit.discovery.inference.secant_fit import differences, fit_with_slopes
+from heartfit.discovery.sphere_model.forward_model import Candidate
+from heartfit.discovery.wall_model.forward_model import WallForwardModel
+from heartfit.discovery.wall_model.hypotheses import candidates, hypothesis, is_regional, placements
+from heartfit.discovery.wall_model.unknowns import COORDINATES
+from heartfit.discovery.wall_model.wall_data import WallRecording
+
+RULES = Rules(detected=7.0)
+REGIONAL_RULES = Rules(detected=10.0)
+"""For an effect of a region, which rests on strain."""
+BASELINE_STEPS, EFFECT_STEPS = (8, 8), 8
+"""Largest numbers of steps of the baseline, before and after its slopes are renewed, and of an effect."""
+REFITTED = 5
+"""Number of placements of effects that are fitted."""
+SUSPECTED = 2.0
+"""Gain of the best fit over the baseline [ln Z] above which its slopes are renewed."""
+LEAST_PREDICTED = 1.0
+"""Predicted gain over the baseline [ln Z] below which an effect is not fitted."""
+STARTS = (0.5, 3.0)
+"""Range of amplitudes at which an effect starts [scales]."""
+
+
+@dataclass(frozen=True, eq=False)
+class WallFindings:
+    """The decision and its grounds.
+
+    predicted: ln Bayes factor of the linear model for every placement that was tried, by effect and angle index;
+    beats, tangents: numbers of beats and of tangent-linear ones; cpu: [s].
+    """
+
+    decision: Decision
+    evidences: Evidences
+    survey: Survey
+    predicted: tuple[tuple[str, float], ...]
+    data: Data
+    beats: int
+    tangents: int
+    cpu: float
+
+    def log_bayes_factor(self, effect: str) -> float:
+        """ln evidence of the best fit of an effect over the baseline; -inf if it was not fitted."""
+        fits = [single.log_evidence for single in self.survey.singles if single.effects == (effect,)]
+        return max(fits, default=-np.inf) - self.survey.baseline.log_evidence
+
+
+def search_wall(
+    model: WallForwardModel, recording: WallRecording, library: Sequence[Candidate] | None = None
+) -> WallFindings:
+    """Search for the effect that the nominal heart lacks to explain a recording with the strain of its wall.
+
+    Raises InputError where the beat at the prior mean fails.
+    """
+    started, context = clock.process_time(), FitContext(recording.data())
+    tried = candidates(model, recording.has_pressure) if library is None else list(library)
+    base = _fit_baseline(context, model)
+    predictions = _predict_all(context, model, base, tried)
+    best = [one for one in predictions if one.log_evidence > base.log_evidence + LEAST_PREDICTED]
+    fits = [_fit_effect(context, one) for one in best[:REFITTED]]
+    singles = rank(fitted for fitted in fits if fitted is not None)
+    if singles and singles[0].log_evidence - base.log_evidence > SUSPECTED:
+        singles = rank([_polish(context, model, singles[0], tried), *singles[1:]])
+    base = _refit_baseline(context, base, singles)
+    survey = Survey(base, _one_for_each_effect(singles) or (base,))
+    evidences = survey.evidences(context.discrepancy)
+    return WallFindings(
+        _decide(evidences, bool(singles)),
+        evidences,
+        replace(survey, singles=singles),
+        tuple((one.hypothesis.effects[0], one.log_evidence - base.log_evidence) for one in predictions),
+        context.data,
+        model.simulations,
+        model.tangents,
+        clock.process_time() - started,
+    )
+
+
+def _decide(evidences: Evidences, fitted: bool) -> Decision:
+    """The verdict; an effect of a region that strain alone supports needs more evidence."""
+    from heartfit.roles import registered
+
+    if not fitted:
+        return Decision("none")
+    best = evidences.single[0]
+    return decide(evidences, REGIONAL_RULES if is_regional(registered()[best]) else RULES)
+
+
+def _fit_baseline(context: FitContext, model: WallForwardModel) -> Explanation:
+    """The baseline's fit, its slopes renewed once on the way."""
+    baseline, x = hypothesis(model), np.zeros(len(COORDINATES))
+    for steps in BASELINE_STEPS:
+        tangent = model.slopes(x)
+        if tangent is None:
+            raise InputError("wall search: the beat of the baseline fails; expected one to start from")
+        fitted = _fit(context, baseline, x, *tangent, steps)
+        x = fitted.fit.x
+    return fitted
+
+
+def _fit(
+    context: FitContext, tried: Hypothesis, x: Floats, predicted: Floats, slopes: Floats, steps: int
+) -> Explanation:
+    fitted = fit_with_slopes(
+        CountedHypothesis(tried), context.data.values, context.whitening, x, predicted, slopes, steps
+    )
+    return Explanation.from_fit(fitted, context.data.values, context.whitening)
+
+
+def _predict_all(
+    context: FitContext, model: WallForwardModel, base: Explanation, tried: Sequence[Candidate]
+) -> list[PredictedEvidence]:
+    """Predictions of all placements, in descending evidence."""
+    shared = np.zeros(len(COORDINATES))
+    predictions = [
+        predict_evidence(context, base, hypothesis(model, [effect]), np.concatenate([shared, place]), STARTS)
+        for effect in tried
+        for place in placements(effect)
+    ]
+    completed = [prediction for prediction in predictions if prediction is not None]
+    return sorted(completed, key=lambda prediction: -prediction.log_evidence)
+
+
+def _polish(
+    context: FitContext, model: WallForwardModel, best: Explanation, tried: Sequence[Candidate]
+) -> Explanation:
+    """The fit of an effect, continued with fresh slopes of all its unknowns."""
+    x, b = best.fit.x, len(COORDINATES)
+    (effect,) = (candidate for candidate in tried if (candidate.name,) == best.effects)
+    tangent = model.slopes(x, [effect.at(x[b:])])
+    if tangent is None:
+        return best
+    predicted, shared = tangent
+    own = differences(CountedHypothesis(best.fit.hypothesis), x, predicted, range(b, x.size))
+    again = _fit(context, best.fit.hypothesis, x, predicted, np.column_stack([shared, own]), EFFECT_STEPS)
+    return again if again.fit.objective < best.fit.objective else best
+
+
+def _fit_effect(context: FitContext, prediction: PredictedEvidence) -> Explanation | None:
+    """Fit of an effect from its prediction, with the slopes of its own unknowns there."""
+    tried, x, b = prediction.hypothesis, prediction.start, len(COORDINATES)
+    model = CountedHypothesis(tried)
+    start = model.simulate_start(x)
+    if start is None:
+        return None
+    x, predicted = start
+    own = differences(model, x, predicted, range(b, x.size))
+    return _fit(context, tried, x, predicted, np.column_stack([prediction.slopes[:, :b], own]), EFFECT_STEPS)
+
+
+def _refit_baseline(context: FitContext, base: Explanation, singles: Sequence[Explanation]) -> Explanation:
+    """The baseline, fitted again from the coordinates of the best effect where that is better."""
+    if not singles:
+        return base
+    best, b = singles[0].fit, len(COORDINATES)
+    x = best.x[:b]
+    predicted = base.fit.hypothesis.forward(x)
+    if predicted is None:
+        return base
+    again = _fit(context, base.fit.hypothesis, x, predicted, best.jacobian[:, :b], EFFECT_STEPS)
+    return again if again.fit.objective < base.fit.objective else base
+
+
+def _one_for_each_effect(singles: Sequence[Explanation]) -> tuple[Explanation, ...]:
+    """The best fit of each effect, in descending evidence."""
+    return tuple({single.effects: single for single in reversed(singles)}.values())[::-1]

@@ -1,0 +1,135 @@
+"""Predictions of a measured wall: their slopes, their samples and the unknowns that move the reference."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heartfit.core.arrays import Floats
+from heartfit.discovery.sphere_model.forward_model import Candidate
+from heartfit.discovery.wall_model.forward_model import WallForwardModel
+from heartfit.discovery.wall_model.hypotheses import candidates, placements
+from heartfit.discovery.wall_model.unknowns import (
+    CONTRACTILITY_SD,
+    NAMES,
+    REFERENCE,
+    HeartInWall,
+    WallVariation,
+    subject_at,
+)
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics
+from heartfit.mechanisms.scar import Scar
+from heartfit.observation.regional import strain_name
+from heartfit.roles import registered
+
+TIMES = np.linspace(0.0, 0.75, 16)
+FRAMES = np.linspace(0.0, 0.75, 16)
+STRAIN = strain_name("circumferential", 9)
+CURVES = {"lv_volume": TIMES, "rv_volume": TIMES, "lv_pressure": TIMES, STRAIN: FRAMES[1:]}
+
+
+@pytest.fixture(scope="module")
+def model(ventricle: VentricularMesh) -> WallForwardModel:
+    numerics = Numerics(time_step=10e-3, max_beats=10, drift=1e-3, keep_positions=True)
+    return WallForwardModel(ventricle, HeartInWall.loaded(Heart(), 1000.0, 500.0), CURVES, FRAMES, numerics)
+
+
+@pytest.fixture(scope="module")
+def centre(model: WallForwardModel) -> tuple[Floats, Floats]:
+    slopes = model.slopes(np.zeros(len(NAMES)))
+    assert slopes is not None
+    return slopes
+
+
+def part(values: Floats, name: str) -> Floats:
+    ends = np.cumsum([0, *(times.size for times in CURVES.values())])
+    place = list(CURVES).index(name)
+    return values[ends[place] : ends[place + 1]]
+
+
+@pytest.mark.long
+def test_the_prediction_of_the_slopes_is_that_of_the_beat(
+    model: WallForwardModel, centre: tuple[Floats, Floats]
+) -> None:
+    predicted = model.predict(np.zeros(len(NAMES)))
+    assert predicted == pytest.approx(centre[0], rel=1e-3, abs=1e-5)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["tissue.active.sigma_0", "load.lv", "helix.endo", "segment.09"])
+def test_slopes_are_those_of_beats_nearby(
+    model: WallForwardModel, centre: tuple[Floats, Floats], name: str
+) -> None:
+    x, converged = np.zeros(len(NAMES)), replace(model, numerics=replace(model.numerics, drift=1e-5))
+    x[NAMES.index(name)] = 0.2
+    above, below = converged.predict(x), converged.predict(-x)
+    assert above is not None
+    assert below is not None
+    expected, slope = (above - below) / 0.4, centre[1][:, NAMES.index(name)]
+    for curve, floor in {"lv_volume": 1e-6, "lv_pressure": 150.0, STRAIN: 0.004}.items():
+        error = np.sqrt(np.mean((part(slope, curve) - part(expected, curve)) ** 2))
+        assert error < 0.08 * max(np.sqrt(np.mean(part(expected, curve) ** 2)), floor), curve
+
+
+def test_a_scar_takes_the_strain_of_its_segment(model: WallForwardModel) -> None:
+    sound, scarred = (
+        model.predict(np.zeros(len(NAMES)), effects) for effects in ([], [Scar(extent=0.25, angle=0.0)])
+    )
+    assert sound is not None
+    assert scarred is not None
+    assert part(sound, STRAIN).min() < -0.08
+    assert part(scarred, STRAIN).min() > 0.6 * part(sound, STRAIN).min()
+
+
+def test_a_wall_outside_the_range_has_no_prediction(model: WallForwardModel) -> None:
+    x = np.zeros(len(NAMES))
+    x[NAMES.index("tissue.control.duration")] = 100.0
+    assert model.predict(x) is None
+    assert model.slopes(x) is None
+
+
+def test_the_wall_varies_by_segment() -> None:
+    x = np.zeros(len(NAMES))
+    x[NAMES.index("segment.07")], x[NAMES.index("delay.11")] = 2.0, 1.0
+    (variation,) = [
+        m
+        for m in subject_at(HeartInWall.loaded(Heart(), 1.0, 1.0), x).heart.mechanisms
+        if isinstance(m, WallVariation)
+    ]
+    kept = 1.0 - variation.lost_share()
+    assert kept[7] == pytest.approx(np.exp(2.0 * CONTRACTILITY_SD))
+    assert kept[np.arange(18) != 7] == pytest.approx(1.0)
+    assert variation.delay()[11] == pytest.approx(0.008)
+    assert np.count_nonzero(variation.delay()) == 1
+
+
+def test_unknowns_of_the_reference_are_unknowns() -> None:
+    assert set(NAMES) >= REFERENCE
+    assert len(set(NAMES)) == len(NAMES)
+
+
+def test_regional_effects_are_tried_all_around() -> None:
+    scar = Candidate.from_mechanism(Scar)
+    names = [unknown.name for unknown in scar.unknowns]
+    angles = [
+        scar.unknowns[names.index("angle")].at(place[names.index("angle")]) for place in placements(scar)
+    ]
+    assert np.sort(np.mod(np.round(angles, 9), 2.0 * np.pi)) == pytest.approx(
+        np.pi / 3.0 * np.arange(6), abs=1e-6
+    )
+
+
+def test_images_alone_name_regions_and_image_errors(model: WallForwardModel) -> None:
+    images = replace(model, times={name: times for name, times in CURVES.items() if name != "lv_pressure"})
+    alone = {candidate.name for candidate in candidates(images, pressure=False)}
+    assert alone == {
+        "DelayedActivation",
+        "Scar",
+        "ImageShrinkage",
+        "ImageSmoothing",
+        "ImageTriggerDelay",
+        "RateMismatch",
+    }
+    assert {candidate.name for candidate in candidates(model, pressure=True)} < set(registered())
