@@ -6,7 +6,7 @@ The cost is CPU time of one core, against that of a beat of every coordinate on 
 
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import TypeVar
@@ -60,15 +60,17 @@ Coordinate = Callable[[float], Heart]
 def main(*parts: str) -> None:
     """Measure and store the tables, or some of them."""
     for part in parts or ("cost", "accuracy"):
-        table = {"cost": cost_table, "accuracy": accuracy_table}[part]()
-        store_table(f"tangent_{part}", table, "benchmarks.tangent")
+        for table in {"cost": cost_tables, "accuracy": accuracy_tables}[part]():
+            store_table(f"tangent_{part}", table, "benchmarks.tangent")
 
 
-def cost_table() -> pd.DataFrame:
-    """CPU times [s] of derivatives by many columns, and of full beats for the same columns."""
-    heart = STUDY.setting(SETTING).base_heart(PERIOD)
+def cost_tables() -> Iterator[pd.DataFrame]:
+    """CPU times [s] of derivatives by many columns, and of full beats for the same columns; a table per case."""
+    heart, rows = STUDY.setting(SETTING).base_heart(PERIOD), []
     differentiated("3k", heart, free_coordinates(heart, 1))  # loads the compiled kernels
-    return pd.DataFrame([cost_row(mesh, heart, columns) for mesh, columns in CASES])
+    for mesh, columns in CASES:
+        rows.append(cost_row(mesh, heart, columns))
+        yield pd.DataFrame(rows)
 
 
 def cost_row(mesh: str, heart: Heart, columns: int) -> dict[str, str]:
@@ -161,14 +163,15 @@ def beat_of(name: str, heart: Heart, numerics: Numerics) -> Beat:
     return simulate(heart, FiniteElementBody(unload(mesh, heart.muscle, LOADS), heart.muscle), numerics)
 
 
-def accuracy_table() -> pd.DataFrame:
-    """Errors of derivatives at 3k by coordinate, over their own root mean squares."""
+def accuracy_tables() -> Iterator[pd.DataFrame]:
+    """Errors of derivatives at 3k by coordinate, over their own root mean squares; a table per coordinate."""
     heart = STUDY.setting(SETTING).base_heart(PERIOD) + MitralRegurgitation(area=2e-6) + Scar(extent=0.1)
     coordinates = coordinates_of(heart)
     _, tangent, _ = differentiated("3k", heart, [*coordinates.values()])
-    rows = [accuracy_row(tangent, k, name, coordinates[name]) for k, name in enumerate(coordinates)]
-    targets = {"coordinate": "target"} | {name: f"{within:.0f}" for name, within in WITHIN.items()}
-    return pd.DataFrame([targets, *rows])
+    rows = [{"coordinate": "target"} | {name: f"{within:.0f}" for name, within in WITHIN.items()}]
+    for column, (name, coordinate) in enumerate(coordinates.items()):
+        rows.append(accuracy_row(tangent, column, name, coordinate))
+        yield pd.DataFrame(rows)
 
 
 def coordinates_of(heart: Heart) -> dict[str, Coordinate]:
