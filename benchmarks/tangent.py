@@ -22,7 +22,7 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.beat import Beat, nodal_motion
 from heartfit.heart.circulation.coupling import Tolerances
 from heartfit.heart.finite_elements.body import FiniteElementBody
-from heartfit.heart.finite_elements.unloading import unload, unload_neighbours
+from heartfit.heart.finite_elements.unloading import LoadedWall, unload, unload_neighbours
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.tangent import Neighbour, TangentBeat, differentiate
@@ -141,8 +141,10 @@ def prepared(
     """Body of the heart, and its neighbours, with references of their own where the passive wall differs."""
     hearts = [coordinate(SIZE) for coordinate in coordinates]
     stiffer = [not same_reference(other, heart) for other in hearts]
-    tissues = [(other.muscle, LOADS) for other, differs in zip(hearts, stiffer, strict=True) if differs]
-    reference, others = unload_neighbours(mesh, heart.muscle, LOADS, tissues)
+    wall, *walls = (LoadedWall(mesh, other.muscle, LOADS) for other in (heart, *hearts))
+    reference, others = unload_neighbours(
+        wall, [other for other, differs in zip(walls, stiffer, strict=True) if differs]
+    )
     body, remaining = FiniteElementBody(reference, heart.muscle), iter(others)
     shapes = [next(remaining) if differs else reference for differs in stiffer]
     return body, [
