@@ -31,6 +31,7 @@ PAGES = {
         name: ROOT / "docs" / f"{name}.md"
         for name in (
             "conduction",
+            "derivatives",
             "deviations",
             "discovery_in_3d",
             "measured_heart",

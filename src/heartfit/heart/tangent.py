@@ -34,7 +34,7 @@ from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import FiniteElementBody, StepFailed
 from heartfit.heart.finite_elements.neighbours import carry_state
 from heartfit.heart.heart import Heart
-from heartfit.heart.muscle.control import Schedule
+from heartfit.heart.muscle.control import ControlMeans
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.time_step import TimeStep
 from heartfit.roles import COMPARTMENTS
@@ -107,7 +107,8 @@ def differentiate(
     first, last = run.beat(), run.beat()
     weights, k = last.continuation(first), len(neighbours)
     signals = last.signals + (last.signals - first.signals) @ weights
-    last.positions += np.einsum("ij,i...->j...", weights.astype(np.float32), last.positions - first.positions)
+    change = (last.positions - first.positions).reshape(len(weights), -1)
+    last.positions += (weights.T.astype(np.float32) @ change).reshape(last.positions.shape)
     by_name = dict(zip(run.names, signals[..., :k].swapaxes(0, 1), strict=True))
     return TangentBeat(beat, tuple(neighbours), by_name, last.positions[:k])
 
@@ -156,7 +157,7 @@ class _Lockstep:
         self.coupling = _coupling(heart, body, numerics)
         self.sizes = np.array([member.size for member in members[1:]])
         self.bodies = [member.body for member in members]
-        _share_schedules(self.bodies)
+        _share_control(self.bodies)
         raised = [start.shift_pressures(shift) for shift in PRESSURE_SIZE * np.diag(_tree_pressures(start))]
         self.states = [start, start, *(_carry(start, body, member.body) for member in neighbours), *raised]
         flows = [Network(member.heart.circulation, member.heart.mechanisms).names for member in members]
@@ -255,15 +256,15 @@ def _slow_coordinates(state: HeartState) -> Floats:
     return np.concatenate([_tree_pressures(state), state.volumes, atria, state.pressures, displacement])
 
 
-def _share_schedules(bodies: Sequence[FiniteElementBody]) -> None:
+def _share_control(bodies: Sequence[FiniteElementBody]) -> None:
     """Let bodies of equal control and activation share their means over the steps."""
-    different: list[Schedule] = []
+    different: list[ControlMeans] = []
     for body in bodies:
-        equal = next((schedule for schedule in different if schedule.equals(body.schedule)), None)
+        equal = next((means for means in different if means.equals(body.control_means)), None)
         if equal is None:
-            different.append(body.schedule)
+            different.append(body.control_means)
         else:
-            body.schedule = equal
+            body.control_means = equal
 
 
 def _coupling(heart: Heart, body: FiniteElementBody, numerics: Numerics) -> Coupling:

@@ -46,7 +46,7 @@ def test_the_same_muscle_needs_no_regions_and_is_unchanged(ventricle: Ventricula
     same = Tissue(right=RightVentricle(1.0, 0.0, 1.0))
     assert same.uniform
     without_regions = FiniteElementBody(replace(ventricle, segments=None), same)
-    assert (without_regions.schedule.activation == ventricle.activation).all()
+    assert (without_regions.activation == ventricle.activation).all()
     scarred = replace(same, regional=(Scar(),))
     assert scarred.losses() == pytest.approx(Scar().lost_share(), abs=1e-15)
     assert not scarred.delays().any()
@@ -73,7 +73,7 @@ def test_a_delay_shifts_the_activation_of_the_right_wall(
     ventricle: VentricularMesh, right_wall: np.ndarray
 ) -> None:
     """In addition to the delays of mechanisms, which lie in the left ventricle."""
-    later = FiniteElementBody(ventricle, tissue(LATE)).schedule.activation - np.asarray(ventricle.activation)
+    later = FiniteElementBody(ventricle, tissue(LATE)).activation - np.asarray(ventricle.activation)
     assert later == pytest.approx(np.where(right_wall, 0.03, 0.0))
     spheres, late = (SphericalBody(LEFT, RIGHT, t).activation for t in (Tissue(), tissue(LATE)))
     assert late - spheres == pytest.approx(np.repeat([0.0, 0.03], 8))

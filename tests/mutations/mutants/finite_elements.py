@@ -35,8 +35,8 @@ ELEMENT_MUTANTS = (
         ),
         (
             "a shear in the wrong row",
-            "P[i, 2] = F[e, i, 0] * S[e, 4] + F[e, i, 1] * S[e, 5]",
-            "P[i, 2] = F[e, i, 0] * S[e, 5] + F[e, i, 1] * S[e, 4]",
+            "z = v * (f[i, 0] * s[4] + f[i, 1] * s[5]",
+            "z = v * (f[i, 0] * s[5] + f[i, 1] * s[4]",
         ),
         ("no geometric stiffness", "        _add_geometric(S[e], gradients[e], K)\n", ""),
     ),
@@ -48,7 +48,7 @@ ELEMENT_MUTANTS = (
             "CONSISTENT_MASS / K + PROJECTION_DEFECT / G",
             "CONSISTENT_MASS / K + 0.0 * PROJECTION_DEFECT / G",
         ),
-        ("compressible the wrong way", "value -= compliance[a, b]", "value += compliance[a, b]"),
+        ("compressible the wrong way", "(change - c[0] * p", "(change + c[0] * p"),
         (
             "pressure rows not coupled",
             "out[e, 4 * b + 3, 4 * a + i] = coupling",

@@ -22,7 +22,7 @@ from heartfit.heart.finite_elements.elements import ELEMENTS, Element
 from heartfit.heart.finite_elements.kinematics import StepFailed as StepFailed
 from heartfit.heart.finite_elements.solver import Elimination, Factor
 from heartfit.heart.muscle.bcs import Drive
-from heartfit.heart.muscle.control import Schedule
+from heartfit.heart.muscle.control import ControlMeans
 from heartfit.heart.muscle.tissue import Tissue as Tissue
 from heartfit.heart.time_step import STATIC_STEP, TimeStep
 
@@ -69,8 +69,13 @@ class FiniteElementBody:
             activation = activation + tissue.delays()[reference.segments]
             self.kept = 1.0 - tissue.losses()[reference.segments]
             self.passive_scale = self.passive_scale * tissue.stiffenings()[reference.segments]
-        self.schedule = Schedule(tissue.control, activation)
+        self.control_means = ControlMeans(tissue.control, activation)
         self.cavities = [Cavity.from_endocardium(reference, f"{chamber}_endo") for chamber in CHAMBERS]
+
+    @property
+    def activation(self) -> Floats:
+        """Times (m,) at which the tetrahedra are activated [s]."""
+        return self.control_means.activation
 
     @cached_property
     def elimination(self) -> Elimination:
@@ -107,7 +112,7 @@ class FiniteElementBody:
 
     def step(self, state: BodyState, step: TimeStep) -> "Step":
         """Equations of ``step`` from ``state``."""
-        control = self.schedule.mean(step.start, step.length, step.period)
+        control = self.control_means.mean(step.start, step.length, step.period)
         return Step(self, state, step, self.tissue.active.drive(step, control, state.fibres, self.kept))
 
     def static_step(self, state: BodyState) -> "Step":

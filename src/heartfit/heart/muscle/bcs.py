@@ -134,7 +134,7 @@ class BestelClementSorine:
         _respond(*inputs, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, out)
 
     def correct(self, drive: "Drive", e_old: Floats, e_new: Floats, state: Floats, out: Floats) -> None:
-        """As :meth:`respond` in a step of finite length, with a single correction of the guess in ``out``."""
+        """Correct the guess in ``out`` once: :meth:`respond` in a step of finite length, near its solution."""
         inputs = drive.rate, drive.attach, drive.n_0
         _correct(*inputs, drive.dt, drive.second_order, self.constants(), e_old, e_new, state, out)
 

@@ -124,7 +124,7 @@ class Control:
         return cycles * whole + begun
 
 
-class Schedule:
+class ControlMeans:
     """Means of one control at points activated at ``activation`` (m,) [s]; those of the last step are kept."""
 
     def __init__(self, control: Control, activation: Floats) -> None:
@@ -139,7 +139,7 @@ class Schedule:
             self._step = start, dt, period
         return self._means
 
-    def equals(self, other: "Schedule") -> bool:
+    def equals(self, other: "ControlMeans") -> bool:
         """True if the means are those of the ``other`` at all times."""
         return self.control == other.control and np.array_equal(self.activation, other.activation)
 
