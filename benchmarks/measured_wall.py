@@ -45,7 +45,7 @@ def main(arguments: list[str]) -> int:
         return 2
     recording, model = measured_wall(Path(arguments[0]) / CASE)
     findings = search_wall(model, recording)
-    store_table("measured_wall", table(findings), f"benchmarks.measured_wall {arguments[0]}")
+    store_table("measured_wall", table(findings), "benchmarks.measured_wall results/measured_heart")
     singles = findings.survey.singles
     panels = [
         (name, probability_of_segments(singles, name))
