@@ -8,8 +8,6 @@ from heartfit.core.errors import InputError
 from heartfit.io.configuration import read_study
 from heartfit.io.files import require_writable, write_text
 from heartfit.io.meshes import read_mesh, read_motion
-from heartfit.io.recordings import read_recording
-from heartfit.io.regional_noise import LEARNED, read_regional_noise
 
 
 def wall_arguments(command: argparse.ArgumentParser) -> None:
@@ -26,7 +24,9 @@ def wall_arguments(command: argparse.ArgumentParser) -> None:
         help="its nodes in all frames (.npz), as registration writes",
     )
     command.add_argument(
-        "--noise", type=Path, default=LEARNED, help="noise of strain of that registration (.csv)"
+        "--noise",
+        type=Path,
+        help="noise of strain of that registration (.csv); that of the study if not given",
     )
     command.add_argument("--setting", default="physical", help="name of a setting of the configuration")
     command.add_argument(
@@ -41,6 +41,8 @@ def diagnose_wall(arguments: argparse.Namespace) -> int:
     from heartfit.discovery.wall_model.search import search_wall
     from heartfit.discovery.wall_model.unknowns import HeartInWall
     from heartfit.discovery.wall_model.wall_data import WallRecording
+    from heartfit.io.recordings import read_recording
+    from heartfit.io.regional_noise import LEARNED, read_regional_noise
     from heartfit.results.wall_card import wall_card, wall_sentence
 
     require_writable(arguments.output)
@@ -53,7 +55,7 @@ def diagnose_wall(arguments: argparse.Namespace) -> int:
             f"{arguments.motion}: {motion.positions.shape[1]} nodes; expected the {len(mesh.points)} of the mesh: "
             "take the motion of this mesh"
         )
-    recording = WallRecording(curves, mesh, motion, read_regional_noise(arguments.noise))
+    recording = WallRecording(curves, mesh, motion, read_regional_noise(arguments.noise or LEARNED))
     pressures = study.end_diastolic_pressure
     heart = study.setting(arguments.setting).base_heart(curves.period)
     nominal = HeartInWall.loaded(heart, pressures.lv, pressures.rv)
