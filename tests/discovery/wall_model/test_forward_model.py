@@ -147,3 +147,12 @@ def test_images_alone_name_regions_and_image_errors(model: WallForwardModel) -> 
         "RateMismatch",
     }
     assert {candidate.name for candidate in candidates(model, pressure=True)} < set(registered())
+
+
+def test_a_stenosis_of_the_right_side_needs_its_pressure(model: WallForwardModel) -> None:
+    right = {"PulmonaryStenosis", "TricuspidStenosis"}
+    without = {candidate.name for candidate in candidates(model, pressure=True)}
+    measured = replace(model, times={**CURVES, "rv_pressure": TIMES})
+    assert not right & without
+    assert "AorticStenosis" in without
+    assert right <= {candidate.name for candidate in candidates(measured, pressure=True)}

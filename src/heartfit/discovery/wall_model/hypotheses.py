@@ -1,6 +1,6 @@
 """Mechanisms as hypotheses about a measured wall, and the starts of their fits."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -9,7 +9,8 @@ from heartfit.discovery.inference.hypothesis import Hypothesis
 from heartfit.discovery.sphere_model.forward_model import Candidate
 from heartfit.discovery.wall_model.forward_model import WallForwardModel
 from heartfit.discovery.wall_model.unknowns import COORDINATES
-from heartfit.roles import Availability, Delay, Sensor, registered
+from heartfit.roles import Availability, Delay, Mechanism, Narrowing, Sensor, registered
+from heartfit.roles.sides import VALVES
 
 AROUND = 6
 """Number of angles around the ventricle at which a regional effect is tried."""
@@ -21,17 +22,21 @@ def candidates(model: WallForwardModel, pressure: bool) -> list[Candidate]:
     """Mechanisms that the nominal heart lacks, by name; without a pressure only those that images alone can name.
 
     These are effects of a region of the wall and errors of the images; any other effect looks like an unusual heart.
+    A narrowed valve of the right side needs a right pressure: in a volume alone the law of a sound valve looks like it.
     """
     present = {type(mechanism) for mechanism in model.nominal.heart.mechanisms}
     measured = {name for name in model.times if name.endswith(("_volume", "_pressure"))}
     kinds = [kind for _, kind in sorted(registered().items()) if kind not in present and kind.switch().scale]
-    return [
-        Candidate.from_mechanism(kind)
-        for kind in kinds
-        if (
-            bool(measured & set(kind.measures)) if issubclass(kind, Sensor) else pressure or is_regional(kind)
-        )
-    ]
+    return [Candidate.from_mechanism(kind) for kind in kinds if _is_shown(kind, measured, pressure)]
+
+
+def _is_shown(kind: type[Mechanism], measured: Collection[str], pressure: bool) -> bool:
+    """True for a mechanism that the measured curves can tell from an unusual heart."""
+    if issubclass(kind, Sensor):
+        return not set(kind.measures).isdisjoint(measured)
+    if issubclass(kind, Narrowing) and "rv" in VALVES[kind.valve]:
+        return "rv_pressure" in measured
+    return pressure or is_regional(kind)
 
 
 def is_regional(kind: type) -> bool:
