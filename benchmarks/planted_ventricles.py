@@ -3,7 +3,7 @@
 from functools import cache
 
 from benchmarks.ventricles import ROOT
-from heartfit.discovery.refit.model import activate
+from heartfit.discovery.refit.model import Reference, activate
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.wall_model.forward_model import WallForwardModel
 from heartfit.discovery.wall_model.unknowns import HeartInWall
@@ -31,6 +31,12 @@ def ventricles() -> Ventricles:
     imaging = Imaging(study().scanner(), study().registration.free_form(), observed, hidden.mesh)
     protocol = planned.generator.protocol(study().end_diastolic_pressure)
     return Ventricles(hidden, study().cohort.heart, protocol, imaging)
+
+
+def sphere_reference(imaged: ImagedBeat) -> Reference:
+    """Return the study's nominal heart in a registered mesh, on one beat of which a sphere is centred."""
+    numerics = study().discovery_benchmark.ventricles.diagnoser.numerics
+    return Reference(imaged.mesh, study().nominal_setting(), study().end_diastolic_pressure, numerics)
 
 
 def wall_recording(imaged: ImagedBeat, case: PlantedCase, pressure: bool = True) -> WallRecording:

@@ -6,21 +6,20 @@ depend on how well the beat repeats. Some hearts have a scar or a late wall, as 
 hearts alone would leave open how registration smears the border of a scar.
 """
 
-import pickle
 import time
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
-from benchmarks.ventricles import FOLDER, ROOT
+from benchmarks.in_turn import kept_on_disk
+from benchmarks.planted_ventricles import study
+from benchmarks.ventricles import FOLDER
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.imaging.registration.track import track
-from heartfit.io.configuration import read_study
 from heartfit.mechanisms.delayed_activation import DelayedActivation
 from heartfit.mechanisms.scar import Scar
 from heartfit.roles import Mechanism
-from heartfit.study.study import Study
 from heartfit.synthetic.cine import image_beat
 from heartfit.synthetic.volunteer import Template, draw_anatomy, draw_heart, generate
 
@@ -51,29 +50,21 @@ class Sequence:
 
 def sequence(number: int) -> Sequence:
     """Sequence of a number below SOUND + AFFECTED, made now if it is not on disk yet."""
-    path = FOLDER / "strain_noise" / f"{number}.pickle"
-    if not path.exists():
-        acquired = _acquire(number)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        unfinished = path.with_suffix(".part")
-        unfinished.write_bytes(pickle.dumps(acquired))
-        unfinished.rename(path)
-    kept: Sequence = pickle.loads(path.read_bytes())
-    return kept
+    return kept_on_disk(FOLDER / "strain_noise" / f"{number}.pickle", lambda: _acquire(number))
 
 
 def _acquire(number: int) -> Sequence:
-    study, template, begin = _study(), _template(), time.process_time()
-    error, seed = study.registration_error, SEED + number
+    template, begin = _template(), time.process_time()
+    error, seed = study().registration_error, SEED + number
     numerics = error.numerics.model_copy(update={"time_step": STEP, "max_beats": BEATS})
-    protocol = error.model_copy(update={"numerics": numerics}).protocol(study.end_diastolic_pressure)
+    protocol = error.model_copy(update={"numerics": numerics}).protocol(study().end_diastolic_pressure)
     anatomy = draw_anatomy(seed)
-    heart, truth = draw_heart(study.cohort.heart, anatomy.period, seed)
+    heart, truth = draw_heart(study().cohort.heart, anatomy.period, seed)
     effect = _effect(number)
     hidden = heart if effect is None else heart + effect
     volunteer = generate(template.deformed_to(anatomy.shape), (hidden, truth), protocol)
-    images = image_beat(volunteer.mesh, volunteer.motion, study.scanner(), seed)
-    registered = track(images, volunteer.mesh, study.registration.free_form()).motion
+    images = image_beat(volunteer.mesh, volunteer.motion, study().scanner(), seed)
+    registered = track(images, volunteer.mesh, study().registration.free_form()).motion
     true = volunteer.motion.resample(images.times)
     name = "" if effect is None else type(effect).__name__
     return Sequence(number, name, volunteer.mesh, true, registered, time.process_time() - begin)
@@ -91,11 +82,6 @@ def _effect(number: int) -> Mechanism | None:
 
 
 @cache
-def _study() -> Study:
-    return read_study([ROOT / "config" / "config.yaml"])
-
-
-@cache
 def _template() -> Template:
-    size = _study().registration_error.mesh
+    size = study().registration_error.mesh
     return Template.build(size.edge_length, size.tolerance)

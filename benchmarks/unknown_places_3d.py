@@ -5,23 +5,16 @@ effects from outside the library, mechanisms whose entry is removed from it, and
 one beat of the diagnoser's mesh. Stores docs/measured/unknown_places_3d*.tsv; a quarter of an hour of two cores.
 """
 
-from functools import cache
-
 from benchmarks.in_turn import searched_in_turn
 from benchmarks.measured_table import store_table
+from benchmarks.planted_ventricles import sphere_reference, ventricles
 from benchmarks.unknown_places import Trial
-from benchmarks.ventricles import ROOT
-from heartfit.discovery.refit.model import Reference
 from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.io.configuration import read_study
 from heartfit.places import PLACES
 from heartfit.results.unknown_places import OUTSIDE, REMOVED, SOUND, PlaceTrial, hearts_table, places_table
-from heartfit.study.study import Study
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import REST
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
-from heartfit.synthetic.ventricles import Imaging, Ventricles
-from heartfit.synthetic.volunteer import Template
 
 MODULE = "benchmarks.unknown_places_3d"
 SEED, SCALES, SOUND_HEARTS = 380000, 3.0, 4
@@ -57,28 +50,13 @@ def trials() -> list[Trial]:
     return [*hidden, *sound]
 
 
-@cache
-def _study() -> Study:
-    return read_study([ROOT / "config" / "config.yaml"])
-
-
-@cache
-def _ventricles() -> Ventricles:
-    study, planned = _study(), _study().discovery_benchmark.ventricles
-    sizes = planned.generator.mesh, planned.diagnoser.mesh
-    hidden, observed = (Template.build(size.edge_length, size.tolerance) for size in sizes)
-    imaging = Imaging(study.scanner(), study.registration.free_form(), observed, hidden.mesh)
-    protocol = planned.generator.protocol(study.end_diastolic_pressure)
-    return Ventricles(hidden, study.cohort.heart, protocol, imaging)
-
-
 def search(trial: Trial) -> PlaceTrial:
     """Diagnose a planted heart with places."""
-    study, plan = _study(), trial.plan
-    imaged, case = _ventricles().plant(plan)
-    numerics = study.discovery_benchmark.ventricles.diagnoser.numerics
-    reference = Reference(imaged.mesh, study.nominal_setting(), study.end_diastolic_pressure, numerics)
-    diagnosed = reference.search(Recording.from_curves(case.curves[REST]), PLACES, trial.left_out)
+    plan = trial.plan
+    imaged, case = ventricles().plant(plan)
+    diagnosed = sphere_reference(imaged).search(
+        Recording.from_curves(case.curves[REST]), PLACES, trial.left_out
+    )
     return PlaceTrial(plan.seed, trial.group, "".join(plan.names), plan.scales, diagnosed, diagnosed)
 
 

@@ -6,18 +6,16 @@ pressure and without one, and on the sphere that is centred on one beat of its m
 .benchmarks. Stores docs/measured/wall_search*.tsv; seven minutes of a core for each heart.
 """
 
-import pickle
-
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks.in_turn import searched_in_turn, spread_evenly
+from benchmarks.in_turn import kept_on_disk, searched_in_turn, spread_evenly
 from benchmarks.measured_table import store_table
-from benchmarks.planted_ventricles import study, ventricles, wall_model, wall_recording
+from benchmarks.planted_ventricles import sphere_reference, ventricles, wall_model, wall_recording
 from benchmarks.ventricles import FOLDER, ROOT
 from heartfit.discovery.inference.decide import Effects
-from heartfit.discovery.refit.model import Reference
 from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.searched_recording import NAMING_VERDICTS
 from heartfit.discovery.wall_model.hypotheses import is_regional
 from heartfit.discovery.wall_model.search import WallFindings, search_wall
 from heartfit.discovery.wall_model.territory import (
@@ -28,7 +26,7 @@ from heartfit.discovery.wall_model.territory import (
 from heartfit.geometry.territory import APEX
 from heartfit.io.tables import write_figure
 from heartfit.results.bullseye import plot_bullseye
-from heartfit.results.wall_search import NAMING, WallResult, WallTrial, hearts_table, rates_table
+from heartfit.results.wall_search import WallResult, WallTrial, hearts_table, rates_table
 from heartfit.roles import registered
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import REST, PlantedCase
@@ -73,14 +71,7 @@ def _plan(seed: int, name: str) -> PlantedPlan:
 
 def search(plan: PlantedPlan) -> WallTrial:
     """Search a planted heart, or read its outcome from disk."""
-    path = FOLDER / "wall_search" / f"{plan.seed}.pickle"
-    if not path.exists():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        unfinished = path.with_suffix(".part")
-        unfinished.write_bytes(pickle.dumps(_search(plan)))
-        unfinished.rename(path)
-    trial: WallTrial = pickle.loads(path.read_bytes())
-    return trial
+    return kept_on_disk(FOLDER / "wall_search" / f"{plan.seed}.pickle", lambda: _search(plan))
 
 
 def _search(plan: PlantedPlan) -> WallTrial:
@@ -124,11 +115,9 @@ def _result(findings: WallFindings) -> WallResult:
 
 def _on_the_sphere(imaged: ImagedBeat, case: PlantedCase) -> Effects:
     """Names by the search on a sphere that is centred on one beat of the mesh."""
-    numerics = study().discovery_benchmark.ventricles.diagnoser.numerics
-    reference = Reference(imaged.mesh, study().nominal_setting(), study().end_diastolic_pressure, numerics)
-    diagnosed = reference.search(Recording.from_curves(case.curves[REST]))
+    diagnosed = sphere_reference(imaged).search(Recording.from_curves(case.curves[REST]))
     names = tuple(cause.name for cause in diagnosed.mechanisms)
-    return names if diagnosed.verdict in NAMING else ()
+    return names if diagnosed.verdict in NAMING_VERDICTS else ()
 
 
 if __name__ == "__main__":

@@ -8,9 +8,10 @@ import pandas as pd
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import Effects
+from heartfit.discovery.sphere_model.searched_recording import NAMING_VERDICTS
+from heartfit.discovery.wall_model.search import REGIONAL_RULES, RULES
 from heartfit.results.cause_card import spaced_name
 
-NAMING = ("named", "group", "two")
 RIGHT_TERRITORY = np.deg2rad(45.0)
 """Largest error of the middle of a territory that counts as right; a segment is 60 degrees wide."""
 
@@ -40,7 +41,7 @@ class WallResult:
     @property
     def names(self) -> Effects:
         """The named effects, empty unless the verdict names some."""
-        return self.effects if self.verdict in NAMING else ()
+        return self.effects if self.verdict in NAMING_VERDICTS else ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +99,8 @@ def angle_error(trial: WallTrial, result: WallResult) -> float | None:
     return float(np.abs(np.angle(np.exp(1j * (result.angle - trial.angle)))))
 
 
-def rates_table(trials: Sequence[WallTrial], thresholds: tuple[float, float] = (7.0, 10.0)) -> pd.DataFrame:
-    """Return the rates beside their targets; thresholds: ln B of detection and of an effect of a region."""
+def rates_table(trials: Sequence[WallTrial]) -> pd.DataFrame:
+    """Return the rates beside their targets."""
     sound, hidden = ([t for t in trials if bool(t.effect) == present] for present in (False, True))
     scars = [trial for trial in hidden if trial.effect == "Scar"]
     rows = [
@@ -112,13 +113,13 @@ def rates_table(trials: Sequence[WallTrial], thresholds: tuple[float, float] = (
         (
             "scars of 2 scales that are seen",
             "80 %",
-            _share(scars, lambda t: _seen(t, t.pressure, thresholds[1])),
+            _share(scars, lambda t: _seen(t, t.pressure)),
         ),
-        ("the same by images alone", "80 %", _share(scars, lambda t: _seen(t, t.images, thresholds[1]))),
+        ("the same by images alone", "80 %", _share(scars, lambda t: _seen(t, t.images))),
         ("scars that the sphere names", "", _share(scars, lambda t: t.sphere == ("Scar",))),
-        ("right territory of those seen", "90 %", _territory(scars, lambda t: t.pressure, thresholds[1])),
-        ("the same by images alone", "90 %", _territory(scars, lambda t: t.images, thresholds[1])),
-        ("effects that are detected", "60 %", _share(hidden, lambda t: _detected(t.pressure, thresholds[0]))),
+        ("right territory of those seen", "90 %", _territory(scars, lambda t: t.pressure)),
+        ("the same by images alone", "90 %", _territory(scars, lambda t: t.images)),
+        ("effects that are detected", "60 %", _share(hidden, lambda t: _detected(t.pressure))),
         ("names that are right", "95 %", _right_names(hidden, lambda t: t.pressure)),
         ("the same by images alone", "95 %", _right_names(hidden, lambda t: t.images)),
         ("CPU minutes of a search, median", "6", f"{np.median([t.pressure.cpu for t in trials]) / 60.0:.1f}"),
@@ -126,19 +127,19 @@ def rates_table(trials: Sequence[WallTrial], thresholds: tuple[float, float] = (
     return pd.DataFrame(rows, columns=["figure", "target", "measured"])
 
 
-def _seen(trial: WallTrial, result: WallResult, threshold: float) -> bool:
-    return result.best == trial.effect and result.gains[result.best] > threshold
+def _seen(trial: WallTrial, result: WallResult) -> bool:
+    return result.best == trial.effect and result.gains[result.best] > REGIONAL_RULES.detected
 
 
-def _detected(result: WallResult, threshold: float) -> bool:
-    return max([*result.gains.values(), result.discrepancy]) > threshold
+def _detected(result: WallResult) -> bool:
+    return max([*result.gains.values(), result.discrepancy]) > RULES.detected
 
 
 Side = Callable[[WallTrial], WallResult]
 
 
-def _territory(scars: Sequence[WallTrial], side: Side, threshold: float) -> str:
-    errors = [angle_error(trial, side(trial)) for trial in scars if _seen(trial, side(trial), threshold)]
+def _territory(scars: Sequence[WallTrial], side: Side) -> str:
+    errors = [angle_error(trial, side(trial)) for trial in scars if _seen(trial, side(trial))]
     return f"{sum(error is not None and error < RIGHT_TERRITORY for error in errors)} of {len(errors)}"
 
 
