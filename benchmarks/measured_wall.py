@@ -47,11 +47,7 @@ def main(arguments: list[str]) -> int:
     findings = search_wall(model, recording)
     store_table("measured_wall", table(findings), "benchmarks.measured_wall results/measured_heart")
     singles = findings.survey.singles
-    panels = [
-        (name, probability_of_segments(singles, name))
-        for name in REGIONAL
-        if any(single.effects == (name,) for single in singles)
-    ]
+    panels = [(name, probability_of_segments(singles, name)) for name in REGIONAL if name in findings.gains]
     if panels:
         write_figure(FIGURE, plot_bullseye(panels, "probability of a segment, if it is present"))
     return 0
@@ -79,10 +75,7 @@ def measured_wall(case: Path) -> tuple[WallRecording, WallForwardModel]:
 
 def table(findings: WallFindings) -> pd.DataFrame:
     """Return the ln Bayes factor of every fitted effect over the baseline, and that of smooth discrepancies."""
-    base = findings.survey.baseline.log_evidence
-    best: dict[str, float] = {}
-    for single in findings.survey.singles:
-        best.setdefault(single.effects[0], single.log_evidence - base)
+    best = findings.gains
     linear: dict[str, float] = {}
     for name, gain in findings.predicted:
         linear.setdefault(name, gain)
@@ -97,7 +90,7 @@ def table(findings: WallFindings) -> pd.DataFrame:
     rows.append(
         {
             "effect": "smooth discrepancies",
-            "ln B": f"{findings.evidences.discrepancy - base:.1f}",
+            "ln B": f"{findings.discrepancy:.1f}",
             "ln B, linear": "",
         }
     )

@@ -16,7 +16,6 @@ from benchmarks.ventricles import FOLDER, ROOT
 from heartfit.discovery.inference.decide import Effects
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.searched_recording import NAMING_VERDICTS
-from heartfit.discovery.wall_model.hypotheses import is_regional
 from heartfit.discovery.wall_model.search import WallFindings, search_wall
 from heartfit.discovery.wall_model.territory import (
     affected_segments,
@@ -27,7 +26,6 @@ from heartfit.geometry.territory import APEX
 from heartfit.io.tables import write_figure
 from heartfit.results.bullseye import plot_bullseye
 from heartfit.results.wall_search import WallResult, WallTrial, hearts_table, rates_table
-from heartfit.roles import registered
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import REST, PlantedCase
 from heartfit.synthetic.ventricles import ImagedBeat
@@ -97,17 +95,14 @@ def _territory(case: PlantedCase) -> tuple[float | None, np.ndarray | None]:
 
 
 def _result(findings: WallFindings) -> WallResult:
-    base, singles = findings.survey.baseline.log_evidence, findings.survey.singles
-    gains = {single.effects[0]: single.log_evidence - base for single in reversed(singles)}
-    best = next((s.effects[0] for s in singles if is_regional(registered()[s.effects[0]])), None)
-    decision = findings.decision
+    singles, best, decision = findings.survey.singles, findings.regional, findings.decision
     return WallResult(
         decision.verdict,
         decision.effects,
-        gains,
-        findings.evidences.discrepancy - base,
-        None if best is None else most_probable_angle(singles, best),
-        None if best is None else probability_of_segments(singles, best),
+        findings.gains,
+        findings.discrepancy,
+        most_probable_angle(singles, best) if best else None,
+        probability_of_segments(singles, best) if best else None,
         findings.beats,
         findings.cpu,
     )

@@ -2,12 +2,16 @@
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from heartfit.cli.console import Command, add_configuration
 from heartfit.core.errors import InputError
 from heartfit.io.configuration import read_study
 from heartfit.io.files import require_writable, write_text
 from heartfit.io.meshes import read_mesh, read_motion
+
+if TYPE_CHECKING:
+    from heartfit.discovery.wall_model.search import WallFindings
 
 
 def wall_arguments(command: argparse.ArgumentParser) -> None:
@@ -66,18 +70,15 @@ def diagnose_wall(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _draw(findings: object, path: Path) -> None:
+def _draw(findings: "WallFindings", path: Path) -> None:
     """Write the bull's-eye of the best effect of a region, if one was fitted."""
     from heartfit.discovery.wall_model.territory import probability_of_segments
     from heartfit.io.tables import write_figure
     from heartfit.results.bullseye import plot_bullseye
     from heartfit.results.cause_card import spaced_name
-    from heartfit.results.wall_card import best_regional
 
-    best = best_regional(findings)  # type: ignore[arg-type]
-    if best is not None:
-        name = best.effects[0]
-        probability = probability_of_segments(findings.survey.singles, name)  # type: ignore[attr-defined]
+    if name := findings.regional:
+        probability = probability_of_segments(findings.survey.singles, name)
         label = "probability of a segment, if it is present"
         write_figure(path, plot_bullseye([(spaced_name(name), probability)], label))
 

@@ -3,7 +3,6 @@
 import numpy as np
 
 from heartfit.core.arrays import Floats
-from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.sphere_model.forward_model import Candidate
 from heartfit.discovery.wall_model.hypotheses import is_regional
 from heartfit.discovery.wall_model.search import WallFindings
@@ -22,16 +21,9 @@ NAMES = (*SEGMENT_NAMES, "apex")
 def wall_card(findings: WallFindings, title: str) -> str:
     """Return the card as Markdown."""
     parts = [f"# {title}", wall_sentence(findings), _evidence(findings)]
-    regional = best_regional(findings)
-    if regional is not None and regional.effects == findings.decision.effects:
-        parts.append(_segments(probability_of_segments(findings.survey.singles, regional.effects[0])))
+    if findings.regional and (findings.regional,) == findings.decision.effects:
+        parts.append(_segments(probability_of_segments(findings.survey.singles, findings.regional)))
     return "\n\n".join(parts) + "\n"
-
-
-def best_regional(findings: WallFindings) -> Explanation | None:
-    """The best fit of an effect of a region, None if none was fitted."""
-    regional = (fit for fit in findings.survey.singles if is_regional(registered()[fit.effects[0]]))
-    return max(regional, key=lambda fit: fit.log_evidence, default=None)
 
 
 def wall_sentence(findings: WallFindings) -> str:
@@ -54,9 +46,7 @@ def wall_sentence(findings: WallFindings) -> str:
 
 
 def _with_size(findings: WallFindings, name: str) -> str:
-    fit = max(
-        (one for one in findings.survey.singles if one.effects == (name,)), key=lambda one: one.log_evidence
-    )
+    fit = findings.best(name)
     amplitude = next(u for u in Candidate.from_mechanism(registered()[name]).unknowns if u.off is not None)
     middle, low, high = (amplitude.at(value) for value in fit.interval(f"{name}.{amplitude.name}"))
     unit, factor = AMPLITUDE_UNITS.get(amplitude.unit, (amplitude.unit, 1.0))
@@ -75,7 +65,7 @@ def _evidence(findings: WallFindings) -> str:
         f"| {spaced_name(one.effects[0])} | {one.log_evidence - base:.1f} |"
         for one in findings.survey.singles
     ]
-    rows.append(f"| smooth discrepancies of all curves | {findings.evidences.discrepancy - base:.1f} |")
+    rows.append(f"| smooth discrepancies of all curves | {findings.discrepancy:.1f} |")
     return "\n".join(["| explanation | ln Bayes factor |", "|---|---|", *rows])
 
 

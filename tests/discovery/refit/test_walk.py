@@ -5,8 +5,7 @@ import pytest
 from scipy.optimize import lsq_linear
 
 from heartfit.core.arrays import Floats
-from heartfit.discovery.inference.descent import Descent, InverseProblem
-from heartfit.discovery.refit.refit import LONGEST_STEP, SCHEDULE
+from heartfit.discovery.inference.descent import EXPENSIVE, LONGEST_STEP, Descent, InverseProblem
 from heartfit.discovery.refit.target import Target
 from heartfit.discovery.sphere_model.recording import Samples
 
@@ -43,7 +42,7 @@ def started(
 ) -> Descent:
     start = np.zeros(3) if x is None else x
     problem = InverseProblem(forward, target.values(), target, lower)
-    return Descent(problem, SCHEDULE, start, forward(start), slopes)
+    return Descent(problem, EXPENSIVE, start, forward(start), slopes)
 
 
 def test_a_linear_model_ends_at_its_posterior() -> None:

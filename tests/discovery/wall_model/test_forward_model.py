@@ -15,7 +15,7 @@ from heartfit.discovery.wall_model.unknowns import (
     REFERENCE,
     HeartInWall,
     WallVariation,
-    subject_at,
+    heart_at,
 )
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.heart import Heart
@@ -109,7 +109,7 @@ def test_the_wall_varies_by_segment() -> None:
     x[NAMES.index("segment.07")], x[NAMES.index("delay.11")] = 2.0, 1.0
     (variation,) = [
         m
-        for m in subject_at(HeartInWall.loaded(Heart(), 1.0, 1.0), x).heart.mechanisms
+        for m in heart_at(HeartInWall.loaded(Heart(), 1.0, 1.0), x).heart.mechanisms
         if isinstance(m, WallVariation)
     ]
     kept = 1.0 - variation.lost_share()

@@ -1,6 +1,6 @@
 """The search on a wall in closed form: scars and late walls are named and placed, sound walls are not."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
@@ -8,10 +8,11 @@ import pytest
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.data import Block, Data, Noise
+from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.sphere_model.forward_model import Candidate
 from heartfit.discovery.wall_model.search import WallFindings, search_wall
 from heartfit.discovery.wall_model.territory import most_probable_angle, probability_of_segments
-from heartfit.discovery.wall_model.unknowns import ACTIVATION_SD, CONTRACTILITY_SD, NAMES
+from heartfit.discovery.wall_model.unknowns import ACTIVATION_SD, CONTRACTILITY_SD, COORDINATES, NAMES
 from heartfit.geometry.territory import territory_weights
 from heartfit.mechanisms.delayed_activation import DelayedActivation
 from heartfit.mechanisms.scar import Scar
@@ -32,6 +33,7 @@ class EvenWall:
     simulations: int = 0
     tangents: int = 0
     times: dict[str, Floats] = field(default_factory=dict)
+    base = COORDINATES
 
     def predict(self, x: Floats, effects: tuple[Mechanism, ...] | list[Mechanism] = ()) -> Floats | None:
         self.simulations += 1
@@ -130,3 +132,24 @@ def test_a_baseline_that_does_not_beat_is_an_error() -> None:
     measured = Measured(np.zeros((1 + FOLLOWED) * TIMES.size))
     with pytest.raises(InputError, match="wall search: the beat of the baseline fails"):
         search_wall(Stopped(), measured, LIBRARY)
+
+
+def test_the_best_fit_of_each_effect_leads_its_others() -> None:
+    """A worse fit of the best effect stands behind another effect, and does not draw the best one there."""
+    findings = searched([Scar(extent=0.24, angle=1.2)], 11)
+    best, late = (
+        findings.survey.singles[0],
+        replace_evidence(findings.survey.singles[0], "DelayedActivation", 5.0),
+    )
+    worse = replace_evidence(best, "Scar", 10.0)
+    mixed = replace(findings, survey=replace(findings.survey, singles=(best, late, worse)))
+    assert list(mixed.gains) == ["Scar", "DelayedActivation"]
+    assert mixed.regional == "Scar"
+    assert mixed.best("Scar") is best
+
+
+def replace_evidence(single: Explanation, effect: str, less: float) -> Explanation:
+    """The explanation under the name of an effect, with less evidence."""
+    hypothesis = replace(single.fit.hypothesis, effects=(effect,))
+    posterior = replace(single.posterior, log_evidence=single.log_evidence - less)
+    return Explanation(replace(single.fit, hypothesis=hypothesis), posterior)

@@ -83,6 +83,12 @@ class Schedule:
     active_set: bool = False
 
 
+LONGEST_STEP = 1.5
+"""Longest step along a coordinate [prior standard deviations], the range in which slopes are valid."""
+EXPENSIVE = Schedule(0.3, 0.1, longest_step=LONGEST_STEP, correct_on_failure=True, active_set=True)
+"""Schedule for expensive simulations: every one corrects the slopes, which the descent never renews, and a predicted
+decrease below 0.3, which changes no verdict, ends it."""
+
 Differences = Callable[[Floats, Floats, Floats], Floats]
 """A renewed Jacobian (n, d) at x (d,), from the predictions (n,) there and the current Jacobian (n, d)."""
 
@@ -125,6 +131,13 @@ class Descent:
             self._settle(bool(short or left < SIMULATION_ROUGHNESS))
         else:
             self._try(step)
+
+    def run(self, most: int) -> None:
+        """Advance until the descent ends, at most so many times."""
+        for _ in range(most):
+            if self.ended:
+                break
+            self.advance()
 
     def covariance(self) -> Floats:
         """H^-1 (d, d): the posterior covariance of the model that is linear about x."""

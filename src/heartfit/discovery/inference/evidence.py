@@ -27,7 +27,7 @@ from scipy.special import log_ndtr, logsumexp, ndtr, ndtri
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Whitening
-from heartfit.discovery.inference.descent import Descent, InverseProblem, Schedule
+from heartfit.discovery.inference.descent import EXPENSIVE, Descent, InverseProblem, Schedule
 from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
 
 SIMULATION_LIMIT = 600
@@ -97,6 +97,25 @@ def fit(
     descent = Descent(problem, SCHEDULE, *first, jacobian, differences, slopes is None, target)
     while not descent.ended and model.runs < limit:
         descent.advance()
+    return Fit.at_end(model.hypothesis, descent)
+
+
+def fit_from_slopes(
+    model: CountedHypothesis,
+    values: Floats,
+    whitening: Whitening,
+    x: Floats,
+    predicted: Floats,
+    jacobian: Floats,
+    most: int,
+) -> Fit:
+    """The end of at most ``most`` steps from x (d,), at which predicted (n,) and slopes ``jacobian`` (n, d) hold.
+
+    For expensive simulations: a step costs one, and Broyden's update alone corrects the slopes.
+    """
+    problem = InverseProblem(model, values, whitening, model.hypothesis.lower)
+    descent = Descent(problem, EXPENSIVE, x, predicted, jacobian)
+    descent.run(most)
     return Fit.at_end(model.hypothesis, descent)
 
 

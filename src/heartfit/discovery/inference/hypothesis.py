@@ -87,12 +87,12 @@ class CountedHypothesis:
                 return share * start, predicted
         return None
 
-    def jacobian(self, x: Floats, predicted: Floats, first: int = 0) -> Floats:
+    def jacobian(self, x: Floats, predicted: Floats, first: int = 0, step: float = DIFFERENCE_STEP) -> Floats:
         """Columns ``first`` and on of (n, d); a column is zero where the simulation fails in both directions."""
-        return np.column_stack([self._column(x, predicted, index) for index in range(first, x.size)])
+        return np.column_stack([self._column(x, predicted, index, step) for index in range(first, x.size)])
 
-    def _column(self, x: Floats, predicted: Floats, index: int) -> Floats:
-        for difference in (DIFFERENCE_STEP, -DIFFERENCE_STEP):
+    def _column(self, x: Floats, predicted: Floats, index: int, step: float) -> Floats:
+        for difference in (step, -step):
             shifted = x.copy()
             shifted[index] += difference
             prediction = self(shifted) if (shifted >= self.hypothesis.lower).all() else None

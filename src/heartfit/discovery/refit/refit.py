@@ -25,7 +25,7 @@ import numpy as np
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError, sigma_points, transform
 from heartfit.core.arrays import Floats
-from heartfit.discovery.inference.descent import Descent, InverseProblem, Schedule
+from heartfit.discovery.inference.descent import EXPENSIVE, Descent, InverseProblem
 from heartfit.discovery.inference.evidence import laplace
 from heartfit.discovery.refit.model import Extension
 from heartfit.discovery.refit.target import Target, sample, stack
@@ -35,17 +35,8 @@ from heartfit.observation.beat import beat_curves
 Run = Callable[[Extension, Mapping[str, float]], Beat]
 """Map from an extended setting and all its parameters, by name [SI], to a beat."""
 
-OBJECTIVE_TOLERANCE = 0.3
-"""Predicted decrease that ends the descent [ln Z]; a smaller one changes no verdict."""
-LONGEST_STEP = 1.5
-"""Longest step along a coordinate [prior standard deviations], the range in which slopes are valid."""
-LEAST_DAMPING = 0.1
 RENEWAL_STEP = 0.25
 """Step of the differences that renew the slopes [prior standard deviations]."""
-SCHEDULE = Schedule(
-    OBJECTIVE_TOLERANCE, LEAST_DAMPING, longest_step=LONGEST_STEP, correct_on_failure=True, active_set=True
-)
-"""Schedule for expensive simulations: every one corrects the slopes; `renew_slopes` renews them once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,11 +190,8 @@ def _descend(
     extension, target = forward.extension, forward.target
     lower = np.where(extension.one_sided, 0.0, -np.inf)
     problem = InverseProblem(forward, target.values(), target, lower)
-    descent = Descent(problem, SCHEDULE, start, predicted, slopes)
-    for _ in range(most):
-        if descent.ended:
-            break
-        descent.advance()
+    descent = Descent(problem, EXPENSIVE, start, predicted, slopes)
+    descent.run(most)
     covariance = descent.covariance()
     volume, kept = laplace(descent.x, covariance, extension.one_sided)
     return Refit(

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from operator import add
+from typing import Protocol
 
 import numpy as np
 
@@ -176,14 +177,22 @@ def _is_observable(kind: type[Mechanism], recorded: set[str]) -> bool:
     )
 
 
-def hypothesis(model: SphereForwardModel, effects: Sequence[Candidate] = ()) -> Hypothesis:
+class ForwardModel(Protocol):
+    """A model of a heart: base, the coordinates that every hypothesis shares, and predictions with effects."""
+
+    @property
+    def base(self) -> tuple[Coordinate, ...]: ...
+    def predict(self, x: Floats, effects: Sequence[Mechanism]) -> Floats | None: ...
+
+
+def hypothesis(model: ForwardModel, effects: Sequence[Candidate] = ()) -> Hypothesis:
     """The hypothesis of a heart with these mechanisms, all their unknowns free."""
     added = tuple(coordinate for effect in effects for coordinate in effect.coordinates())
     names = tuple(effect.name for effect in effects)
     return Hypothesis(names, model.base + added, _forward(model, effects))
 
 
-def _forward(model: SphereForwardModel, effects: Sequence[Candidate]) -> Callable[[Floats], Floats | None]:
+def _forward(model: ForwardModel, effects: Sequence[Candidate]) -> Callable[[Floats], Floats | None]:
     ends = np.cumsum([len(model.base), *(len(effect.unknowns) for effect in effects)])
 
     def forward(x: Floats) -> Floats | None:

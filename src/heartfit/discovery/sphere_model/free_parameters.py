@@ -5,6 +5,7 @@ that some mechanism explains, in every heart (docs/discovery.md). Those of the r
 searched.
 """
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import exp
 from typing import Literal
@@ -46,6 +47,20 @@ class FreeParameter:
         sd: float | None = getattr(self, standing)
         difference = (self.person if sd is None else sd) * x
         return nominal + difference if self.additive else nominal * exp(difference)
+
+
+def values_at(
+    parameters: Sequence[FreeParameter],
+    nominal: Mapping[str, float],
+    x: Iterable[float],
+    standing: Standing = "person",
+) -> dict[str, float]:
+    """Values [SI] of parameters of the heart, by path, at coordinates x (k,) about the ``nominal`` ones."""
+    return {
+        path: parameter.at(nominal[path], float(z), standing)
+        for parameter, z in zip(parameters, x, strict=False)
+        for path in parameter.paths
+    }
 
 
 SPHERE_PARAMETERS = (

@@ -26,6 +26,7 @@ from heartfit.discovery.sphere_model.free_parameters import (
     SPHERE_PARAMETERS,
     FreeParameter,
     Standing,
+    values_at,
 )
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.beat import Beat
@@ -227,8 +228,4 @@ def _factors(nominal: NominalHeart, parameters: Sequence[FreeParameter], x: Floa
 
 def _parameters(nominal: NominalHeart, parameters: Sequence[FreeParameter], x: Floats) -> dict[str, float]:
     """Parameters of the heart by path, SI."""
-    return {
-        path: parameter.at(nominal.values[path], float(z), nominal.stands_for)
-        for parameter, z in zip(parameters, x, strict=False)
-        for path in parameter.paths
-    }
+    return values_at(parameters, nominal.values, x, nominal.stands_for)

@@ -16,9 +16,10 @@ from operator import add
 import numpy as np
 
 from heartfit.core.arrays import Floats
+from heartfit.discovery.inference.hypothesis import Coordinate
 from heartfit.discovery.sphere_model.forward_model import interpolate, observe_curve
-from heartfit.discovery.wall_model.unknowns import NAMES, REFERENCE, HeartInWall, subject_at
-from heartfit.discovery.wall_model.wall_data import WallRecording
+from heartfit.discovery.wall_model.unknowns import COORDINATES, NAMES, REFERENCE, HeartInWall, heart_at
+from heartfit.discovery.wall_model.wall_data import SEARCHED, WallRecording
 from heartfit.geometry.fibres import FibreRule
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.heart.beat import Beat, nodal_motion
@@ -42,7 +43,7 @@ STEP = 0.02
 class WallForwardModel:
     """Model of one measured wall.
 
-    mesh: the wall at end diastole, prepared and activated; nominal: the subject at the prior mean; times: of every
+    mesh: the wall at end diastole, prepared and activated; nominal: the heart at the prior mean; times: of every
     curve [s after the trigger], by name; frames (p,): times of the images [s], the first one the reference of strain.
     simulations: number of beats that were run, ``tangents``: of tangent-linear ones.
     """
@@ -63,6 +64,11 @@ class WallForwardModel:
         times = {block.curve: block.times for block in recording.data().blocks}
         return cls(recording.mesh, nominal, times, recording.frames, numerics)
 
+    @property
+    def base(self) -> tuple[Coordinate, ...]:
+        """Coordinates of the unknowns, which come first in every hypothesis."""
+        return COORDINATES
+
     @cached_property
     def _rule(self) -> FibreRule:
         return FibreRule.from_mesh(self.mesh)
@@ -70,17 +76,17 @@ class WallForwardModel:
     @cached_property
     def regional(self) -> tuple[str, ...]:
         """Names of the regional curves."""
-        return tuple(name for name in self.times if name.startswith(("strain_", "base_descent")))
+        return tuple(name for name in self.times if name in SEARCHED)
 
     def predict(self, x: Floats, effects: Sequence[Mechanism] = ()) -> Floats | None:
         """The curves (n,) [SI], one after the other, at the coordinates x (b,); None where the simulation fails."""
         self.simulations += 1
         try:
-            subject = self._subject(x, effects)
-            beat = simulate(subject.heart, self._body(subject), self.numerics)
+            placed = self._heart_at(x, effects)
+            beat = simulate(placed.heart, self._body(placed), self.numerics)
         except (ValueError, StepFailed):  # outside the range of a parameter, or no stress-free wall
             return None
-        return self.observe(beat, subject.heart) if beat.completed else None
+        return self.observe(beat, placed.heart) if beat.completed else None
 
     def observe(self, beat: Beat, heart: Heart) -> Floats:
         """The curves (n,) [SI] of a beat that kept its nodes, through the sensors of the heart."""
@@ -118,46 +124,46 @@ class WallForwardModel:
             return None
 
     def _differentiate(self, x: Floats, effects: Sequence[Mechanism]) -> tuple[Floats, Floats]:
-        subject = self._subject(x, effects)
+        placed = self._heart_at(x, effects)
         steps = STEP * np.eye(len(NAMES))
-        others = [self._subject(x[: len(NAMES)] + step, effects) for step in steps]
+        others = [self._heart_at(x[: len(NAMES)] + step, effects) for step in steps]
         rebuilt = [index for index, name in enumerate(NAMES) if name in REFERENCE]
-        body, bodies = self._neighbouring_bodies(subject, others, rebuilt)
+        body, bodies = self._neighbouring_bodies(placed, others, rebuilt)
         neighbours = [Neighbour(other.heart, own, STEP) for other, own in zip(others, bodies, strict=True)]
         self.tangents += 1
-        tangent = differentiate(subject.heart, body, neighbours, self.numerics)
-        predicted = self.observe(tangent.beat, subject.heart)
+        tangent = differentiate(placed.heart, body, neighbours, self.numerics)
+        predicted = self.observe(tangent.beat, placed.heart)
         columns = [
             (self.observe(tangent.near(index), other.heart) - predicted) / STEP
             for index, other in enumerate(others)
         ]
         return predicted, np.column_stack(columns)
 
-    def _subject(self, x: Floats, effects: Sequence[Mechanism]) -> HeartInWall:
-        subject = subject_at(self.nominal, x)
-        return replace(subject, heart=reduce(add, effects, subject.heart))
+    def _heart_at(self, x: Floats, effects: Sequence[Mechanism]) -> HeartInWall:
+        placed = heart_at(self.nominal, x)
+        return replace(placed, heart=reduce(add, effects, placed.heart))
 
-    def _body(self, subject: HeartInWall) -> FiniteElementBody:
-        wall = self._loaded(subject)
+    def _body(self, placed: HeartInWall) -> FiniteElementBody:
+        wall = self._loaded(placed)
         return FiniteElementBody(unload(wall.mesh, wall.tissue, wall.pressures), wall.tissue)
 
     def _neighbouring_bodies(
-        self, subject: HeartInWall, others: Sequence[HeartInWall], rebuilt: Sequence[int]
+        self, placed: HeartInWall, others: Sequence[HeartInWall], rebuilt: Sequence[int]
     ) -> tuple[FiniteElementBody, list[FiniteElementBody]]:
-        """Bodies of the subject and of the others, those ``rebuilt`` on a reference of their own."""
-        walls = (self._loaded(member) for member in (subject, *(others[i] for i in rebuilt)))
+        """Bodies of a heart and of the others, those ``rebuilt`` on a reference of their own."""
+        walls = (self._loaded(member) for member in (placed, *(others[i] for i in rebuilt)))
         reference, references = unload_neighbours(next(walls), list(walls))
         shapes = dict(zip(rebuilt, references, strict=True))
-        own = FiniteElementBody(reference, subject.heart.muscle)
+        own = FiniteElementBody(reference, placed.heart.muscle)
         return own, [
             FiniteElementBody(shapes.get(i, reference), other.heart.muscle, own.elimination)
             for i, other in enumerate(others)
         ]
 
-    def _loaded(self, subject: HeartInWall) -> LoadedWall:
-        """The measured wall of a subject, with its helix angles."""
+    def _loaded(self, placed: HeartInWall) -> LoadedWall:
+        """The measured wall of a heart, with its helix angles."""
         mesh, rule = self.mesh, self._rule
-        if subject.helix.any():
-            rule = replace(rule, endo=rule.endo + subject.helix[0], epi=rule.epi + subject.helix[1])
+        if placed.helix.any():
+            rule = replace(rule, endo=rule.endo + placed.helix[0], epi=rule.epi + placed.helix[1])
             mesh = replace(mesh, fibres=rule.fibres(), orientation=rule.orientation())
-        return LoadedWall(mesh, subject.heart.muscle, subject.loads)
+        return LoadedWall(mesh, placed.heart.muscle, placed.loads)

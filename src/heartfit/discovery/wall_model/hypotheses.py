@@ -1,14 +1,12 @@
 """Mechanisms as hypotheses about a measured wall, and the starts of their fits."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 
 import numpy as np
 
 from heartfit.core.arrays import Floats
-from heartfit.discovery.inference.hypothesis import Hypothesis
 from heartfit.discovery.sphere_model.forward_model import Candidate
 from heartfit.discovery.wall_model.forward_model import WallForwardModel
-from heartfit.discovery.wall_model.unknowns import COORDINATES
 from heartfit.roles import Availability, Delay, Mechanism, Narrowing, Sensor, registered
 from heartfit.roles.sides import VALVES
 
@@ -42,22 +40,6 @@ def _is_shown(kind: type[Mechanism], measured: Collection[str], pressure: bool) 
 def is_regional(kind: type) -> bool:
     """True for an effect that acts in a region of the wall, and shows in its strain."""
     return issubclass(kind, Availability | Delay)
-
-
-def hypothesis(model: WallForwardModel, effects: Sequence[Candidate] = ()) -> Hypothesis:
-    """The hypothesis of a heart with these mechanisms, all their unknowns free."""
-    added = tuple(coordinate for effect in effects for coordinate in effect.coordinates())
-    ends = np.cumsum([len(COORDINATES), *(len(effect.unknowns) for effect in effects)])
-
-    def forward(x: Floats) -> Floats | None:
-        parts = np.split(x, ends[:-1])[1:]
-        try:
-            mechanisms = [effect.at(part) for effect, part in zip(effects, parts, strict=True)]
-        except ValueError:  # outside the range of a parameter
-            return None
-        return model.predict(x, mechanisms)
-
-    return Hypothesis(tuple(effect.name for effect in effects), COORDINATES + added, forward)
 
 
 def placements(effect: Candidate) -> list[Floats]:

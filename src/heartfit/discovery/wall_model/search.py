@@ -3,8 +3,8 @@ r"""The search for a missing effect in three dimensions, with the strain of the 
 The baseline, all unknowns free, is fitted with the slopes of a tangent-linear beat, which are renewed at its end. Every
 mechanism, regional ones at six angles, is then switched on once; the secant ranks it by the evidence of the linear
 model. Only the best are fitted, from the baseline's fit, one beat a step, the best of them once more with slopes of
-its own. They are judged by their evidence as on the
-sphere; an effect of a region, which rests on strain, needs ten and must beat the smooth discrepancies of the segments.
+its own. They are judged by their evidence as on the sphere; an effect of a region, which rests on strain, needs ten and
+must beat the smooth discrepancies of the segments.
 """
 
 import time as clock
@@ -16,16 +16,14 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.context import FitContext
-from heartfit.discovery.inference.data import Data
 from heartfit.discovery.inference.decide import Decision, Evidences, Rules, decide
-from heartfit.discovery.inference.evidence import Explanation
+from heartfit.discovery.inference.evidence import Explanation, fit_from_slopes
 from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
 from heartfit.discovery.inference.predicted_evidence import PredictedEvidence, predict_evidence
 from heartfit.discovery.inference.search import Survey, rank
-from heartfit.discovery.inference.secant_fit import differences, fit_with_slopes
-from heartfit.discovery.sphere_model.forward_model import Candidate
+from heartfit.discovery.sphere_model.forward_model import Candidate, hypothesis
 from heartfit.discovery.wall_model.forward_model import WallForwardModel
-from heartfit.discovery.wall_model.hypotheses import candidates, hypothesis, is_regional, placements
+from heartfit.discovery.wall_model.hypotheses import candidates, is_regional, placements
 from heartfit.discovery.wall_model.unknowns import COORDINATES
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.roles import registered
@@ -41,6 +39,8 @@ SUSPECTED = 2.0
 """Gain of the best fit over the baseline [ln Z] above which its slopes are renewed."""
 LEAST_PREDICTED = 1.0
 """Predicted gain over the baseline [ln Z] below which an effect is not fitted."""
+DIFFERENCE = 0.1
+"""Step of the differences along the unknowns of an effect [prior sd]."""
 STARTS = (0.5, 3.0)
 """Range of amplitudes at which an effect starts [scales]."""
 
@@ -49,23 +49,43 @@ STARTS = (0.5, 3.0)
 class WallFindings:
     """The decision and its grounds.
 
-    predicted: ln Bayes factor of the linear model for every placement that was tried, by effect and angle index;
-    beats, tangents: numbers of beats and of tangent-linear ones; cpu: [s].
+    predicted: effects and their ln Bayes factors by the linear model, one for every placement that was tried; beats,
+    tangents: numbers of beats and of tangent-linear ones; cpu: [s].
     """
 
     decision: Decision
     evidences: Evidences
     survey: Survey
     predicted: tuple[tuple[str, float], ...]
-    data: Data
     beats: int
     tangents: int
     cpu: float
 
+    @property
+    def gains(self) -> dict[str, float]:
+        """ln evidence of the best fit of each fitted effect over the baseline."""
+        base = self.survey.baseline.log_evidence
+        return {
+            best.effects[0]: best.log_evidence - base for best in _one_for_each_effect(self.survey.singles)
+        }
+
+    @property
+    def discrepancy(self) -> float:
+        """ln evidence of smooth discrepancies beside the baseline over it."""
+        return self.evidences.discrepancy - self.survey.baseline.log_evidence
+
+    @property
+    def regional(self) -> str:
+        """Name of the best effect of a region, empty if none was fitted."""
+        return next((name for name in self.gains if is_regional(registered()[name])), "")
+
+    def best(self, effect: str) -> Explanation:
+        """The best fit of an effect; raises StopIteration if it was not fitted."""
+        return next(single for single in self.survey.singles if single.effects == (effect,))
+
     def log_bayes_factor(self, effect: str) -> float:
         """ln evidence of the best fit of an effect over the baseline; -inf if it was not fitted."""
-        fits = [single.log_evidence for single in self.survey.singles if single.effects == (effect,)]
-        return max(fits, default=-np.inf) - self.survey.baseline.log_evidence
+        return self.gains.get(effect, -np.inf)
 
 
 def search_wall(
@@ -92,7 +112,6 @@ def search_wall(
         evidences,
         replace(survey, singles=singles),
         tuple((one.hypothesis.effects[0], one.log_evidence - base.log_evidence) for one in predictions),
-        context.data,
         model.simulations,
         model.tangents,
         clock.process_time() - started,
@@ -120,7 +139,7 @@ def _fit_baseline(context: FitContext, model: WallForwardModel) -> Explanation:
 def _fit(
     context: FitContext, tried: Hypothesis, x: Floats, predicted: Floats, slopes: Floats, steps: int
 ) -> Explanation:
-    fitted = fit_with_slopes(
+    fitted = fit_from_slopes(
         CountedHypothesis(tried), context.data.values, context.whitening, x, predicted, slopes, steps
     )
     return Explanation.from_fit(fitted, context.data.values, context.whitening)
@@ -150,7 +169,7 @@ def _polish(
     if tangent is None:
         return best
     predicted, shared = tangent
-    own = differences(CountedHypothesis(best.fit.hypothesis), x, predicted, range(b, x.size))
+    own = CountedHypothesis(best.fit.hypothesis).jacobian(x, predicted, b, DIFFERENCE)
     again = _fit(context, best.fit.hypothesis, x, predicted, np.column_stack([shared, own]), EFFECT_STEPS)
     return again if again.fit.objective < best.fit.objective else best
 
@@ -163,7 +182,7 @@ def _fit_effect(context: FitContext, prediction: PredictedEvidence) -> Explanati
     if start is None:
         return None
     x, predicted = start
-    own = differences(model, x, predicted, range(b, x.size))
+    own = model.jacobian(x, predicted, b, DIFFERENCE)
     return _fit(context, tried, x, predicted, np.column_stack([prediction.slopes[:, :b], own]), EFFECT_STEPS)
 
 
@@ -182,4 +201,4 @@ def _refit_baseline(context: FitContext, base: Explanation, singles: Sequence[Ex
 
 def _one_for_each_effect(singles: Sequence[Explanation]) -> tuple[Explanation, ...]:
     """The best fit of each effect, in descending evidence."""
-    return tuple({single.effects: single for single in reversed(singles)}.values())[::-1]
+    return rank({single.effects: single for single in reversed(singles)}.values())

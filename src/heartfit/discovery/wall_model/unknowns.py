@@ -10,7 +10,6 @@ in every AHA segment s, both helix angles, of the endocardium and of the epicard
 that load the measured end-diastolic wall by 20 %.
 """
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -21,6 +20,7 @@ from heartfit.discovery.sphere_model.free_parameters import (
     HEART_PARAMETERS,
     RIGHT_HEART_PARAMETERS,
     FreeParameter,
+    values_at,
 )
 from heartfit.geometry.territory import APEX, REGIONS
 from heartfit.heart.heart import Heart
@@ -70,7 +70,7 @@ class HeartInWall:
 
     @classmethod
     def loaded(cls, heart: Heart, left: float, right: float) -> "HeartInWall":
-        """The subject with these end-diastolic pressures [Pa]."""
+        """The heart in a wall with these end-diastolic pressures [Pa]."""
         return cls(heart, np.array([left, right]))
 
 
@@ -80,20 +80,14 @@ REFERENCE = frozenset({"tissue.passive.c_1", "tissue.right.stiffness", *LOADS, *
 """Unknowns that change the stress-free reference of the wall."""
 
 
-def subject_at(nominal: HeartInWall, x: Floats) -> HeartInWall:
-    """The subject at the coordinates x (b,); raises ValueError outside the range of a parameter."""
+def heart_at(nominal: HeartInWall, x: Floats) -> HeartInWall:
+    """The heart in its wall at the coordinates x (b,); raises ValueError outside the range of a parameter."""
     counts = np.cumsum([len(PARAMETERS), len(LOADS), len(HELIX), APEX])
     own, loads, helix, contractility, activation = np.split(x[: len(NAMES)], counts)
     values = nominal.heart.parameters()
-    heart = nominal.heart.with_parameters(_values(values, own)) + WallVariation(contractility, activation)
+    heart = nominal.heart.with_parameters(values_at(PARAMETERS, values, own)) + WallVariation(
+        contractility, activation
+    )
     return replace(
         nominal, heart=heart, loads=nominal.loads * np.exp(LOAD_SD * loads), helix=HELIX_SD * helix
     )
-
-
-def _values(nominal: Mapping[str, float], x: Sequence[float] | Floats) -> dict[str, float]:
-    return {
-        path: parameter.at(nominal[path], float(z))
-        for parameter, z in zip(PARAMETERS, x, strict=True)
-        for path in parameter.paths
-    }

@@ -27,7 +27,7 @@ from heartfit.observation.regional import (
     names_of_kind,
     regional_curves,
 )
-from heartfit.observation.regional_noise import RegionalNoise
+from heartfit.observation.regional_noise import RegionalNoise, later_samples
 
 FOLLOWED = 12
 """Number of the basal and the middle segments, which registration follows."""
@@ -80,10 +80,9 @@ class WallRecording:
     def _covariance(self, curves: dict[str, Curve]) -> Floats:
         """Covariance of the searched regional samples."""
         ordered = {name: curves[name] for kind in KINDS for name in names_of_kind(kind)}
-        complete, frames = self.noise.corrected_covariance(ordered), self.frames.size
-        names = list(ordered)
-        rows = np.concatenate([frames * names.index(name) + np.arange(1, frames) for name in SEARCHED])
-        covariance: Floats = complete[np.ix_(rows, rows)]
+        owners, later = np.repeat(list(ordered), self.frames.size), later_samples(ordered)
+        rows = later[np.isin(owners[later], SEARCHED)]
+        covariance: Floats = self.noise.corrected_covariance(ordered)[np.ix_(rows, rows)]
         return covariance
 
 
