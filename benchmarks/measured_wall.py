@@ -9,7 +9,6 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
 from benchmarks.measured_table import store_table
@@ -68,7 +67,7 @@ def measured_wall(case: Path) -> tuple[WallRecording, WallForwardModel]:
     for mechanism in NAMED:
         heart = heart + mechanism
     pressures = study.end_diastolic_pressure
-    nominal = HeartInWall(heart, np.array([pressures.lv, pressures.rv]))
+    nominal = HeartInWall.loaded(heart, pressures.lv, pressures.rv)
     numerics = replace(study.numerics.numerics(), drift=3e-3, max_beats=8, keep_positions=True)
     return recording, WallForwardModel.at_samples(recording, nominal, numerics)
 
@@ -77,8 +76,8 @@ def table(findings: WallFindings) -> pd.DataFrame:
     """Return the ln Bayes factor of every fitted effect over the baseline, and that of smooth discrepancies."""
     best = findings.gains
     linear: dict[str, float] = {}
-    for name, gain in findings.predicted:
-        linear.setdefault(name, gain)
+    for one in findings.screened:
+        linear.setdefault(one.effect, one.log_bayes_factor)
     rows = [
         {
             "effect": name,

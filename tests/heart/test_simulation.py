@@ -7,6 +7,7 @@ import pytest
 
 from heartfit.heart.beat import Beat
 from heartfit.heart.circulation.coupling import Tolerances
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.sphere.body import Sphere, SphericalBody
@@ -32,6 +33,19 @@ def test_the_limit_cycle_is_reached_and_stated(beat: Beat) -> None:
     for side in ("lv", "rv"):
         curve = beat.volume[side]
         assert abs(curve[-1] - curve[0]) < NUMERICS.drift * np.ptp(curve)
+
+
+def test_a_run_from_its_own_limit_cycle_takes_one_beat(
+    spherical_heart: Heart, spheres: SphericalBody
+) -> None:
+    ends: list[HeartState] = []
+    first = simulate(spherical_heart, spheres, NUMERICS, watch=ends.extend)
+    again = simulate(spherical_heart, spheres, NUMERICS, start=ends[-1])
+    assert again.diagnostics["beats"] == 1
+    assert again.diagnostics["drift"] < first.diagnostics["drift"]
+    assert again.volume["lv"] == pytest.approx(
+        first.volume["lv"], abs=NUMERICS.drift * np.ptp(first.volume["lv"])
+    )
 
 
 def test_inflow_equals_outflow(beat: Beat) -> None:

@@ -129,19 +129,21 @@ def simulate(
     numerics: Numerics | None = None,
     progress: Progress | None = None,
     watch: Watch | None = None,
+    start: HeartState | None = None,
 ) -> Beat:
     """Beat of ``heart`` with the ventricles ``body`` on its limit cycle.
 
     Between beats the pressures of the Windkessels are shifted towards their periodic values, see
     :meth:`Recurrence.shifts`. The last beat is periodic if its own drift, which the diagnostics state, is below that of
     ``numerics``. A run that fails returns a failed beat with the reason. ``progress`` is called after every time step
-    with the completed fraction of ``max_beats``, ``watch`` once with the states of the last beat, one per time.
-    Raises InputError unless the body is made of ``heart.muscle``.
+    with the completed fraction of ``max_beats``, ``watch`` once with the states of the last beat, one per time. Beats
+    begin at ``start``, a state of the body near the limit cycle, or without one at relaxed ventricles, filled at the
+    resting atrial pressures. Raises InputError unless the body is made of ``heart.muscle``.
     """
     _require_muscle(heart, body)
     run = _Run(heart, body, numerics or Numerics(), progress, watch)
     try:
-        return run.to_limit_cycle()
+        return run.to_limit_cycle(run.relaxed() if start is None else start)
     except StepFailed as failure:
         return failed_beat(f"beat {run.beats + 1}: {failure}", heart.period, heart.trigger, run.diagnostics())
 
@@ -170,8 +172,7 @@ class _Run:
         self.beats, self.cuts, self.drift = 0, 0, np.inf
         self._started = clock.process_time()
 
-    def to_limit_cycle(self) -> Beat:
-        state = self._start()
+    def to_limit_cycle(self, state: HeartState) -> Beat:
         before: Recurrence | None = None
         while True:
             history = [state]
@@ -207,7 +208,7 @@ class _Run:
     def dt(self) -> float:
         return self.heart.period / self.steps
 
-    def _start(self) -> HeartState:
+    def relaxed(self) -> HeartState:
         """State of relaxed ventricles, filled at the resting atrial pressures."""
         trees = self.heart.circulation.start(self.heart.period)
         atria = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())

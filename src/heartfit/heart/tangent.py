@@ -22,6 +22,7 @@ dampers. The shape of the wall follows them within a beat.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -159,7 +160,10 @@ class _Lockstep:
         self.bodies = [member.body for member in members]
         _share_control(self.bodies)
         raised = [start.shift_pressures(shift) for shift in PRESSURE_SIZE * np.diag(_tree_pressures(start))]
-        self.states = [start, start, *(_carry(start, body, member.body) for member in neighbours), *raised]
+        carried = [
+            start.with_walls(partial(carry_state, body=body, other=member.body)) for member in neighbours
+        ]
+        self.states = [start, start, *carried, *raised]
         flows = [Network(member.heart.circulation, member.heart.mechanisms).names for member in members]
         self.flows = [[names.index(name) for name in flows[0]] for names in flows]
         volumes, pressures = ("lv", "rv"), COMPARTMENTS[: len(start.pressures)]
@@ -269,9 +273,3 @@ def _share_control(bodies: Sequence[FiniteElementBody]) -> None:
 
 def _coupling(heart: Heart, body: FiniteElementBody, numerics: Numerics) -> Coupling:
     return Coupling(body, heart.circulation, heart.mechanisms, numerics.tolerances)
-
-
-def _carry(state: HeartState, body: FiniteElementBody, other: FiniteElementBody) -> HeartState:
-    """State of a neighbour with the nodes and the blood of ``state``."""
-    before = state.before and replace(state.before, body=carry_state(state.before.body, body, other))
-    return replace(state, body=carry_state(state.body, body, other), before=before)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from heartfit.core.arrays import Floats
+from heartfit.core.parameter import Parameter
 from heartfit.discovery.sphere_model.forward_model import Candidate
 from heartfit.discovery.wall_model.hypotheses import is_regional
 from heartfit.discovery.wall_model.search import WallFindings
@@ -14,6 +15,8 @@ from heartfit.roles import registered
 
 PROBABLE = 0.5
 """Least probability of a segment that the sentence names."""
+LARGEST_LIMIT = 4.0
+"""Largest detection limit that is stated [scales]."""
 NAMES = (*SEGMENT_NAMES, "apex")
 """Names of the segments 1 to 17."""
 
@@ -23,6 +26,7 @@ def wall_card(findings: WallFindings, title: str) -> str:
     parts = [f"# {title}", wall_sentence(findings), _evidence(findings)]
     if findings.regional and (findings.regional,) == findings.decision.effects:
         parts.append(_segments(probability_of_segments(findings.survey.singles, findings.regional)))
+    parts.append(_limits(findings))
     return "\n\n".join(parts) + "\n"
 
 
@@ -45,9 +49,12 @@ def wall_sentence(findings: WallFindings) -> str:
     return f"Missing mechanism: {names[0]} (ln Bayes factor {findings.log_bayes_factor(decision.effects[0]):.1f})."
 
 
+def _amplitude(name: str) -> Parameter:
+    return next(u for u in Candidate.from_mechanism(registered()[name]).unknowns if u.off is not None)
+
+
 def _with_size(findings: WallFindings, name: str) -> str:
-    fit = findings.best(name)
-    amplitude = next(u for u in Candidate.from_mechanism(registered()[name]).unknowns if u.off is not None)
+    fit, amplitude = findings.best(name), _amplitude(name)
     middle, low, high = (amplitude.at(value) for value in fit.interval(f"{name}.{amplitude.name}"))
     unit, factor = AMPLITUDE_UNITS.get(amplitude.unit, (amplitude.unit, 1.0))
     size = f"{factor * middle:.2g} ({factor * low:.2g} to {factor * high:.2g}) {unit}".rstrip()
@@ -76,3 +83,28 @@ def _segments(probability: Floats) -> str:
         if value >= 0.05
     ]
     return "\n".join(["| segment | wall | probability |", "|---|---|---|", *rows])
+
+
+def _limits(findings: WallFindings) -> str:
+    """Sizes from which these data would show the effects that are not named."""
+    rows = [
+        f"| {spaced_name(name)} | {_amplitude(name).meaning} | {_size(name, best)} | {_size(name, worst)} |"
+        for name, (best, worst) in findings.limits.items()
+        if name not in findings.decision.effects
+    ]
+    head = (
+        "Effects that are not named would be from these sizes, by the linear model; an effect of a region where it "
+        "shows most and least."
+    )
+    return "\n".join(
+        [head, "", "| not seen | size | from | from, where it shows least |", "|---|---|---|---|", *rows]
+    )
+
+
+def _size(name: str, scales: float) -> str:
+    """Size of an effect with its unit; "not shown" beyond the range in which the linear model holds."""
+    if scales > LARGEST_LIMIT:
+        return "not shown"
+    amplitude = _amplitude(name)
+    unit, factor = AMPLITUDE_UNITS.get(amplitude.unit, (amplitude.unit, 1.0))
+    return f"{factor * amplitude.at(scales):.2g} {unit}".rstrip()

@@ -1,6 +1,6 @@
 """Searches of hearts with the strain of their wall, with a pressure and without, beside the search on the sphere."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +12,8 @@ from heartfit.discovery.sphere_model.searched_recording import NAMING_VERDICTS
 from heartfit.discovery.wall_model.search import REGIONAL_RULES, RULES
 from heartfit.results.cause_card import spaced_name
 
-RIGHT_TERRITORY = np.deg2rad(45.0)
-"""Largest error of the middle of a territory that counts as right; a segment is 60 degrees wide."""
+RIGHT_TERRITORY = 45.0
+"""Largest error [degrees] of the middle of a territory that counts as right; a segment is 60 degrees wide."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +25,6 @@ class WallResult:
     """
 
     verdict: str
-    effects: Effects
     gains: dict[str, float]
     discrepancy: float
     angle: float | None
@@ -38,17 +37,12 @@ class WallResult:
         """Name of the fitted effect of the largest evidence, empty if none was fitted."""
         return max(self.gains, key=self.gains.__getitem__, default="")
 
-    @property
-    def names(self) -> Effects:
-        """The named effects, empty unless the verdict names some."""
-        return self.effects if self.verdict in NAMING_VERDICTS else ()
-
 
 @dataclass(frozen=True, eq=False)
 class WallTrial:
     """A hidden effect, empty in a sound heart, and the outcomes; angle [rad] and affected (17,) of one of a region.
 
-    sphere: names by the search on the sphere.
+    images: by a search without a pressure; sphere: names by the search on the sphere; None where it was not searched.
     """
 
     seed: int
@@ -57,8 +51,8 @@ class WallTrial:
     angle: float | None
     affected: Floats | None
     pressure: WallResult
-    images: WallResult
-    sphere: Effects
+    images: WallResult | None = None
+    sphere: Effects | None = None
 
 
 def hearts_table(trials: Sequence[WallTrial]) -> pd.DataFrame:
@@ -66,21 +60,40 @@ def hearts_table(trials: Sequence[WallTrial]) -> pd.DataFrame:
     return pd.DataFrame([_heart(trial) for trial in trials])
 
 
+PRESSURE, IMAGES = "pressure", "images alone"
+"""Searches of a heart: with a left ventricular pressure, and without any."""
+SOUND, NOT_SEARCHED = "none", "–"
+VERDICT, BEST, GAIN, SMOOTH, ERROR = (
+    "verdict",
+    "best",
+    "ln B",
+    "ln B of discrepancies",
+    "error of the middle (deg)",
+)
+
+
 def _heart(trial: WallTrial) -> dict[str, object]:
     row: dict[str, object] = {
         "seed": trial.seed,
-        "hidden": f"{spaced_name(trial.effect)}, {trial.scales:g} scales" if trial.effect else "none",
-        "on the sphere": _spaced(trial.sphere),
+        "hidden": spaced_name(trial.effect) if trial.effect else SOUND,
+        "on the sphere": NOT_SEARCHED if trial.sphere is None else _spaced(trial.sphere),
     }
-    for label, result in (("pressure", trial.pressure), ("images alone", trial.images)):
-        row |= {
-            f"{label}: verdict": result.verdict,
-            f"{label}: best": _spaced((result.best,)) if result.best else "",
-            f"{label}: ln B": f"{result.gains[result.best]:.1f}" if result.best else "",
-            f"{label}: ln B of discrepancies": f"{result.discrepancy:.1f}",
-            f"{label}: error of the middle (deg)": _error(trial, result),
-        }
+    for label, result in ((PRESSURE, trial.pressure), (IMAGES, trial.images)):
+        row |= {f"{label}: {name}": value for name, value in _outcome(trial, result).items()}
     return row | {"beats": trial.pressure.beats, "CPU s": f"{trial.pressure.cpu:.0f}"}
+
+
+def _outcome(trial: WallTrial, result: WallResult | None) -> dict[str, str]:
+    if result is None:
+        return dict.fromkeys((VERDICT, BEST, GAIN, SMOOTH, ERROR), NOT_SEARCHED)
+    best = result.best
+    return {
+        VERDICT: result.verdict,
+        BEST: spaced_name(best) if best else "",
+        GAIN: f"{result.gains[best]:.1f}" if best else "",
+        SMOOTH: f"{result.discrepancy:.1f}",
+        ERROR: _error(trial, result),
+    }
 
 
 def _spaced(names: Effects) -> str:
@@ -88,65 +101,72 @@ def _spaced(names: Effects) -> str:
 
 
 def _error(trial: WallTrial, result: WallResult) -> str:
-    error = angle_error(trial, result)
-    return "" if error is None else f"{np.rad2deg(error):.0f}"
-
-
-def angle_error(trial: WallTrial, result: WallResult) -> float | None:
-    """Error [rad] of the middle of the territory, None where there is no territory to compare."""
+    """Error of the middle of the territory, empty where there is no territory to compare."""
     if trial.angle is None or result.angle is None or result.best != trial.effect:
-        return None
-    return float(np.abs(np.angle(np.exp(1j * (result.angle - trial.angle)))))
+        return ""
+    return f"{np.rad2deg(np.abs(np.angle(np.exp(1j * (result.angle - trial.angle))))):.0f}"
 
 
-def rates_table(trials: Sequence[WallTrial]) -> pd.DataFrame:
-    """Return the rates beside their targets."""
-    sound, hidden = ([t for t in trials if bool(t.effect) == present] for present in (False, True))
-    scars = [trial for trial in hidden if trial.effect == "Scar"]
+def rates_table(hearts: pd.DataFrame) -> pd.DataFrame:
+    """Return the rates beside their targets, of the rows of hearts as text."""
+    sound = hearts[hearts["hidden"] == SOUND]
+    hidden = hearts[hearts["hidden"] != SOUND]
+    scars = hidden[hidden["hidden"] == "scar"]
+    detected = (_gains(hidden, PRESSURE) > RULES.detected) | (
+        _gains(hidden, PRESSURE, SMOOTH) > RULES.detected
+    )
     rows = [
+        ("hearts without an effect that are named", "at most 2 %", _named(sound, PRESSURE)),
+        ("the same by images alone", "at most 2 %", _named(_searched(sound, IMAGES), IMAGES)),
         (
-            "hearts without an effect that are named",
-            "at most 2 %",
-            _share(sound, lambda t: bool(t.pressure.names)),
+            "hearts without an effect whose verdict is unknown",
+            "",
+            sound[_column(PRESSURE, VERDICT)] == "unknown",
         ),
-        ("the same by images alone", "at most 2 %", _share(sound, lambda t: bool(t.images.names))),
-        (
-            "scars of 2 scales that are seen",
-            "80 %",
-            _share(scars, lambda t: _seen(t, t.pressure)),
-        ),
-        ("the same by images alone", "80 %", _share(scars, lambda t: _seen(t, t.images))),
-        ("scars that the sphere names", "", _share(scars, lambda t: t.sphere == ("Scar",))),
-        ("right territory of those seen", "90 %", _territory(scars, lambda t: t.pressure)),
-        ("the same by images alone", "90 %", _territory(scars, lambda t: t.images)),
-        ("effects that are detected", "60 %", _share(hidden, lambda t: _detected(t.pressure))),
-        ("names that are right", "95 %", _right_names(hidden, lambda t: t.pressure)),
-        ("the same by images alone", "95 %", _right_names(hidden, lambda t: t.images)),
-        ("CPU minutes of a search, median", "6", f"{np.median([t.pressure.cpu for t in trials]) / 60.0:.1f}"),
+        ("scars of 2 scales that are seen", "80 %", _seen(scars, PRESSURE)),
+        ("the same by images alone", "80 %", _seen(scars, IMAGES)),
+        ("scars that the sphere names", "", scars["on the sphere"] == "scar"),
+        ("right territory of those seen", "90 %", _right_territory(scars, PRESSURE)),
+        ("the same by images alone", "90 %", _right_territory(scars, IMAGES)),
+        ("effects that are detected", "60 %", detected),
+        ("names that are right", "95 %", _right_names(hidden, PRESSURE)),
+        ("the same by images alone", "95 %", _right_names(_searched(hidden, IMAGES), IMAGES)),
     ]
-    return pd.DataFrame(rows, columns=["figure", "target", "measured"])
+    shares = [(figure, target, f"{int(holds.sum())} of {len(holds)}") for figure, target, holds in rows]
+    minutes = np.median(hearts["CPU s"].astype(float)) / 60.0
+    return pd.DataFrame(
+        [*shares, ("CPU minutes of a search, median", "6", f"{minutes:.1f}")],
+        columns=["figure", "target", "measured"],
+    )
 
 
-def _seen(trial: WallTrial, result: WallResult) -> bool:
-    return result.best == trial.effect and result.gains[result.best] > REGIONAL_RULES.detected
+def _column(search: str, name: str) -> str:
+    return f"{search}: {name}"
 
 
-def _detected(result: WallResult) -> bool:
-    return max([*result.gains.values(), result.discrepancy]) > RULES.detected
+def _searched(hearts: pd.DataFrame, search: str) -> pd.DataFrame:
+    return hearts[hearts[_column(search, VERDICT)] != NOT_SEARCHED]
 
 
-Side = Callable[[WallTrial], WallResult]
+def _gains(hearts: pd.DataFrame, search: str, name: str = GAIN) -> pd.Series:
+    """ln Bayes factors, -inf where nothing was fitted."""
+    return pd.to_numeric(hearts[_column(search, name)], errors="coerce").fillna(-np.inf)
 
 
-def _territory(scars: Sequence[WallTrial], side: Side) -> str:
-    errors = [angle_error(trial, side(trial)) for trial in scars if _seen(trial, side(trial))]
-    return f"{sum(error is not None and error < RIGHT_TERRITORY for error in errors)} of {len(errors)}"
+def _named(hearts: pd.DataFrame, search: str) -> pd.Series:
+    return hearts[_column(search, VERDICT)].isin(NAMING_VERDICTS)
 
 
-def _right_names(hidden: Sequence[WallTrial], side: Side) -> str:
-    named = [trial for trial in hidden if side(trial).names]
-    return f"{sum(trial.effect in side(trial).names for trial in named)} of {len(named)}"
+def _seen(hearts: pd.DataFrame, search: str) -> pd.Series:
+    best = hearts[_column(search, BEST)] == hearts["hidden"]
+    return best & (_gains(hearts, search) > REGIONAL_RULES.detected)
 
 
-def _share(trials: Sequence[WallTrial], holds: Callable[[WallTrial], bool]) -> str:
-    return f"{sum(map(holds, trials))} of {len(trials)}"
+def _right_territory(scars: pd.DataFrame, search: str) -> pd.Series:
+    errors = pd.to_numeric(scars[_seen(scars, search)][_column(search, ERROR)], errors="coerce")
+    return errors < RIGHT_TERRITORY
+
+
+def _right_names(hidden: pd.DataFrame, search: str) -> pd.Series:
+    named = hidden[_named(hidden, search)]
+    return named[_column(search, BEST)] == named["hidden"]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from heartfit.discovery.inference.context import FitContext
+from heartfit.discovery.inference.data import Noise
 from heartfit.discovery.inference.decide import Rules
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.inference.predicted_evidence import best_prediction, fit_pairs, predict_evidence
@@ -64,3 +65,29 @@ def test_only_pairs_with_enough_predicted_evidence_are_fitted() -> None:
     assert pair.effects == ("delay", "pulse")
     assert fit_pairs(context, ranked, oscillator.combined, Rules(predicted_gain=1e6)) == []
     assert len(fit_pairs(context, ranked, oscillator.combined, Rules(predicted_gain=-1e6, pairs=3))) == 3
+
+
+@pytest.mark.parametrize("one_sided", [True, False])
+@pytest.mark.parametrize("threshold", [7.0, 10.0])
+def test_an_effect_at_its_detection_limit_has_the_threshold_of_evidence(
+    one_sided: bool, threshold: float
+) -> None:
+    further = hypothesis(J, Coordinate("a", one_sided=one_sided, amplitude=True))
+    quiet = Noise((0.2,), 0.0, 0.0, discrepancy=0.5)
+    sound = FitContext(data(np.zeros(len(J)), quiet))
+    at_rest = predict_evidence(sound, sound.linearise(hypothesis(J[:, :2]), np.zeros(2)), further)
+    limit = at_rest.detection_limit(threshold)
+    context = FitContext(data(limit * J[:, 2], quiet))
+    base = context.linearise(hypothesis(J[:, :2]), np.zeros(2))
+    gained = predict_evidence(context, base, further).log_evidence - base.log_evidence
+    assert gained == pytest.approx(threshold, abs=1e-3)
+
+
+def test_an_effect_that_changes_nothing_has_no_detection_limit() -> None:
+    context = FitContext(data(np.zeros(len(J))))
+    base = context.linearise(hypothesis(J[:, :2]), np.zeros(2))
+    hidden = np.column_stack([J[:, :2], J[:, 0]])  # what the first coordinate does, too
+    faint = hypothesis(hidden, Coordinate("a", one_sided=True, amplitude=True))
+    assert predict_evidence(context, base, faint).detection_limit(7.0) > 4.0
+    silent = hypothesis(np.column_stack([J[:, :2], 0.0 * J[:, 0]]), Coordinate("a", amplitude=True))
+    assert predict_evidence(context, base, silent).detection_limit(7.0) == np.inf

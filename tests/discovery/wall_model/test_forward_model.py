@@ -21,6 +21,8 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics
 from heartfit.mechanisms.image_trigger_delay import ImageTriggerDelay
+from heartfit.mechanisms.left_atrium import LeftAtrium
+from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.scar import Scar
 from heartfit.observation.regional import strain_name
 from heartfit.roles import registered
@@ -95,6 +97,25 @@ def test_late_images_delay_strain_as_they_delay_the_volume(model: WallForwardMod
             before = before - before[3:9].mean() + after[4:10].mean()
         assert after[4:10] == pytest.approx(before[3:9], abs=0.12 * np.ptp(before))
         assert np.abs(after[4:10] - before[4:10]).max() > 0.12 * np.ptp(before)
+
+
+def test_a_prediction_does_not_depend_on_the_heart_before(model: WallForwardModel) -> None:
+    x = np.zeros(len(NAMES))
+    others = [(0.3 + x, [MitralRegurgitation()]), (x, [LeftAtrium()])]
+    alone = replace(model).predict(x)
+    assert alone is not None
+    for before, effects in others:
+        following = replace(model)
+        assert following.predict(before, effects) is not None
+        predicted = following.predict(x)
+        assert predicted is not None
+        for curve, error in {
+            "lv_volume": 0.2e-6,
+            "rv_volume": 0.2e-6,
+            "lv_pressure": 60.0,
+            STRAIN: 1e-3,
+        }.items():
+            assert part(predicted, curve) == pytest.approx(part(alone, curve), abs=error), curve
 
 
 def test_a_wall_outside_the_range_has_no_prediction(model: WallForwardModel) -> None:

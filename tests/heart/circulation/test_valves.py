@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from heartfit.heart.circulation.elements import LinearValve, OrificeValve, Valve
+from heartfit.heart.circulation.elements import LinearValve, OrificeValve, SeriesValve, Valve
 from heartfit.roles.laws import BLOOD_DENSITY, Branch
 from tests.shrinking import assert_derivative
 
-VALVES = [LinearValve(), OrificeValve()]
+VALVES = [LinearValve(), OrificeValve(), SeriesValve()]
 BOTH_WAYS = Branch(area=1e-4, back_area=1e-4)
 valves = pytest.mark.parametrize("valve", VALVES, ids=lambda valve: type(valve).__name__)
 
@@ -40,3 +40,19 @@ def test_the_orifice_is_odd_and_follows_bernoulli_beyond_the_smoothing() -> None
         assert BOTH_WAYS.flow(-drop)[0] == -BOTH_WAYS.flow(drop)[0]
         assert BOTH_WAYS.flow(-drop)[1] == BOTH_WAYS.flow(drop)[1]
     assert BOTH_WAYS.flow(1e3)[0] == pytest.approx(1e-4 * np.sqrt(2e3 / BLOOD_DENSITY), rel=1e-3)
+
+
+@pytest.mark.parametrize("flow", [1e-5, 1e-4, 5e-4])
+def test_losses_of_a_series_add(flow: float) -> None:
+    valve = SeriesValve(open=3e-6, area=2e-4)
+    drop = flow / valve.open + 0.5 * BLOOD_DENSITY * (flow / valve.area) ** 2
+    assert valve.law().flow(drop)[0] == pytest.approx(flow, rel=1e-12)
+
+
+@pytest.mark.parametrize("drop", [-100.0, 50.0, 2e3])
+def test_a_series_is_the_valve_whose_other_part_is_wide(drop: float) -> None:
+    wide = SeriesValve(open=3e-6, area=10.0).law().flow(drop)
+    assert wide == pytest.approx(LinearValve(open=3e-6).law().flow(drop), rel=1e-5)
+    if drop > 1e3:  # beyond the smoothing of the orifice
+        free = SeriesValve(open=1.0, area=2e-4).law().flow(drop)
+        assert free == pytest.approx(OrificeValve(area=2e-4).law().flow(drop), rel=1e-3)

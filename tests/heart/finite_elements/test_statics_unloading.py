@@ -87,6 +87,24 @@ def test_without_pressure_unloading_changes_no_node(ventricle: VentricularMesh) 
     assert unload(ventricle, Tissue(), np.zeros(2)).points == pytest.approx(ventricle.points, abs=1e-9)
 
 
+def test_a_reference_near_by_is_a_start_and_does_not_change_the_reference(
+    ventricle: VentricularMesh, coarse_body: FiniteElementBody
+) -> None:
+    stiffer = Tissue(passive=MooneyRivlin(c_1=8e3, c_2=0.8e3))
+    alone = unload(ventricle, stiffer, END_DIASTOLIC_PRESSURE)
+    near = unload(ventricle, stiffer, END_DIASTOLIC_PRESSURE, near=coarse_body.reference)
+    assert near.points == pytest.approx(alone.points, abs=1e-5)
+    assert np.abs(near.points - coarse_body.reference.points).max() > 5e-4
+
+
+def test_a_start_too_far_away_is_left(ventricle: VentricularMesh) -> None:
+    alone = unload(ventricle, Tissue(), END_DIASTOLIC_PRESSURE)
+    turned = ventricle.with_points(ventricle.points @ np.diag([-1.0, 1.0, 1.0]))
+    assert unload(ventricle, Tissue(), END_DIASTOLIC_PRESSURE, near=turned).points == pytest.approx(
+        alone.points
+    )
+
+
 def test_a_wall_too_soft_for_its_pressure_is_named(ventricle: VentricularMesh) -> None:
     with pytest.raises(StepFailed, match=r"too soft for this pressure|collapse"):
         unload(ventricle, SOFT, np.array([20e3, 10e3]))

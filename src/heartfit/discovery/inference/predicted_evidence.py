@@ -13,7 +13,7 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.decide import Effects, Rules
-from heartfit.discovery.inference.evidence import Explanation, posterior
+from heartfit.discovery.inference.evidence import LARGEST_INFORMED_VARIANCE, Explanation, posterior
 from heartfit.discovery.inference.hypothesis import Hypothesis
 
 START_AMPLITUDES = (0.3, 3.0)
@@ -22,12 +22,31 @@ START_AMPLITUDES = (0.3, 3.0)
 
 @dataclass(frozen=True, eq=False)
 class PredictedEvidence:
-    """A hypothesis with a start (d,) and slopes (n, d) for its fit, and the ln Z of the linear model."""
+    """A hypothesis with a start (d,) and slopes (n, d) for its fit, and the ln Z of the linear model.
+
+    variance: that the linear model leaves to the amplitude of the further effect, whose prior has 1.
+    """
 
     hypothesis: Hypothesis
     start: Floats
     slopes: Floats
     log_evidence: float
+    variance: float
+
+    def detection_limit(self, threshold: float) -> float:
+        r"""Amplitude a [scales] at which the linear model expects the ln Bayes factor to be ``threshold``.
+
+        With the posterior variance v of the amplitude,
+
+        .. math:: \ln B = \tfrac12 \ln v + \tfrac12 a^2 (1 - v)^2 / v ,
+
+        and ln 2 more for a one-sided amplitude. Infinite where the data do not inform it.
+        """
+        if self.variance >= LARGEST_INFORMED_VARIANCE:
+            return float(np.inf)
+        added = [c.one_sided for c in self.hypothesis.coordinates if c.amplitude][-1] * np.log(2.0)
+        needed = max(threshold - added - 0.5 * np.log(self.variance), 0.0)
+        return float(np.sqrt(2.0 * needed * self.variance) / (1.0 - self.variance))
 
     def fit(self, context: FitContext, trusted: int = 0) -> Explanation | None:
         """Fit the hypothesis from the start; None where its simulations fail."""
@@ -99,7 +118,8 @@ def predict_evidence(
     linear = posterior(context.whitening, x, residual, slopes, further.one_sided)
     sign = np.where(further.one_sided | (linear.mean > 0.0), 1.0, -1.0)
     start = np.where(new, sign * np.clip(sign * linear.mean, *amplitudes), x)
-    return PredictedEvidence(further, start, slopes, linear.log_evidence)
+    variance = float(np.diag(linear.covariance)[new].max())
+    return PredictedEvidence(further, start, slopes, linear.log_evidence, variance)
 
 
 def _secant(

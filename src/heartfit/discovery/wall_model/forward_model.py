@@ -6,11 +6,12 @@ those of the search on the sphere do; regional curves from its nodes at the time
 .. math:: f(x) = (V(t_i), P(t_j), E_s(t_k), d(t_k)),
 
 with all image times counted from the trigger of that heart. Slopes by many unknowns come from one tangent-linear beat.
+Reference and beat start from those of the heart before, which saves a beat and most of the unloading.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property, reduce
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial, reduce
 from operator import add
 
 import numpy as np
@@ -23,7 +24,10 @@ from heartfit.discovery.wall_model.wall_data import SEARCHED, WallRecording
 from heartfit.geometry.fibres import FibreRule
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.heart.beat import Beat, nodal_motion
+from heartfit.heart.circulation.atria import chamber_table
+from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import FiniteElementBody, StepFailed
+from heartfit.heart.finite_elements.neighbours import carry_state
 from heartfit.heart.finite_elements.unloading import LoadedWall, unload, unload_neighbours
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
@@ -32,11 +36,30 @@ from heartfit.observation.regional import regional_curves
 from heartfit.roles import Mechanism, Sensor
 
 NUMERICS = Numerics(time_step=5e-3, max_beats=8, drift=3e-3, keep_positions=True)
-"""Derivatives of the tangent are those of the limit cycle; the beat itself may be this far from it."""
+TANGENT_STEP = 10e-3
+"""Time step of tangent-linear beats [s]: slopes need fewer digits than predictions, and cost half as much."""
 IMAGED, DISTORTED_PHASES = "lv_volume", 100
 """Curve by which an error of the images is known, and number of phases at which it distorts regional curves."""
 STEP = 0.02
 """Distance of a neighbour [prior standard deviations]."""
+
+
+@dataclass(frozen=True, eq=False)
+class _BeatEnd:
+    """Ventricles at the end of a beat on the limit cycle."""
+
+    body: FiniteElementBody
+    state: HeartState
+
+    def carried_to(self, heart: Heart, body: FiniteElementBody) -> HeartState | None:
+        """State at which the beats of another heart begin, the nodes and pressures kept, the blood in valves at rest.
+
+        None where an atrium has a volume, since the blood of the circuit may differ.
+        """
+        if self.state.atria is not None or chamber_table(heart.mechanisms) is not None:
+            return None
+        carry = partial(carry_state, body=self.body, other=body)
+        return replace(self.state.with_walls(carry), branches=None)
 
 
 @dataclass(eq=False)
@@ -55,6 +78,7 @@ class WallForwardModel:
     numerics: Numerics = NUMERICS
     simulations: int = 0
     tangents: int = 0
+    _before: _BeatEnd | None = field(default=None, init=False, repr=False)
 
     @classmethod
     def at_samples(
@@ -83,7 +107,7 @@ class WallForwardModel:
         self.simulations += 1
         try:
             placed = self._heart_at(x, effects)
-            beat = simulate(placed.heart, self._body(placed), self.numerics)
+            beat = self._beat(placed)
         except (ValueError, StepFailed):  # outside the range of a parameter, or no stress-free wall
             return None
         return self.observe(beat, placed.heart) if beat.completed else None
@@ -118,12 +142,15 @@ class WallForwardModel:
 
     def slopes(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Floats, Floats] | None:
         """Prediction (n,) and its derivatives (n, b) by the unknowns that all hypotheses share; None on failure."""
+        predicted = self.predict(x, effects)
+        if predicted is None:
+            return None
         try:
-            return self._differentiate(x, effects)
+            return predicted, self._differentiate(x, effects)
         except (ValueError, StepFailed):
             return None
 
-    def _differentiate(self, x: Floats, effects: Sequence[Mechanism]) -> tuple[Floats, Floats]:
+    def _differentiate(self, x: Floats, effects: Sequence[Mechanism]) -> Floats:
         placed = self._heart_at(x, effects)
         steps = STEP * np.eye(len(NAMES))
         others = [self._heart_at(x[: len(NAMES)] + step, effects) for step in steps]
@@ -131,21 +158,35 @@ class WallForwardModel:
         body, bodies = self._neighbouring_bodies(placed, others, rebuilt)
         neighbours = [Neighbour(other.heart, own, STEP) for other, own in zip(others, bodies, strict=True)]
         self.tangents += 1
-        tangent = differentiate(placed.heart, body, neighbours, self.numerics)
-        predicted = self.observe(tangent.beat, placed.heart)
+        numerics = replace(self.numerics, time_step=max(TANGENT_STEP, self.numerics.time_step))
+        tangent = differentiate(placed.heart, body, neighbours, numerics)
+        centre = self.observe(tangent.beat, placed.heart)
         columns = [
-            (self.observe(tangent.near(index), other.heart) - predicted) / STEP
+            (self.observe(tangent.near(index), other.heart) - centre) / STEP
             for index, other in enumerate(others)
         ]
-        return predicted, np.column_stack(columns)
+        return np.column_stack(columns)
 
     def _heart_at(self, x: Floats, effects: Sequence[Mechanism]) -> HeartInWall:
         placed = heart_at(self.nominal, x)
         return replace(placed, heart=reduce(add, effects, placed.heart))
 
+    def _beat(self, placed: HeartInWall) -> Beat:
+        """The beat on the limit cycle, from the end of the beat before; from relaxed ventricles if that one fails."""
+        body = self._body(placed)
+        history: list[HeartState] = []
+        start = None if self._before is None else self._before.carried_to(placed.heart, body)
+        beat = simulate(placed.heart, body, self.numerics, watch=history.extend, start=start)
+        if start is not None and not beat.completed:
+            beat = simulate(placed.heart, body, self.numerics, watch=history.extend)
+        if beat.completed:
+            self._before = _BeatEnd(body, history[-1])
+        return beat
+
     def _body(self, placed: HeartInWall) -> FiniteElementBody:
         wall = self._loaded(placed)
-        return FiniteElementBody(unload(wall.mesh, wall.tissue, wall.pressures), wall.tissue)
+        near = None if self._before is None else self._before.body.reference
+        return FiniteElementBody(unload(wall.mesh, wall.tissue, wall.pressures, near), wall.tissue)
 
     def _neighbouring_bodies(
         self, placed: HeartInWall, others: Sequence[HeartInWall], rebuilt: Sequence[int]

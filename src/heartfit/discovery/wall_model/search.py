@@ -1,6 +1,6 @@
 r"""The search for a missing effect in three dimensions, with the strain of the wall among the data.
 
-The baseline, all unknowns free, is fitted with the slopes of a tangent-linear beat, which are renewed at its end. Every
+The baseline, all unknowns free, is fitted with the slopes of a tangent-linear beat, which are renewed twice. Every
 mechanism, regional ones at six angles, is then switched on once; the secant ranks it by the evidence of the linear
 model. Only the best are fitted, from the baseline's fit, one beat a step, the best of them once more with slopes of
 its own. They are judged by their evidence as on the sphere; an effect of a region, which rests on strain, needs ten and
@@ -8,7 +8,7 @@ must beat the smooth discrepancies of the segments.
 """
 
 import time as clock
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,8 +31,8 @@ from heartfit.roles import registered
 RULES = Rules(detected=7.0)
 REGIONAL_RULES = Rules(detected=10.0)
 """For an effect of a region, which rests on strain."""
-BASELINE_STEPS, EFFECT_STEPS = (8, 8), 8
-"""Largest numbers of steps of the baseline, before and after its slopes are renewed, and of an effect."""
+BASELINE_STEPS, EFFECT_STEPS = (10, 8, 6), 8
+"""Largest numbers of steps of the baseline, before its slopes are renewed and at last, and of an effect."""
 REFITTED = 5
 """Number of placements of effects that are fitted."""
 SUSPECTED = 2.0
@@ -45,18 +45,27 @@ STARTS = (0.5, 3.0)
 """Range of amplitudes at which an effect starts [scales]."""
 
 
+@dataclass(frozen=True)
+class Screened:
+    """An effect at one placement: its ln Bayes factor by the linear model, and its detection limit [scales]."""
+
+    effect: str
+    log_bayes_factor: float
+    limit: float
+
+
 @dataclass(frozen=True, eq=False)
 class WallFindings:
     """The decision and its grounds.
 
-    predicted: effects and their ln Bayes factors by the linear model, one for every placement that was tried; beats,
-    tangents: numbers of beats and of tangent-linear ones; cpu: [s].
+    screened: every effect at every placement that was tried, in descending evidence; beats, tangents: numbers of beats
+    and of tangent-linear ones; cpu: [s].
     """
 
     decision: Decision
     evidences: Evidences
     survey: Survey
-    predicted: tuple[tuple[str, float], ...]
+    screened: tuple[Screened, ...]
     beats: int
     tangents: int
     cpu: float
@@ -79,6 +88,13 @@ class WallFindings:
         """Name of the best effect of a region, empty if none was fitted."""
         return next((name for name in self.gains if is_regional(registered()[name])), "")
 
+    @property
+    def limits(self) -> dict[str, tuple[float, float]]:
+        """Detection limits [scales] of the screened effects, at the placements that show the most and the least."""
+        names = sorted({one.effect for one in self.screened})
+        by_effect = {name: [one.limit for one in self.screened if one.effect == name] for name in names}
+        return {name: (min(limits), max(limits)) for name, limits in by_effect.items()}
+
     def best(self, effect: str) -> Explanation:
         """The best fit of an effect; raises StopIteration if it was not fitted."""
         return next(single for single in self.survey.singles if single.effects == (effect,))
@@ -98,6 +114,7 @@ def search_wall(
     started, context = clock.process_time(), FitContext(recording.data())
     tried = candidates(model, recording.has_pressure) if library is None else list(library)
     base = _fit_baseline(context, model)
+    lowest = base.log_evidence
     predictions = _predict_all(context, model, base, tried)
     best = [one for one in predictions if one.log_evidence > base.log_evidence + LEAST_PREDICTED]
     fits = [_fit_effect(context, one) for one in best[:REFITTED]]
@@ -111,21 +128,31 @@ def search_wall(
         _decide(evidences),
         evidences,
         replace(survey, singles=singles),
-        tuple((one.hypothesis.effects[0], one.log_evidence - base.log_evidence) for one in predictions),
+        tuple(_screened(one, lowest) for one in predictions),
         model.simulations,
         model.tangents,
         clock.process_time() - started,
     )
 
 
+def _screened(prediction: PredictedEvidence, baseline: float) -> Screened:
+    """The prediction over the ln evidence of the baseline from which it was made."""
+    name = prediction.hypothesis.effects[0]
+    limit = prediction.detection_limit(_rules([name]).detected)
+    return Screened(name, prediction.log_evidence - baseline, limit)
+
+
+def _rules(names: Iterable[str]) -> Rules:
+    """An effect of a region, which rests on strain, needs more evidence."""
+    return REGIONAL_RULES if any(is_regional(registered()[name]) for name in names) else RULES
+
+
 def _decide(evidences: Evidences) -> Decision:
-    """The verdict; an effect of a region, which rests on strain, needs more evidence."""
-    regional = any(is_regional(registered()[name]) for name in evidences.single)
-    return decide(evidences, REGIONAL_RULES if regional else RULES)
+    return decide(evidences, _rules(evidences.single))
 
 
 def _fit_baseline(context: FitContext, model: WallForwardModel) -> Explanation:
-    """The baseline's fit, its slopes renewed once on the way."""
+    """The baseline's fit, its slopes renewed on the way."""
     baseline, x = hypothesis(model), np.zeros(len(COORDINATES))
     for steps in BASELINE_STEPS:
         tangent = model.slopes(x)

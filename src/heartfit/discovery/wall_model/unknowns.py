@@ -6,8 +6,9 @@ explains. With N(0, 1) coordinates z
 
 .. math:: n_{0,s} \to n_{0,s}\, e^{0.15 z_s}, \qquad T_s \to T_s + 8\,\mathrm{ms}\; z'_s
 
-in every AHA segment s, both helix angles, of the endocardium and of the epicardium, by 10 degrees, and the pressures
-that load the measured end-diastolic wall by 20 %.
+in every AHA segment s, both helix angles, of the endocardium and of the epicardium, by 10 degrees, the pressures that
+load the measured end-diastolic wall by 20 %, and the orifices of the valves by 20 %: a valve without any Bernoulli loss
+leaves a misfit that some stenosis explains.
 """
 
 from dataclasses import dataclass, field, replace
@@ -23,6 +24,7 @@ from heartfit.discovery.sphere_model.free_parameters import (
     values_at,
 )
 from heartfit.geometry.territory import APEX, REGIONS
+from heartfit.heart.circulation.elements import SeriesValve
 from heartfit.heart.heart import Heart
 from heartfit.roles import Availability, Delay
 
@@ -32,9 +34,14 @@ HELIX_SD, LOAD_SD = np.deg2rad(10.0), 0.20
 """Standard deviations of a helix angle [rad] and of an end-diastolic pressure [logarithm]."""
 LATE_RIGHT = "tissue.right.delay"
 """Left out: the conduction of the mesh already gives the delay of the right wall, which cannot be negative."""
+ORIFICES = {"mitral": 4.5e-4, "aortic": 3.5e-4, "tricuspid": 7e-4, "pulmonary": 3.5e-4}
+"""Effective orifices of normal valves [m^2]. Sources: 4 to 6 cm^2 (mitral), Baumgartner et al., JASE 2009, 22:1; 3 to
+4 cm^2 (aortic, assumed for the pulmonary valve), JASE 2017, 30:372; tricuspid 7 to 9 cm^2, JASE 2009."""
+ORIFICE_SD = 0.20
 PARAMETERS: tuple[FreeParameter, ...] = (
     *HEART_PARAMETERS,
     *(parameter for parameter in RIGHT_HEART_PARAMETERS if parameter.name != LATE_RIGHT),
+    *(FreeParameter((f"circulation.{valve}.area",), ORIFICE_SD) for valve in ORIFICES),
 )
 LOADS = ("load.lv", "load.rv")
 HELIX = ("helix.endo", "helix.epi")
@@ -70,8 +77,12 @@ class HeartInWall:
 
     @classmethod
     def loaded(cls, heart: Heart, left: float, right: float) -> "HeartInWall":
-        """The heart in a wall with these end-diastolic pressures [Pa]."""
-        return cls(heart, np.array([left, right]))
+        """The heart in a wall with these end-diastolic pressures [Pa], its linear valves with normal orifices."""
+        valves = {
+            name: SeriesValve(getattr(heart.circulation, name).open, area) for name, area in ORIFICES.items()
+        }
+        circulation = replace(heart.circulation, **valves)  # type: ignore[arg-type]
+        return cls(replace(heart, circulation=circulation), np.array([left, right]))
 
 
 NAMES = tuple([*(parameter.name for parameter in PARAMETERS), *LOADS, *HELIX, *CONTRACTILITY, *ACTIVATION])

@@ -1,4 +1,4 @@
-r"""Valves and arteries: orifice and linear valves, and the four-element Windkessel.
+r"""Valves and arteries: linear valves, orifices and both in series, and the four-element Windkessel.
 
 A valve law maps the pressure drop :math:`\Delta p` across the valve to :math:`(q, dq/d\Delta p)`; it increases with the
 drop, so that every time step of the circuit has one solution. It is stated as the coefficients of a branch.
@@ -63,6 +63,26 @@ class OrificeValve:
 
     def law(self) -> Branch:
         return Branch(area=self.area, back_conductance=self.closed)
+
+
+@dataclass(frozen=True)
+class SeriesValve:
+    r"""Conductance in series with Bernoulli's orifice: :math:`\Delta p = q/K_o + \rho q^2 / (2 A^2)` open.
+
+    The one is a valve with viscous losses alone, the other one with losses of inertia alone; a real valve has both.
+    """
+
+    open: float = parameter(4e-6, unit="m^3/(s.Pa)", symbol="K_o", meaning="conductance of the open valve")
+    area: float = parameter(4e-4, unit="m^2", symbol="A", meaning="effective orifice area of the open valve")
+    closed: float = parameter(
+        1e-11, unit="m^3/(s.Pa)", symbol="K_c", meaning="conductance of the closed valve"
+    )
+
+    def __post_init__(self) -> None:
+        require_admissible(self)
+
+    def law(self) -> Branch:
+        return Branch(conductance=self.open, back_conductance=self.closed).with_narrowing(self.area**-2)
 
 
 EJECTION_TIME = 0.3

@@ -1,6 +1,6 @@
 """State of wall and circuit between two time steps."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -54,6 +54,11 @@ class HeartState:
             return None
         before = self.atria if self.before is None or self.before.atria is None else self.before.atria
         return step.starting_value(self.atria, before)
+
+    def with_walls(self, carry: Callable[[Any], Any]) -> "HeartState":
+        """State with the states of its wall, now and one step before, mapped by ``carry``."""
+        before = self.before and self.before.with_walls(carry)
+        return replace(self, body=carry(self.body), before=before)
 
     def shift_pressures(self, shifts: Sequence[float]) -> "HeartState":
         """State with the pressures of both Windkessels raised by ``shifts`` (2,) [Pa], now and one step before."""
