@@ -257,12 +257,13 @@ def study_beats():
 
 
 def study_causes():
-    """Cause cards of the search and of the configured 3-D proofs, with their scores and trials."""
+    """Cause cards of the searches and of the configured 3-D proofs, with their scores and trials."""
     return [
         *expand(
             "<results>/{case}/discovery/{setting}/search/cause.json", case=CASES, setting=DISCOVERY.settings
         ),
         *(f"<results>/{case}/discovery/{setting}/cause.json" for case, setting in REFITTED),
+        *(f"<results>/{case}/discovery/{setting}/wall/wall.json" for case, setting in WALLS),
         *(["<results>/tables/discovery.md"] if REFITTED else []),
         *(f"<results>/figures/trials_{case}_{setting}.png" for case, setting in REFITTED if DISCOVERY.trials),
     ]

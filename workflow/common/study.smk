@@ -82,6 +82,7 @@ VALIDATION_SEQUENCES = range(
 # cases and settings whose heart is refitted and extended in 3-D; measured ones on a coarse mesh of their own
 DISCOVERY = STUDY.discovery
 REFITTED = STUDY.refitted(CASES)
+WALLS = [(case, setting) for case in DISCOVERY.walls if case in CASES for setting in DISCOVERY.settings]
 COARSENED = [case for case in WITHOUT_TRUTH if DISCOVERY.coarse is not None]
 
 # cases of the discovery benchmark: batches of spheres, and single ventricles by number

@@ -76,6 +76,25 @@ use rule search_cause as search_reading with:
         reading=lambda wildcards: wildcards.reading,
 
 
+rule search_wall:
+    input:
+        **REFITTED_CASE,
+    output:
+        "<results>/{case}/discovery/{setting}/wall/wall.json",
+        "<results>/{case}/discovery/{setting}/wall/wall.md",
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        case=case_of,
+        setting=setting_of,
+        pressures=filling_pressures_of,
+        stated=configuration_text(case_of, setting_of, filling_pressures_of),
+        mechanisms=library_mechanisms,
+    script:
+        "../scripts/search_wall.py"
+
+
 rule coarsen_wall:
     input:
         mesh="<results>/{case}/geometry/mesh.vtu",

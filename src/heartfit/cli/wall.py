@@ -2,16 +2,13 @@
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from heartfit.cli.console import Command, add_configuration
 from heartfit.core.errors import InputError
 from heartfit.io.configuration import read_study
-from heartfit.io.files import require_writable, write_text
+from heartfit.io.files import require_writable
+from heartfit.io.fingerprint import fingerprint
 from heartfit.io.meshes import read_mesh, read_motion
-
-if TYPE_CHECKING:
-    from heartfit.discovery.wall_model.search import WallFindings
 
 
 def wall_arguments(command: argparse.ArgumentParser) -> None:
@@ -41,13 +38,14 @@ def wall_arguments(command: argparse.ArgumentParser) -> None:
 def diagnose_wall(arguments: argparse.Namespace) -> int:
     """Name the mechanism that a simulation lacks to explain volumes, pressures and the strain of the wall."""
     from heartfit.discovery.refit.model import activate
+    from heartfit.discovery.wall_model import search
     from heartfit.discovery.wall_model.forward_model import WallForwardModel
-    from heartfit.discovery.wall_model.search import search_wall
     from heartfit.discovery.wall_model.unknowns import HeartInWall
     from heartfit.discovery.wall_model.wall_data import WallRecording
     from heartfit.io.recordings import read_recording
     from heartfit.io.regional_noise import LEARNED, read_regional_noise
-    from heartfit.results.wall_card import wall_card, wall_sentence
+    from heartfit.io.walls import write_wall
+    from heartfit.results.wall_card import render_wall
 
     require_writable(arguments.output)
     study, curves = read_study(arguments.config), read_recording(arguments.measured)
@@ -63,24 +61,11 @@ def diagnose_wall(arguments: argparse.Namespace) -> int:
     pressures = study.end_diastolic_pressure
     heart = study.setting(arguments.setting).base_heart(curves.period)
     nominal = HeartInWall.loaded(heart, pressures.lv, pressures.rv)
-    findings = search_wall(WallForwardModel.at_samples(recording, nominal), recording)
-    write_text(arguments.output / "wall.md", wall_card(findings, f"The wall of {arguments.measured.name}"))
-    _draw(findings, arguments.output / "wall.png")
-    print(f"{wall_sentence(findings)} See {arguments.output / 'wall.md'}.")
+    findings = search.search_wall(WallForwardModel.at_samples(recording, nominal), recording)
+    rendered = render_wall(findings, f"The wall of {arguments.measured.name}")
+    write_wall(arguments.output, rendered, fingerprint(Path(search.__file__)))
+    print(f"{rendered.summary.sentence} See {arguments.output / 'wall.md'}.")
     return 0
-
-
-def _draw(findings: "WallFindings", path: Path) -> None:
-    """Write the bull's-eye of the best effect of a region, if one was fitted."""
-    from heartfit.discovery.wall_model.territory import probability_of_segments
-    from heartfit.io.tables import write_figure
-    from heartfit.results.bullseye import plot_bullseye
-    from heartfit.results.cause_card import spaced_name
-
-    if name := findings.regional:
-        probability = probability_of_segments(findings.survey.singles, name)
-        label = "probability of a segment, if it is present"
-        write_figure(path, plot_bullseye([(spaced_name(name), probability)], label))
 
 
 COMMANDS: tuple[Command, ...] = (

@@ -85,8 +85,9 @@ def _contradictions(study: Study, cases: Mapping[str, Case]) -> list[str]:
         if cases[name].catheter and (name not in study.sources or study.sources[name].pressure is None)
     ]
     unknown = [
-        f"discovery.cases: {name!r} is no case of {study.cases}; known are {', '.join(cases)}: correct it"
-        for name in study.discovery.cases or ()
+        f"discovery.{key}: {name!r} is no case of {study.cases}; known are {', '.join(cases)}: correct it"
+        for key, names in (("cases", study.discovery.cases), ("walls", study.discovery.walls))
+        for name in names or ()
         if name not in cases
     ]
     unsearched = [

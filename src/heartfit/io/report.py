@@ -19,6 +19,7 @@ from heartfit.io.discoveries import read_discoveries
 from heartfit.io.meshes import read_mesh, read_motion, read_simulated_motion
 from heartfit.io.noise_models import read_noise_model
 from heartfit.io.results import read_case, read_fingerprint, read_posterior, read_sigma_points, read_truth
+from heartfit.io.walls import read_wall
 from heartfit.observation.beat import beat_curves
 from heartfit.personalise.setting import Setting
 from heartfit.results.report.page import Assets
@@ -88,6 +89,11 @@ def _case(results: Path, study: Study, case: Case) -> CaseRecord:
             for name, setting in settings.items()
         },
         still=_still(results / "figures" / f"{case.case}_activation.png"),
+        walls={
+            setting: read_wall(folder / "discovery" / setting / "wall")
+            for setting in study.discovery.settings
+            if case.case in study.discovery.walls
+        },
     )
 
 

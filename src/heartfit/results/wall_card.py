@@ -1,110 +1,72 @@
-"""Card of a search with the strain of the wall: the verdict, the affected segments, and the evidence."""
+"""Card and bull's-eye of a search with the strain of the wall."""
+
+from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.figure import Figure
 
-from heartfit.core.arrays import Floats
-from heartfit.core.parameter import Parameter
-from heartfit.discovery.sphere_model.forward_model import Candidate
-from heartfit.discovery.wall_model.hypotheses import is_regional
 from heartfit.discovery.wall_model.search import WallFindings
-from heartfit.discovery.wall_model.territory import probability_of_segments
-from heartfit.results.cause_card import spaced_name
-from heartfit.results.residual import SEGMENT_NAMES
-from heartfit.results.text import AMPLITUDE_UNITS
-from heartfit.roles import registered
+from heartfit.results.bullseye import plot_bullseye
+from heartfit.results.wall_summary import NAMES, WallSummary, summarise_wall
 
-PROBABLE = 0.5
-"""Least probability of a segment that the sentence names."""
-LARGEST_LIMIT = 4.0
-"""Largest detection limit that is stated [scales]."""
-NAMES = (*SEGMENT_NAMES, "apex")
-"""Names of the segments 1 to 17."""
+LEAST_SHOWN = 0.05
+"""Least probability of a segment in the table."""
+UNSEEN = (
+    "Effects that are not named would be from these sizes, by the linear model; an effect of a region where it shows "
+    "most and where it shows least."
+)
 
 
-def wall_card(findings: WallFindings, title: str) -> str:
+@dataclass(frozen=True, eq=False)
+class RenderedWall:
+    """A search of a wall with its card as Markdown and its bull's-eye, None without an effect of a region."""
+
+    summary: WallSummary
+    card: str
+    figure: Figure | None
+
+
+def render_wall(findings: WallFindings, title: str) -> RenderedWall:
+    """Return summary, card and bull's-eye of a search."""
+    summary = summarise_wall(findings, title)
+    return RenderedWall(summary, wall_card(summary), wall_figure(summary))
+
+
+def wall_card(summary: WallSummary) -> str:
     """Return the card as Markdown."""
-    parts = [f"# {title}", wall_sentence(findings), _evidence(findings)]
-    if findings.regional and (findings.regional,) == findings.decision.effects:
-        parts.append(_segments(probability_of_segments(findings.survey.singles, findings.regional)))
-    parts.append(_limits(findings))
+    parts = [f"# {summary.title}", summary.sentence, _evidence(summary)]
+    if summary.named:
+        parts.append(_segments(summary))
+    if summary.unseen:
+        parts.append(_unseen(summary))
     return "\n\n".join(parts) + "\n"
 
 
-def wall_sentence(findings: WallFindings) -> str:
-    """Return the verdict as a sentence that a cardiologist reads first."""
-    decision = findings.decision
-    if decision.verdict == "none":
-        return (
-            "No missing mechanism detected: volumes, pressures and the strain of the wall are those of a "
-            "normal heart of this shape, within their noise."
-        )
-    if decision.verdict == "unknown":
-        return (
-            "Something is missing that no single mechanism of the library explains; the strain of the wall "
-            "differs from that of every simulated heart."
-        )
-    names = [_with_size(findings, effects[0]) for effects in (decision.effects, *decision.alternatives)]
-    if decision.verdict == "group":
-        return f"Missing mechanism: one of {'; '.join(names)}. These data do not distinguish them."
-    return f"Missing mechanism: {names[0]} (ln Bayes factor {findings.log_bayes_factor(decision.effects[0]):.1f})."
+def wall_figure(summary: WallSummary) -> Figure | None:
+    """Return the bull's-eye of the best effect of a region, None if none was fitted."""
+    if not summary.effect:
+        return None
+    label = "probability of a segment, if it is present"
+    return plot_bullseye([(summary.effect, np.asarray(summary.probability))], label)
 
 
-def _amplitude(name: str) -> Parameter:
-    return next(u for u in Candidate.from_mechanism(registered()[name]).unknowns if u.off is not None)
-
-
-def _with_size(findings: WallFindings, name: str) -> str:
-    fit, amplitude = findings.best(name), _amplitude(name)
-    middle, low, high = (amplitude.at(value) for value in fit.interval(f"{name}.{amplitude.name}"))
-    unit, factor = AMPLITUDE_UNITS.get(amplitude.unit, (amplitude.unit, 1.0))
-    size = f"{factor * middle:.2g} ({factor * low:.2g} to {factor * high:.2g}) {unit}".rstrip()
-    text = f"{spaced_name(name)}, {amplitude.meaning} {size}"
-    if not is_regional(registered()[name]):
-        return text
-    probability = probability_of_segments(findings.survey.singles, name)
-    affected = [NAMES[s] for s in np.flatnonzero(probability > PROBABLE)]
-    return f"{text}, in {', '.join(affected) or 'no segment that is more probable than not'}"
-
-
-def _evidence(findings: WallFindings) -> str:
-    base = findings.survey.baseline.log_evidence
-    rows = [
-        f"| {spaced_name(one.effects[0])} | {one.log_evidence - base:.1f} |"
-        for one in findings.survey.singles
-    ]
-    rows.append(f"| smooth discrepancies of all curves | {findings.discrepancy:.1f} |")
+def _evidence(summary: WallSummary) -> str:
+    rows = [f"| {explanation} | {gain:.1f} |" for explanation, gain in summary.evidence.items()]
     return "\n".join(["| explanation | ln Bayes factor |", "|---|---|", *rows])
 
 
-def _segments(probability: Floats) -> str:
+def _segments(summary: WallSummary) -> str:
     rows = [
         f"| {place + 1} | {NAMES[place]} | {value:.2f} |"
-        for place, value in enumerate(probability)
-        if value >= 0.05
+        for place, value in enumerate(summary.probability)
+        if value >= LEAST_SHOWN
     ]
     return "\n".join(["| segment | wall | probability |", "|---|---|---|", *rows])
 
 
-def _limits(findings: WallFindings) -> str:
-    """Sizes from which these data would show the effects that are not named."""
+def _unseen(summary: WallSummary) -> str:
     rows = [
-        f"| {spaced_name(name)} | {_amplitude(name).meaning} | {_size(name, best)} | {_size(name, worst)} |"
-        for name, (best, worst) in findings.limits.items()
-        if name not in findings.decision.effects
+        f"| {one.name} | {one.meaning} | {one.most_visible} | {one.least_visible} |" for one in summary.unseen
     ]
-    head = (
-        "Effects that are not named would be from these sizes, by the linear model; an effect of a region where it "
-        "shows most and least."
-    )
-    return "\n".join(
-        [head, "", "| not seen | size | from | from, where it shows least |", "|---|---|---|---|", *rows]
-    )
-
-
-def _size(name: str, scales: float) -> str:
-    """Size of an effect with its unit; "not shown" beyond the range in which the linear model holds."""
-    if scales > LARGEST_LIMIT:
-        return "not shown"
-    amplitude = _amplitude(name)
-    unit, factor = AMPLITUDE_UNITS.get(amplitude.unit, (amplitude.unit, 1.0))
-    return f"{factor * amplitude.at(scales):.2g} {unit}".rstrip()
+    head = ["| not seen | size | from | from, where it shows least |", "|---|---|---|---|"]
+    return "\n".join([UNSEEN, "", *head, *rows])

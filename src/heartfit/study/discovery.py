@@ -51,6 +51,10 @@ class Discovery(Strict):
         description="cases that are refitted and proved, 80 to 200 beats per case; "
         "by default the sealed ones, and measured ones with a recorded pressure",
     )
+    walls: tuple[str, ...] = Field(
+        default=(),
+        description="cases that are also searched with the strain of their wall, 60 to 120 beats per case and setting",
+    )
     coarse: Generator | None = Field(
         default=None,
         description="mesh and numerics of the refits, and of sealed cases throughout; those of the study by default",

@@ -16,6 +16,7 @@ from heartfit.results.card import Card
 from heartfit.results.case import CaseResult
 from heartfit.results.discovery import DiscoveryResult
 from heartfit.results.report.record import CaseRecord, FittedCase, Provenance, ReportTable, StudyRecord
+from heartfit.results.wall_summary import UnseenEffect, WallSummary
 from heartfit.synthetic.campaign import Effect
 
 PERIOD, FRAMES, SETTING = 0.8, 10, "physical"
@@ -93,12 +94,31 @@ def fit(mesh: VentricularMesh, case: str, failed: bool = False, diagnosed: bool 
     )
 
 
+def wall() -> WallSummary:
+    """A septal scar that is named, and an effect that these data would show from some size."""
+    unseen = UnseenEffect("delayed activation", "delay of the activation", "18 ms", "not shown")
+    probability = np.where(np.isin(np.arange(17), (1, 2, 7, 8)), 0.9, 0.1).tolist()
+    sentence = "Missing mechanism: scar, in mid anteroseptal (ln Bayes factor 19.3)."
+    evidence = {"scar": 19.3, "smooth discrepancies of all curves": -12.0}
+    return WallSummary("The wall", "named", sentence, evidence, "scar", True, probability, [unseen])
+
+
 def study(mesh: VentricularMesh, name: str = "heart1", note: str = "") -> StudyRecord:
     """A catheterised heart whose cause is proved, and one without pressure whose calibrated beat failed."""
     motion = beating(mesh, 0.8)
     sound, weak = {SETTING: fit(mesh, name, diagnosed=True)}, {SETTING: fit(mesh, "heart2", failed=True)}
     cases = [
-        CaseRecord(name, "virtual", "lbbb", mesh, motion, with_pressure(volumes(60.0)), [], sound),
+        CaseRecord(
+            name,
+            "virtual",
+            "lbbb",
+            mesh,
+            motion,
+            with_pressure(volumes(60.0)),
+            [],
+            sound,
+            walls={SETTING: wall()},
+        ),
         CaseRecord("heart2", "measured", "healthy", mesh, motion, volumes(60.0), [], weak),
     ]
     rows = {

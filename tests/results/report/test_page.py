@@ -42,7 +42,9 @@ def test_every_tag_is_closed_every_link_has_a_target_and_every_picture_a_descrip
     assert not outline.open
     assert len(outline.ids) == len(set(outline.ids))
     assert {link.removeprefix("#") for link in outline.links} <= set(outline.ids)
-    assert len(outline.images) == 1 + 1 + 2 * (1 + 1) + 2, "cohort, setting, each case, both cause cards"
+    assert len(outline.images) == 1 + 1 + 2 * (1 + 1) + 2 + 1, (
+        "cohort, setting, each case, both cause cards, wall"
+    )
     assert all(
         image["alt"] and image["src"].startswith("data:image/svg+xml;base64,") for image in outline.images
     )
@@ -94,7 +96,9 @@ def test_a_case_shows_the_outcome_of_its_fit_and_its_causes(page: str, ventricle
     assert "†</td>" in weak
     assert "†</td>" not in sound
     assert sound.count(f'<p class="verdict named">{verdict_sentence(diagnosis())}</p>') == 2
-    refits = [re.search(r"<h4>(.*?)</h4>", article)[1] for article in sound.split("<article")[1:]]
+    refits = [
+        re.search(r"<h4>(.*?)</h4>", article)[1] for article in sound.split('<article class="cause">')[1:]
+    ]
     assert len(set(refits)) == 2
 
 
@@ -129,3 +133,11 @@ def test_the_findings_stand_beside_what_the_sealed_heart_hides(page: str, ventri
     without = render(replace(study(ventricle), discoveries=()), ASSETS)
     assert 'id="discovery"' not in without
     assert 'href="#discovery"' not in without
+
+
+def test_the_search_of_a_wall_states_its_segments_and_what_it_would_show(page: str) -> None:
+    assert page.count("search with the strain of the wall") == 1
+    assert "Missing mechanism: scar, in mid anteroseptal" in page
+    row = re.search(r"<tr><td>delayed activation</td>(.*?)</tr>", page)
+    assert row is not None
+    assert re.findall(r">([^<>]+)</td>", row[1])[-2:] == ["18 ms", "not shown"]

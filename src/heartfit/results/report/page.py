@@ -24,6 +24,7 @@ from heartfit.results.report.parameters import plot_estimates, plot_parameters
 from heartfit.results.report.picture import Picture, still_address
 from heartfit.results.report.record import CaseRecord, FittedCase, ReportTable, StudyRecord
 from heartfit.results.report.surface import colour_scales, viewer_data
+from heartfit.results.report.wall import WallCard, wall_section
 from heartfit.results.text import GREEK, LONG_STEP_LEGEND, LONG_STEP_MARK, RATES, cell_texts
 
 LETTERS = {"alpha": "α", "sigma": "σ", "mu": "μ", "tau": "τ", "eta": "η"}
@@ -104,6 +105,7 @@ class Section:
     curves: Picture
     parameters: Picture
     causes: list[CauseCard]
+    walls: list[WallCard]
     viewed: dict[str, Any]
     still: str
 
@@ -135,9 +137,10 @@ def _discovery(study: StudyRecord) -> ReportTable | None:
 def _section(case: CaseRecord, cases: list[CaseRecord]) -> Section:
     curves = plot_curves(case)
     causes = [card for setting, fit in case.fits.items() for card in _causes(setting, fit)]
+    walls = [wall_section(setting, summary) for setting, summary in case.walls.items()]
     moving = viewer_data(case) | {"follow": curves.follow}
     still_image = "" if case.still is None else still_address(case.still)
-    return Section(case, curves, plot_estimates(case, cases), causes, moving, still_image)
+    return Section(case, curves, plot_estimates(case, cases), causes, walls, moving, still_image)
 
 
 def _causes(setting: str, fit: FittedCase) -> list[CauseCard]:

@@ -8,7 +8,7 @@ is the prior covariance and C_post the posterior covariance of the logarithms.
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Self
 
 import numpy as np
@@ -26,6 +26,7 @@ from heartfit.results.card import Card, comparable_truth
 from heartfit.results.case import CaseResult
 from heartfit.results.discovery import DiscoveryResult
 from heartfit.results.text import NOTES, STATED_ONCE, without_repeats
+from heartfit.results.wall_summary import WallSummary
 from heartfit.study.case import Kind
 
 Curves = Mapping[str, Curve]
@@ -139,7 +140,8 @@ class FittedCase:
 class CaseRecord:
     """One heart: wall and motion as measured, curves, and fits by setting.
 
-    noise: noise model of its images, or empty; still: picture of the ventricles for print, or None.
+    noise: noise model of its images, or empty; still: picture of the ventricles for print, or None; walls: searches
+    with the strain of its wall, by setting.
     """
 
     name: str
@@ -151,6 +153,7 @@ class CaseRecord:
     noise: Sequence[NoiseModel]
     fits: Mapping[str, FittedCase]
     still: Image.Image | None = None
+    walls: Mapping[str, WallSummary] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
