@@ -74,3 +74,18 @@ def test_a_sealed_case_without_a_search_is_refused():
     content["discovery"] = {**content["discovery"], "settings": ()}
     with pytest.raises(InputError, match="hidden1 is sealed and no setting is searched"):
         outline(content)
+
+
+@pytest.mark.parametrize("key", ["cases", "walls"])
+def test_a_search_of_no_case_is_refused(key):
+    content = {**read_study([CONFIG / "config.yaml"]).model_dump(exclude_unset=True)}
+    content["discovery"] = {**content["discovery"], key: ("volunteer1", "nobody")}
+    with pytest.raises(InputError, match=f"discovery.{key}: 'nobody' is no case of"):
+        outline(content)
+
+
+def test_walls_without_a_search_are_refused():
+    content = {**read_study([CONFIG / "config.yaml"]).model_dump(exclude_unset=True)}
+    content["discovery"] = {**content["discovery"], "settings": (), "walls": ("volunteer1",)}
+    with pytest.raises(InputError, match=r"discovery\.walls names volunteer1 and no setting is searched"):
+        outline(content)

@@ -90,10 +90,19 @@ def _contradictions(study: Study, cases: Mapping[str, Case]) -> list[str]:
         for name in names or ()
         if name not in cases
     ]
+    settings, walls = study.discovery.settings, study.discovery.walls
+    unset = (
+        [
+            f"discovery.walls names {', '.join(walls)} and no setting is searched; "
+            "expected discovery.settings, such as [physical]"
+        ]
+        if walls and not settings
+        else []
+    )
     unsearched = [
         f"{name} is sealed and no setting is searched; expected discovery.settings, such as [physical]"
         for name, case in cases.items()
-        if case.kind == "sealed" and not study.discovery.settings
+        if case.kind == "sealed" and not settings
     ]
     blind = [
         f"settings.{name} observes {', '.join(setting.observe)}, whose errors in virtual images are unknown; "
@@ -102,7 +111,7 @@ def _contradictions(study: Study, cases: Mapping[str, Case]) -> list[str]:
         if setting.observe
         and (imaged := [case for case in cases if case not in measured and setting.serves(case)])
     ]
-    return unlisted + unrecorded + unknown + unsearched + blind
+    return unlisted + unrecorded + unknown + unset + unsearched + blind
 
 
 def _require_reference(study: Study, cases: Mapping[str, Case]) -> None:
