@@ -19,6 +19,8 @@ def test_a_scar_is_told_by_its_share_and_segments() -> None:
     assert "infero" not in sentence
     assert "| scar |" in card
     assert "| 7 | mid anterior |" in card
+    assert "| scar | scarred share" not in card
+    assert "| delayed activation | delay of" in card
 
 
 @pytest.mark.parametrize("seed", [0, 1])

@@ -25,7 +25,7 @@ from heartfit.mechanisms.left_atrium import LeftAtrium
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.scar import Scar
 from heartfit.observation.regional import strain_name
-from heartfit.roles import registered
+from heartfit.roles import Mechanism, registered
 
 TIMES = np.linspace(0.0, 0.75, 16)
 FRAMES = np.linspace(0.0, 0.75, 16)
@@ -99,23 +99,23 @@ def test_late_images_delay_strain_as_they_delay_the_volume(model: WallForwardMod
         assert np.abs(after[4:10] - before[4:10]).max() > 0.12 * np.ptp(before)
 
 
-def test_a_prediction_does_not_depend_on_the_heart_before(model: WallForwardModel) -> None:
-    x = np.zeros(len(NAMES))
-    others = [(0.3 + x, [MitralRegurgitation()]), (x, [LeftAtrium()])]
-    alone = replace(model).predict(x)
+@pytest.mark.parametrize(
+    ("before", "effect"),
+    [([MitralRegurgitation()], []), ([], [LeftAtrium()])],
+    ids=["leak before", "atrium after"],
+)
+def test_a_prediction_does_not_depend_on_the_heart_before(
+    model: WallForwardModel, before: list[Mechanism], effect: list[Mechanism]
+) -> None:
+    x, following = np.zeros(len(NAMES)), replace(model)
+    alone = replace(model).predict(x, effect)
+    assert following.predict(0.3 + x, before) is not None
+    predicted = following.predict(x, effect)
     assert alone is not None
-    for before, effects in others:
-        following = replace(model)
-        assert following.predict(before, effects) is not None
-        predicted = following.predict(x)
-        assert predicted is not None
-        for curve, error in {
-            "lv_volume": 0.2e-6,
-            "rv_volume": 0.2e-6,
-            "lv_pressure": 60.0,
-            STRAIN: 1e-3,
-        }.items():
-            assert part(predicted, curve) == pytest.approx(part(alone, curve), abs=error), curve
+    assert predicted is not None
+    errors = {"lv_volume": 0.2e-6, "rv_volume": 0.2e-6, "lv_pressure": 60.0, STRAIN: 1e-3}
+    for curve, error in errors.items():
+        assert part(predicted, curve) == pytest.approx(part(alone, curve), abs=error), curve
 
 
 def test_a_wall_outside_the_range_has_no_prediction(model: WallForwardModel) -> None:

@@ -54,4 +54,39 @@ WALL_MUTANTS = (
         f"{WALL}/test_wall_data.py",
         ("levels of the independent blocks lost", "[*best[:-1], *levels]", "[*levels]"),
     ),
+    *changes(
+        "discovery/wall_model/forward_model.py",
+        f"{WALL}/test_forward_model.py",
+        (
+            "an atrium without blood at the start",
+            "if self.state.atria is not None or chamber_table(heart.mechanisms) is not None:",
+            "if self.state.atria is not None:",
+        ),
+    ),
+    *changes(
+        "discovery/inference/predicted_evidence.py",
+        "tests/discovery/inference/test_predicted_evidence.py",
+        ("detection limit without Occam's factor", "added - 0.5 * np.log(self.variance)", "added"),
+        ("detection limit of one sign", "[-1] * np.log(2.0)", "[-1] * np.log(1.0)"),
+    ),
+    *changes(
+        "heart/circulation/elements.py",
+        "tests/heart/circulation/test_valves.py",
+        ("valves in series lose by the smaller alone", ".with_narrowing(self.area**-2)", ""),
+    ),
+    *changes(
+        "heart/simulation.py",
+        "tests/heart/test_simulation.py",
+        ("start of a beat ignored", "run.relaxed() if start is None else start", "run.relaxed()"),
+    ),
+    *changes(
+        "results/wall_summary.py",
+        "tests/results/test_wall_card.py",
+        ("named effects among the unseen", "if name not in findings.decision.effects", "if True"),
+    ),
+    *changes(
+        "results/wall_search.py",
+        "tests/results/test_wall_search.py",
+        ("sound hearts among the hidden", 'hearts[hearts["hidden"] != SOUND]', "hearts"),
+    ),
 )

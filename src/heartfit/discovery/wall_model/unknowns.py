@@ -79,7 +79,8 @@ class HeartInWall:
     def loaded(cls, heart: Heart, left: float, right: float) -> "HeartInWall":
         """The heart in a wall with these end-diastolic pressures [Pa], its linear valves with normal orifices."""
         valves = {
-            name: SeriesValve(getattr(heart.circulation, name).open, area) for name, area in ORIFICES.items()
+            name: SeriesValve(getattr(heart.circulation, name).open, area=area)
+            for name, area in ORIFICES.items()
         }
         circulation = replace(heart.circulation, **valves)  # type: ignore[arg-type]
         return cls(replace(heart, circulation=circulation), np.array([left, right]))

@@ -66,23 +66,16 @@ class OrificeValve:
 
 
 @dataclass(frozen=True)
-class SeriesValve:
+class SeriesValve(LinearValve):
     r"""Conductance in series with Bernoulli's orifice: :math:`\Delta p = q/K_o + \rho q^2 / (2 A^2)` open.
 
-    The one is a valve with viscous losses alone, the other one with losses of inertia alone; a real valve has both.
+    The one loses by viscosity alone, the other by inertia alone; a real valve by both.
     """
 
-    open: float = parameter(4e-6, unit="m^3/(s.Pa)", symbol="K_o", meaning="conductance of the open valve")
     area: float = parameter(4e-4, unit="m^2", symbol="A", meaning="effective orifice area of the open valve")
-    closed: float = parameter(
-        1e-11, unit="m^3/(s.Pa)", symbol="K_c", meaning="conductance of the closed valve"
-    )
-
-    def __post_init__(self) -> None:
-        require_admissible(self)
 
     def law(self) -> Branch:
-        return Branch(conductance=self.open, back_conductance=self.closed).with_narrowing(self.area**-2)
+        return super().law().with_narrowing(self.area**-2)
 
 
 EJECTION_TIME = 0.3
