@@ -18,6 +18,7 @@ from benchmarks.ventricles import ROOT
 from heartfit.discovery.inference.decide import Effects
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.searched_recording import NAMING_VERDICTS
+from heartfit.discovery.wall_model.hypotheses import is_regional
 from heartfit.discovery.wall_model.search import WallFindings, search_wall
 from heartfit.discovery.wall_model.territory import (
     affected_segments,
@@ -26,12 +27,11 @@ from heartfit.discovery.wall_model.territory import (
 )
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.geometry.territory import APEX
-from heartfit.heart.heart import Heart
 from heartfit.io.tables import write_figure
 from heartfit.results.bullseye import plot_bullseye
 from heartfit.results.wall_search import WallResult, WallTrial, hearts_table, rates_table
 from heartfit.roles import registered
-from heartfit.synthetic.campaign import PlantedPlan
+from heartfit.synthetic.campaign import PlantedPlan, plantable
 from heartfit.synthetic.case import REST, PlantedCase
 from heartfit.synthetic.ventricles import ImagedBeat
 
@@ -39,7 +39,6 @@ MODULE, HEARTS = "benchmarks.wall_search", "wall_search_hearts"
 FIGURE = ROOT / "docs" / "figures" / "wall_search_bullseye.png"
 SEED, SCALES = 460000, 2.0
 SOUND, SCARRED, LATE = 50, 14, 2
-REGIONAL = ("Scar", "DelayedActivation")
 
 
 def main() -> None:
@@ -66,11 +65,7 @@ def _bullseye(trial: WallTrial) -> Figure:
 
 def plans() -> list[PlantedPlan]:
     """Return the planned hearts: scars, late walls, every other effect once, and sound ones, each spread evenly."""
-    present = {type(mechanism) for mechanism in Heart().mechanisms}
-    library = {
-        name: kind for name, kind in registered().items() if kind.switch().scale and kind not in present
-    }
-    others = [name for name in library if name not in REGIONAL]
+    others = [name for name, kind in plantable(sides=2).items() if not is_regional(kind)]
     kinds = [["Scar"] * SCARRED, ["DelayedActivation"] * LATE, others, [""] * SOUND]
     return spread_evenly(
         [
@@ -88,13 +83,14 @@ def search(plan: PlantedPlan) -> WallTrial:
     """Search a planted heart."""
     imaged, case = ventricles().plant(plan)
     recording, name = wall_recording(imaged, case), "".join(plan.names)
+    alone = not name or is_regional(registered()[name])
     return WallTrial(
         plan.seed,
         name,
         plan.scales,
         *_territory(case),
         _search(recording),
-        None if name and name not in REGIONAL else _search(recording.without_pressure()),
+        _search(recording.without_pressure()) if alone else None,
         _on_the_sphere(imaged, case) if name else None,
     )
 

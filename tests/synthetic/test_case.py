@@ -16,7 +16,7 @@ from heartfit.synthetic.campaign import (
     draw_effect,
     plantable,
 )
-from heartfit.synthetic.case import plant
+from heartfit.synthetic.case import draw_effects, plant
 from heartfit.synthetic.hidden import draw_hidden
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY, add_effect
 
@@ -67,6 +67,17 @@ def test_an_unreadable_pressure_is_redrawn(monkeypatch):
 def test_every_mechanism_of_the_registry_can_be_planted(name):
     effect = draw_effect(plantable()[name], 2.0, np.random.default_rng(0))
     assert abs(getattr(effect, effect.switch().name) - effect.switch().off) > 0.0
+
+
+def test_effects_of_the_right_side_need_a_heart_of_two_sides():
+    right = plantable(sides=2).keys() - plantable().keys()
+    assert {"TricuspidRegurgitation", "PulmonaryStenosis", "LateRightWall"} <= right
+    for name in right:
+        plan = PlantedPlan(7, "single", (name,), 2.0)
+        (drawn,) = draw_effects(plan, np.random.default_rng(0), sides=2)
+        assert type(drawn).__name__ == name
+        with pytest.raises(KeyError):
+            draw_effects(plan, np.random.default_rng(0))
 
 
 def test_both_signs_are_drawn_where_there_are_two():

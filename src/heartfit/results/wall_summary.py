@@ -5,9 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heartfit.core.parameter import Parameter
 from heartfit.discovery.inference.decide import Verdict
-from heartfit.discovery.sphere_model.forward_model import Candidate
 from heartfit.discovery.wall_model.hypotheses import is_regional
 from heartfit.discovery.wall_model.search import WallFindings
 from heartfit.discovery.wall_model.territory import probability_of_segments
@@ -93,7 +91,7 @@ def _sentence(findings: WallFindings) -> str:
 
 
 def _with_size(findings: WallFindings, name: str) -> str:
-    fit, amplitude = findings.best(name), _amplitude(name)
+    fit, amplitude = findings.best(name), registered()[name].switch()
     middle, low, high = (amplitude.at(value) for value in fit.interval(f"{name}.{amplitude.name}"))
     unit, factor = AMPLITUDE_UNITS.get(amplitude.unit, (amplitude.unit, 1.0))
     size = f"{factor * middle:.2g} ({factor * low:.2g} to {factor * high:.2g}) {unit}".rstrip()
@@ -105,13 +103,11 @@ def _with_size(findings: WallFindings, name: str) -> str:
     return f"{text}, in {', '.join(affected) or 'no segment that is more probable than not'}"
 
 
-def _amplitude(name: str) -> Parameter:
-    return next(u for u in Candidate.from_mechanism(registered()[name]).unknowns if u.off is not None)
-
-
 def _unseen(findings: WallFindings) -> list[UnseenEffect]:
     return [
-        UnseenEffect(spaced_name(name), _amplitude(name).meaning, _size(name, most), _size(name, least))
+        UnseenEffect(
+            spaced_name(name), registered()[name].switch().meaning, _size(name, most), _size(name, least)
+        )
         for name, (most, least) in findings.limits.items()
         if name not in findings.decision.effects
     ]
@@ -121,6 +117,6 @@ def _size(name: str, scales: float) -> str:
     """Size of an effect with its unit; "not shown" beyond the range in which the linear model holds."""
     if scales > LARGEST_LIMIT:
         return "not shown"
-    amplitude = _amplitude(name)
+    amplitude = registered()[name].switch()
     unit, factor = AMPLITUDE_UNITS.get(amplitude.unit, (amplitude.unit, 1.0))
     return f"{factor * amplitude.at(scales):.2g} {unit}".rstrip()

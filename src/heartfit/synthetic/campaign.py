@@ -35,13 +35,13 @@ class Effect:
     others: Mapping[str, float] = field(default_factory=dict)
 
 
-def plantable() -> dict[str, type[Mechanism]]:
-    """Registered mechanisms of the left heart, by name, that declare a scale and are not part of every heart."""
+def plantable(sides: int = 1) -> dict[str, type[Mechanism]]:
+    """Registered mechanisms of a heart of so many sides, by name, that declare a scale and are not in every heart."""
     everywhere = {type(mechanism) for mechanism in Heart().mechanisms}
     return {
         name: cls
         for name, cls in registered().items()
-        if cls not in everywhere and cls.switch().scale is not None and acts_within(cls, 1)
+        if cls not in everywhere and cls.switch().scale is not None and acts_within(cls, sides)
     }
 
 

@@ -118,10 +118,10 @@ def require_recordable(curves: Mapping[str, Mapping[str, Curve]]) -> None:
             raise Inadmissible("recorded pressure")
 
 
-def draw_effects(plan: PlantedPlan, rng: np.random.Generator) -> list[Mechanism]:
-    """Draw the effects that the plan names, of its size."""
+def draw_effects(plan: PlantedPlan, rng: np.random.Generator, sides: int = 1) -> list[Mechanism]:
+    """Draw the effects that the plan names, of its size, for a heart of so many sides."""
     outside = {cls.__name__: cls for cls in OUT_OF_LIBRARY}
-    library = outside if plan.kind == "outside" else plantable()
+    library = outside if plan.kind == "outside" else plantable(sides)
     return [draw_effect(library[name], plan.scales, rng) for name in plan.names]
 
 

@@ -137,7 +137,7 @@ class Ventricles:
         )
         deviates = {name: normal() for name in DEVIATES}
         heart = scatter_parameters(self._average_heart(anatomy.period), deviates, normal)
-        effects = draw_effects(plan, rng)
+        effects = draw_effects(plan, rng, sides=2)
         for effect in effects:
             heart = add_effect(heart, effect)
         volunteer = self._simulate(self.template.deformed_to(anatomy.shape), heart)
