@@ -8,6 +8,7 @@ import pytest
 
 from heartfit.cli.main import main
 from heartfit.io.configuration import read_cases, read_configuration, read_study
+from heartfit.io.plan import plan_study
 
 ROOT = Path(__file__).parents[2]
 
@@ -70,6 +71,16 @@ def test_contradicting_options_write_no_file(project, capsys, options, expected)
     assert main(["init", *options]) == 2
     assert expected in lines(capsys)[0]
     assert [file.name for file in (project / "config").iterdir()] == ["config.yaml"]
+
+
+@pytest.mark.parametrize("below", ["config", "smoke", "planted"])
+def test_no_case_of_the_study_below_is_left(project, below):
+    """A configuration over any other names only cases of its own table."""
+    shutil.copy(ROOT / "config" / f"{below}.yaml", project / "config")
+    assert main(["init", "heart1", "--fit", "nowhere", "--rr", "0.8", "--conduction", "healthy"]) == 0
+    files = [Path(f"config/{name}.yaml") for name in ("config", below, "heart1")]
+    plan = plan_study(read_configuration(files), thorough=False)
+    assert list(plan.cases) == ["heart1"]
 
 
 def test_paths_with_quotes_colons_and_other_letters_are_kept(project):

@@ -28,6 +28,8 @@ settings:
   biventricular: null # or `cases: [{case}]`, which fits the volume of the right ventricle, too
 sensitivity:
   case: {case}
+discovery:
+  walls: [] # or [{case}], which searches the strain of its wall, too: some twenty minutes
 """
 
 BLANK = f"""\
