@@ -6,7 +6,7 @@ The cost is CPU time of one core, against that of a beat of every coordinate on 
 
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import TypeVar
@@ -22,10 +22,11 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.beat import Beat, nodal_motion
 from heartfit.heart.circulation.coupling import Tolerances
 from heartfit.heart.finite_elements.body import FiniteElementBody
-from heartfit.heart.finite_elements.unloading import LoadedWall, unload, unload_neighbours
+from heartfit.heart.finite_elements.unloading import unload
 from heartfit.heart.heart import Heart
+from heartfit.heart.neighbourhood import LoadedHeart, surround
 from heartfit.heart.simulation import Numerics, simulate
-from heartfit.heart.tangent import Neighbour, TangentBeat, differentiate
+from heartfit.heart.tangent import TANGENT_STEP, TangentBeat, differentiate
 from heartfit.io.configuration import read_study
 from heartfit.io.meshes import read_mesh
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
@@ -44,11 +45,24 @@ CONVERGED = replace(
     max_beats=60,
     tolerances=Tolerances(force=1e-3, volume=1e-12, pressure=1e-2, iterations=60),
 )
-CASES = (("3k", 8), ("3k", 16), ("3k", 32), ("3k", 64), ("10k", 64))
-"""Meshes and numbers of columns whose cost is measured."""
+LONG_STEP = replace(NUMERICS, time_step=TANGENT_STEP)
+"""Numerics of derivatives in searches and refits."""
+CASES = (
+    ("3k", 8, NUMERICS),
+    ("3k", 16, NUMERICS),
+    ("3k", 32, NUMERICS),
+    ("3k", 64, NUMERICS),
+    ("3k", 64, LONG_STEP),
+    ("10k", 64, NUMERICS),
+    ("10k", 64, LONG_STEP),
+)
+"""Meshes, numbers of columns and numerics whose cost is measured."""
 FIRST_TARGET, SECOND_TARGET = 45.0, 20.0  # CPU time of 64 columns at 3k [s]
 WITHIN = {"lv_volume": 3.0, "rv_volume": 3.0, "lv_pressure": 6.0, "strain": 3.0}
 """Targets of the relative root mean square error of a derivative [%], by signal."""
+SIDES = DIFFERENCE, -DIFFERENCE
+TIMES = np.arange(0.0, PERIOD, TANGENT_STEP)
+"""Times [s] in the beat at which derivatives are compared."""
 SMALLEST = {"lv_volume": 1e-6, "rv_volume": 1e-6, "lv_pressure": 60.0, "strain": 3e-3}
 """Root mean square derivatives [m^3, Pa, 1] below which a signal hardly depends on a coordinate."""
 
@@ -68,14 +82,14 @@ def cost_tables() -> Iterator[pd.DataFrame]:
     """CPU times [s] of derivatives by many columns, and of full beats for the same columns; a table per case."""
     heart, rows = STUDY.setting(SETTING).base_heart(PERIOD), []
     differentiated("3k", heart, free_coordinates(heart, 1))  # loads the compiled kernels
-    for mesh, columns in CASES:
-        rows.append(cost_row(mesh, heart, columns))
+    for mesh, columns, numerics in CASES:
+        rows.append(cost_row(mesh, heart, columns, numerics))
         yield pd.DataFrame(rows)
 
 
-def cost_row(mesh: str, heart: Heart, columns: int) -> dict[str, str]:
+def cost_row(mesh: str, heart: Heart, columns: int, numerics: Numerics) -> dict[str, str]:
     """Cost of one number of columns on a mesh."""
-    references, tangent, seconds = differentiated(mesh, heart, free_coordinates(heart, columns))
+    references, tangent, seconds = differentiated(mesh, heart, free_coordinates(heart, columns), numerics)
     beat = tangent.beat.diagnostics["cpu_s"]
     full = columns * single_beat(mesh)
     converged = 2 * columns * single_beat(mesh, converged=True) if mesh == "3k" else None
@@ -83,6 +97,7 @@ def cost_row(mesh: str, heart: Heart, columns: int) -> dict[str, str]:
     row = {
         "mesh": mesh,
         "columns": f"{columns}",
+        "step (ms)": f"{1e3 * numerics.time_step:.0f}",
         "references": f"{references:.1f}",
         "beat": f"{beat:.1f}",
         "lockstep": f"{seconds - beat:.1f}",
@@ -126,37 +141,15 @@ def free_coordinates(heart: Heart, columns: int) -> list[Coordinate]:
 
 
 def differentiated(
-    name: str, heart: Heart, coordinates: Sequence[Coordinate]
+    name: str, heart: Heart, coordinates: Sequence[Coordinate], numerics: Numerics = NUMERICS
 ) -> tuple[float, TangentBeat, float]:
     """CPU time [s] of the stress-free references, derivatives by the coordinates, and their CPU time [s]."""
     mesh = read_mesh(mesh_file(name))
-    preparation, (body, neighbours) = timed(lambda: prepared(mesh, heart, coordinates))
-    seconds, tangent = timed(lambda: differentiate(heart, body, neighbours, NUMERICS))
+    hearts = heart, *(coordinate(SIZE) for coordinate in coordinates)
+    centre, *others = (LoadedHeart(member, mesh, LOADS) for member in hearts)
+    preparation, (body, neighbours) = timed(lambda: surround(centre, others, SIZE))
+    seconds, tangent = timed(lambda: differentiate(heart, body, neighbours, numerics))
     return preparation, tangent, seconds
-
-
-def prepared(
-    mesh: VentricularMesh, heart: Heart, coordinates: Sequence[Coordinate]
-) -> tuple[FiniteElementBody, list[Neighbour]]:
-    """Body of the heart, and its neighbours, with references of their own where the passive wall differs."""
-    hearts = [coordinate(SIZE) for coordinate in coordinates]
-    stiffer = [not same_reference(other, heart) for other in hearts]
-    wall, *walls = (LoadedWall(mesh, other.muscle, LOADS) for other in (heart, *hearts))
-    reference, others = unload_neighbours(
-        wall, [other for other, differs in zip(walls, stiffer, strict=True) if differs]
-    )
-    body, remaining = FiniteElementBody(reference, heart.muscle), iter(others)
-    shapes = [next(remaining) if differs else reference for differs in stiffer]
-    return body, [
-        Neighbour(other, FiniteElementBody(shape, other.muscle, body.elimination), SIZE)
-        for other, shape in zip(hearts, shapes, strict=True)
-    ]
-
-
-def same_reference(one: Heart, other: Heart) -> bool:
-    """True if the walls are equally stiff, so that the same load leads from the same reference."""
-    passive = (replace(heart.muscle.passive, eta=1.0) for heart in (one, other))  # type: ignore[type-var]
-    return len({*passive}) == 1 and one.muscle.right.stiffness == other.muscle.right.stiffness
 
 
 def beat_of(name: str, heart: Heart, numerics: Numerics) -> Beat:
@@ -166,13 +159,22 @@ def beat_of(name: str, heart: Heart, numerics: Numerics) -> Beat:
 
 
 def accuracy_tables() -> Iterator[pd.DataFrame]:
-    """Errors of derivatives at 3k by coordinate, over their own root mean squares; a table per coordinate."""
+    """Errors of derivatives at 3k by coordinate and time step, over their own root mean squares."""
     heart = STUDY.setting(SETTING).base_heart(PERIOD) + MitralRegurgitation(area=2e-6) + Scar(extent=0.1)
     coordinates = coordinates_of(heart)
-    _, tangent, _ = differentiated("3k", heart, [*coordinates.values()])
-    rows = [{"coordinate": "target"} | {name: f"{within:.0f}" for name, within in WITHIN.items()}]
+    tangents = {
+        numerics.time_step: differentiated("3k", heart, [*coordinates.values()], numerics)[1]
+        for numerics in (NUMERICS, LONG_STEP)
+    }
+    rows = [
+        {"coordinate": "target", "step (ms)": ""} | {name: f"{within:.0f}" for name, within in WITHIN.items()}
+    ]
     for column, (name, coordinate) in enumerate(coordinates.items()):
-        rows.append(accuracy_row(tangent, column, name, coordinate))
+        expected = converged_derivatives(coordinate)
+        for step, tangent in tangents.items():
+            row = {"coordinate": name, "step (ms)": f"{1e3 * step:.0f}"}
+            rows.append(row | accuracies(tangent, column, expected))
+            print(rows[-1], flush=True)
         yield pd.DataFrame(rows)
 
 
@@ -201,28 +203,36 @@ def coordinates_of(heart: Heart) -> dict[str, Coordinate]:
     return {name: coordinate(name, paths) for name, paths in names.items()}
 
 
-def accuracy_row(tangent: TangentBeat, column: int, name: str, coordinate: Coordinate) -> dict[str, str]:
+def converged_derivatives(coordinate: Coordinate) -> dict[str, Floats]:
+    """Central differences of tightly converged beats by signal."""
+    return _central([beat_of("3k", coordinate(x), CONVERGED) for x in SIDES])
+
+
+def accuracies(tangent: TangentBeat, column: int, expected: Mapping[str, Floats]) -> dict[str, str]:
     """Errors [%] of the derivatives by one coordinate; in brackets where the signal hardly depends on it."""
-    mesh = read_mesh(mesh_file("3k"))
-    sides = DIFFERENCE, -DIFFERENCE
-    converged = [_signals(mesh, beat_of("3k", coordinate(x), CONVERGED), tangent.beat.trigger) for x in sides]
-    near = [_signals(mesh, tangent.near(column, x), tangent.beat.trigger) for x in sides]
-    row = {"coordinate": name}
+    near, row = _central([tangent.near(column, x) for x in SIDES]), {}
     for signal in WITHIN:
-        expected, derivative = (
-            (above[signal] - below[signal]) / (2.0 * DIFFERENCE) for above, below in (converged, near)
+        size, error = (
+            float(np.sqrt(np.mean(d**2))) for d in (expected[signal], near[signal] - expected[signal])
         )
-        scale, error = (float(np.sqrt(np.mean(d**2))) for d in (expected, derivative - expected))
-        text = f"{100.0 * error / scale:.1f}"
-        row[signal] = text if scale > SMALLEST[signal] else f"({text})"
-        print(name, signal, text, f"{scale:.3g}", flush=True)
+        text = f"{100.0 * error / size:.1f}"
+        row[signal] = text if size > SMALLEST[signal] else f"({text})"
     return row
 
 
-def _signals(mesh: VentricularMesh, beat: Beat, trigger: float) -> dict[str, Floats]:
-    """Curves (t,) of a beat by name, and the circumferential strain (t, 16) since the ``trigger``."""
-    strain = segment_strain(mesh, nodal_motion(replace(beat, trigger=trigger)))
-    return beat.signals() | {"strain": strain[:, DIRECTIONS.index("circumferential")]}
+def _central(beats: Sequence[Beat]) -> dict[str, Floats]:
+    """Central differences (t, ...) of the signals of two beats."""
+    mesh = read_mesh(mesh_file("3k"))
+    above, below = (_signals(mesh, beat) for beat in beats)
+    return {signal: (above[signal] - below[signal]) / (SIDES[0] - SIDES[1]) for signal in WITHIN}
+
+
+def _signals(mesh: VentricularMesh, beat: Beat) -> dict[str, Floats]:
+    """Curves (t,) of a beat by name, and the circumferential strain (t, 16) since the start of the beat."""
+    motion = nodal_motion(replace(beat, trigger=0.0)).resample(TIMES)
+    strain = segment_strain(mesh, motion)[:, DIRECTIONS.index("circumferential")]
+    curves = {name: np.interp(TIMES, beat.time, values) for name, values in beat.signals().items()}
+    return curves | {"strain": strain}
 
 
 if __name__ == "__main__":

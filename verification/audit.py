@@ -23,7 +23,8 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.heart.beat import Beat
-from heartfit.heart.circulation.network import NetworkStep
+from heartfit.heart.circulation.network import Network
+from heartfit.heart.circulation.network_step import NetworkStep
 from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import BodyState, FiniteElementBody
 from heartfit.heart.finite_elements.elements import CONSISTENT_MASS, PROJECTION_DEFECT
@@ -162,7 +163,8 @@ def lost_blood(heart: Heart, history: Sequence[HeartState], second_order: bool =
 def _outflow(heart: Heart, before: HeartState, state: HeartState, step: TimeStep) -> Floats:
     """Outflow of the ventricles, and of the arteries through valves and periphery (4,) [m^3/s]."""
     start = before.starting_branches(step)
-    network = NetworkStep(heart.circulation, heart.mechanisms, step.end, step.effective, heart.period, start)
+    branches = Network(heart.circulation, heart.mechanisms)
+    network = NetworkStep(branches, step.end, step.effective, heart.period, start)
     sides = zip(heart.circulation.trees(), state.trees, strict=True)
     periphery = [(state_of_tree.P_c - tree.P_ve) / tree.R_p for tree, state_of_tree in sides]
     flow: Floats = network.outflow(state.pressures)[0] + [0.0, 0.0, *periphery]

@@ -11,10 +11,12 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.beat import Beat
 from heartfit.heart.circulation.coupling import Tolerances
 from heartfit.heart.finite_elements.body import FiniteElementBody
-from heartfit.heart.finite_elements.unloading import LoadedWall, unload, unload_neighbours
+from heartfit.heart.finite_elements.unloading import unload
 from heartfit.heart.heart import Heart
+from heartfit.heart.neighbourhood import LoadedHeart, Neighbour, surround
 from heartfit.heart.simulation import Numerics, simulate
-from heartfit.heart.tangent import Neighbour, TangentBeat, differentiate
+from heartfit.heart.tangent import TangentBeat, differentiate
+from heartfit.mechanisms.left_atrium import LeftAtrium
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.pericardium import Pericardium
 from heartfit.mechanisms.scar import Scar
@@ -64,17 +66,9 @@ SMALL = {"volume": 1e-6, "pressure": 60.0, "length": 5e-4}
 @pytest.fixture(scope="module")
 def tangent(ventricle: VentricularMesh) -> TangentBeat:
     """Derivatives by all coordinates at once."""
-    hearts = [coordinate(SIZE) for coordinate in COORDINATES.values()]
-    wall, *others = (
-        LoadedWall(ventricle, heart.muscle, END_DIASTOLIC_PRESSURE) for heart in (NOMINAL, *hearts)
-    )
-    reference, references = unload_neighbours(wall, others)
-    body = FiniteElementBody(reference, NOMINAL.muscle)
-    neighbours = [
-        Neighbour(heart, FiniteElementBody(shape, heart.muscle, body.elimination), SIZE)
-        for heart, shape in zip(hearts, references, strict=True)
-    ]
-    return differentiate(NOMINAL, body, neighbours, NUMERICS)
+    hearts = NOMINAL, *(coordinate(SIZE) for coordinate in COORDINATES.values())
+    centre, *others = (LoadedHeart(heart, ventricle, END_DIASTOLIC_PRESSURE) for heart in hearts)
+    return differentiate(NOMINAL, *surround(centre, others, SIZE), NUMERICS)
 
 
 def converged(mesh: VentricularMesh, heart: Heart) -> Beat:
@@ -124,3 +118,18 @@ def test_a_failing_beat_is_an_error(coarse_body: FiniteElementBody) -> None:
     impossible = replace(NUMERICS, cuts=0, tolerances=Tolerances(iterations=1))
     with pytest.raises(InputError, match=r"tangent: beat 1: .* expected a beat to differentiate"):
         differentiate(Heart(), coarse_body, [], impossible)
+
+
+@pytest.mark.parametrize(
+    ("other", "message"),
+    [
+        (replace(Heart(), period=0.9), r"neighbour 0 beats in 0.9 s; expected 0.829 s"),
+        (Heart() + LeftAtrium(), r"neighbour 0 has 1 atria with a volume; expected 0"),
+    ],
+    ids=["period", "atrium"],
+)
+def test_a_neighbour_of_other_equations_is_an_error(
+    coarse_body: FiniteElementBody, other: Heart, message: str
+) -> None:
+    with pytest.raises(InputError, match=message):
+        differentiate(Heart(), coarse_body, [Neighbour(other, coarse_body, SIZE)], NUMERICS)

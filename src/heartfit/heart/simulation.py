@@ -22,7 +22,8 @@ from heartfit.heart.circulation.atria import (
 )
 from heartfit.heart.circulation.coupling import Body, Coupling, Tolerances
 from heartfit.heart.circulation.elements import Windkessel, WindkesselState
-from heartfit.heart.circulation.network import ATRIA, NetworkStep
+from heartfit.heart.circulation.network import ATRIA
+from heartfit.heart.circulation.network_step import NetworkStep
 from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import StepFailed
 from heartfit.heart.finite_elements.unloading import inflate
@@ -259,9 +260,7 @@ class _Run:
     ) -> tuple[dict[str, Floats], dict[str, Floats]]:
         pressures, flows = [], []
         for t, state in zip(time, history, strict=True):
-            network = NetworkStep(
-                self.heart.circulation, self.heart.mechanisms, t, self.dt, self.heart.period
-            )
+            network = NetworkStep(self.coupling.network, t, self.dt, self.heart.period)
             pressures.append([*state.pressures, *network.atrial][: len(COMPARTMENTS)])
             flows.append(network.flows(state.pressures, state.branches))
         pressure = dict(zip(COMPARTMENTS, np.array(pressures).T, strict=True))

@@ -23,37 +23,31 @@ dampers. The shape of the wall follows them within a beat.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.heart.beat import Beat
+from heartfit.heart.circulation.atria import chamber_table, sides_with_volume
 from heartfit.heart.circulation.coupling import Coupling
-from heartfit.heart.circulation.network import Network
 from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import FiniteElementBody, StepFailed
 from heartfit.heart.finite_elements.neighbours import carry_state
 from heartfit.heart.heart import Heart
-from heartfit.heart.muscle.control import ControlMeans
+from heartfit.heart.neighbourhood import Neighbour
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.time_step import TimeStep
 from heartfit.roles import COMPARTMENTS
 
+TANGENT_STEP = 10e-3
+"""Time step [s] that suffices for derivatives, which need fewer digits than predictions."""
 PRESSURE_SIZE = 0.01
 """Relative rise of the pressure of a Windkessel in the columns that show the response to it."""
 ONE_CENTIMETRE = 0.01
 SLOW_TOLERANCE = 1e-6
 """Smallest singular value that counts, over the largest, among the directions of the slow coordinates."""
-
-
-@dataclass(frozen=True, eq=False)
-class Neighbour:
-    """A heart and its ventricles, ``size`` away from another heart along one coordinate."""
-
-    heart: Heart
-    body: FiniteElementBody
-    size: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +84,11 @@ class TangentBeat:
         }
 
 
+def tangent_numerics(numerics: Numerics) -> Numerics:
+    """The numerics with a time step of at least TANGENT_STEP."""
+    return replace(numerics, time_step=max(TANGENT_STEP, numerics.time_step))
+
+
 def differentiate(
     heart: Heart, body: FiniteElementBody, neighbours: Sequence[Neighbour], numerics: Numerics | None = None
 ) -> TangentBeat:
@@ -99,6 +98,8 @@ def differentiate(
     limit cycle is that of `simulate` for the ``numerics``. Raises StepFailed where a step has no solution even if it is
     halved, InputError where the beat fails, or where a neighbour has other atria or another period.
     """
+    for number, neighbour in enumerate(neighbours):
+        _require_alike(heart, neighbour.heart, number)
     chosen = replace(numerics or Numerics(), keep_positions=True)
     history: list[HeartState] = []
     beat = simulate(heart, body, chosen, watch=history.extend)
@@ -112,6 +113,19 @@ def differentiate(
     last.positions += (weights.T.astype(np.float32) @ change).reshape(last.positions.shape)
     by_name = dict(zip(run.names, signals[..., :k].swapaxes(0, 1), strict=True))
     return TangentBeat(beat, tuple(neighbours), by_name, last.positions[:k])
+
+
+def _require_alike(heart: Heart, other: Heart, number: int) -> None:
+    """Raise InputError for a neighbour that another equation describes."""
+    if other.period != heart.period:
+        raise InputError(
+            f"tangent: neighbour {number} beats in {other.period:g} s; expected {heart.period:g} s"
+        )
+    own, others = (sides_with_volume(chamber_table(one.mechanisms)) for one in (heart, other))
+    if own != others:
+        raise InputError(
+            f"tangent: neighbour {number} has {len(others)} atria with a volume; expected {len(own)}, as its heart"
+        )
 
 
 @dataclass(eq=False)
@@ -158,13 +172,14 @@ class _Lockstep:
         self.coupling = _coupling(heart, body, numerics)
         self.sizes = np.array([member.size for member in members[1:]])
         self.bodies = [member.body for member in members]
-        _share_control(self.bodies)
+        _share(self.bodies, "control_means")
+        _share(self.couplings, "network")
         raised = [start.shift_pressures(shift) for shift in PRESSURE_SIZE * np.diag(_tree_pressures(start))]
         carried = [
             start.with_walls(partial(carry_state, body=body, other=member.body)) for member in neighbours
         ]
         self.states = [start, start, *carried, *raised]
-        flows = [Network(member.heart.circulation, member.heart.mechanisms).names for member in members]
+        flows = [coupling.network.names for coupling in self.couplings]
         self.flows = [[names.index(name) for name in flows[0]] for names in flows]
         volumes, pressures = ("lv", "rv"), COMPARTMENTS[: len(start.pressures)]
         self.names = [
@@ -260,15 +275,16 @@ def _slow_coordinates(state: HeartState) -> Floats:
     return np.concatenate([_tree_pressures(state), state.volumes, atria, state.pressures, displacement])
 
 
-def _share_control(bodies: Sequence[FiniteElementBody]) -> None:
-    """Let bodies of equal control and activation share their means over the steps."""
-    different: list[ControlMeans] = []
-    for body in bodies:
-        equal = next((means for means in different if means.equals(body.control_means)), None)
+def _share(owners: Sequence[FiniteElementBody] | Sequence[Coupling], name: str) -> None:
+    """Let owners whose parts of a ``name`` are equal share one, which computes its values of each step once."""
+    different: list[Any] = []
+    for owner in owners:
+        part = getattr(owner, name)
+        equal = next((other for other in different if other.equals(part)), None)
         if equal is None:
-            different.append(body.control_means)
+            different.append(part)
         else:
-            body.control_means = equal
+            setattr(owner, name, equal)
 
 
 def _coupling(heart: Heart, body: FiniteElementBody, numerics: Numerics) -> Coupling:

@@ -18,6 +18,7 @@ SIAM J. Numer. Anal. 49 (2011) 1715, for the acceleration.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
@@ -45,17 +46,17 @@ class TimeStep:
     def end(self) -> float:
         return self.start + self.length
 
-    @property
+    @cached_property
     def memory(self) -> float:
         """Weight b of the step before."""
         return self.length / (self.length + self.last) if self.last and self.second_order else 0.0
 
-    @property
+    @cached_property
     def effective(self) -> float:
         """Length w of the equivalent backward-Euler step [s]."""
         return self.length / (1.0 + self.memory)
 
-    @property
+    @cached_property
     def ahead(self) -> float:
         """Share of the change during the step before that is added to the value at the start, see starting_value."""
         return self.effective * self.memory / self.last if self.last and self.memory else 0.0

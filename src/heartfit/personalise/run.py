@@ -10,6 +10,7 @@ from heartfit.calibration.sensitivity import Slopes
 from heartfit.calibration.unscented import Outcome, SigmaPoint
 from heartfit.calibration.update import Posterior, calibrate, narrowed
 from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.beat import Beat, failed_beat
@@ -17,7 +18,9 @@ from heartfit.heart.circulation.coupling import Body
 from heartfit.heart.finite_elements.body import CHAMBERS, FiniteElementBody, StepFailed, Tissue
 from heartfit.heart.finite_elements.unloading import unload
 from heartfit.heart.muscle.passive import require_isotropic
+from heartfit.heart.neighbourhood import LoadedHeart, surround
 from heartfit.heart.simulation import Progress, simulate
+from heartfit.heart.tangent import differentiate, tangent_numerics
 from heartfit.observation.beat import beat_curves, observe_beats
 from heartfit.observation.curve import Curve
 from heartfit.observation.measurement import Measurement, observe_measured
@@ -95,6 +98,30 @@ def run_beat(
     except StepFailed as failure:
         return failed_beat(str(failure), period, heart.trigger, {})
     return simulate(heart, body, replace(scheme.numerics(), keep_positions=keep_positions), progress)
+
+
+def nearby_beats(
+    mesh: VentricularMesh,
+    setting: Setting,
+    period: float,
+    parameters: Sequence[Mapping[str, float]],
+    size: float,
+    pressures: Pressures,
+    scheme: TimeScheme,
+) -> list[Beat]:
+    """Return the beat with the first ``parameters`` on its limit cycle, and to first order those with the others.
+
+    The others are those at the distance ``size`` along one coordinate each. Raises InputError or StepFailed where the
+    first heart has no beat, and InputError for spheres and where an atrium has a volume in some hearts only.
+    """
+    if setting.element == "sphere":
+        raise InputError("beats around a heart: spheres have no derivatives; expected finite elements")
+    loads = np.array([pressures.lv, pressures.rv])
+    hearts = [setting.base_heart(period).with_parameters(values) for values in parameters]
+    centre, *others = (LoadedHeart(heart, mesh, loads) for heart in hearts)
+    body, neighbours = surround(centre, others, size, setting.reference == "unloaded")
+    tangent = differentiate(centre.heart, body, neighbours, tangent_numerics(scheme.numerics()))
+    return [tangent.beat, *map(tangent.near, range(len(neighbours)))]
 
 
 def estimate(

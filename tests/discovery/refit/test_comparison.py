@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from heartfit.core.arrays import Floats
-from heartfit.discovery.refit.model import Extension, ObservedBeat
+from heartfit.discovery.refit.extension import Extension
+from heartfit.discovery.refit.model import ObservedBeat
 from heartfit.discovery.refit.prove import ExtensionTrial, FittedExtension
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase, sample, stack

@@ -10,7 +10,7 @@ from scipy.stats import norm
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.refit import refit as module
-from heartfit.discovery.refit.model import Extension
+from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.refit import (
     Refit,
     complete_posterior,
@@ -23,6 +23,7 @@ from heartfit.discovery.refit.target import Target
 from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.personalise.setting import Setting
+from tests.discovery.refit.one_by_one import OneByOne
 
 PLAIN = Setting.model_validate(
     {"element": "sphere", "estimate": ("sigma_0", "R_p"), "prior": {"sigma_0": {"mean": 150e3}}}
@@ -39,6 +40,7 @@ def target(x: Floats = TRUTH) -> Target:
     return Target({"lv_volume": Samples(np.arange(12.0), SLOPES @ x)}, NOISE)
 
 
+@OneByOne
 def run(extension: Extension, parameters: Mapping[str, float]) -> SimpleNamespace:
     """Stand-in for a beat: the coordinates at which the parameters lie."""
     prior = PLAIN.gaussian()
@@ -86,7 +88,7 @@ def test_a_refit_ends_at_the_posterior_with_its_evidence(fits: tuple[Refit, Refi
         assert fit.log_evidence == pytest.approx(evidence + positive, abs=WITHIN)
 
 
-def test_the_slopes_of_an_unscented_step_are_those_of_the_model() -> None:
+def test_the_first_slopes_are_those_of_the_model() -> None:
     assert refit(LEAKING, run, target(), 0).slopes == pytest.approx(SLOPES)
 
 

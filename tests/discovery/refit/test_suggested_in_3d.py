@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from heartfit.cli.diagnose import run_mechanism_files
-from heartfit.discovery.refit.model import Extension, Model, activate
+from heartfit.discovery.refit.extension import Extension
+from heartfit.discovery.refit.model import Model, activate
 from heartfit.discovery.refit.refit import refit
 from heartfit.discovery.refit.target import MeasuredCase, Target, covariance
 from heartfit.discovery.sphere_model.cause import ActingPlace, Diagnosis, RankedLaw

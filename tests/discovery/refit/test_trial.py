@@ -11,7 +11,7 @@ import pytest
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.discovery.refit import prove as module
-from heartfit.discovery.refit.model import Extension
+from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.prove import ExtensionTrial, FittedExtension
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.verdict import Proof

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from heartfit.calibration.unscented import CalibrationError
-from heartfit.discovery.refit.model import Extension
+from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.prove import ExtensionTrial, FittedExtension
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.verdict import (

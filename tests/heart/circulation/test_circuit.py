@@ -5,7 +5,8 @@ import pytest
 
 from heartfit.heart.circulation.circuit import Circuit
 from heartfit.heart.circulation.elements import OrificeValve
-from heartfit.heart.circulation.network import Circulation, NetworkStep
+from heartfit.heart.circulation.network import Circulation, Network
+from heartfit.heart.circulation.network_step import NetworkStep
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 
 ORIFICES = Circulation(
@@ -20,7 +21,7 @@ def random_circuit(rng: np.random.Generator, circulation: Circulation) -> Circui
     softness = rng.uniform(1e-9, 2e-8, 2)
     compliance = np.diag(softness) + 0.3 * softness.min() * (np.ones((2, 2)) - np.eye(2))
     start = rng.uniform([0.0, 0.0, 8e3, 1e3], [16e3, 5e3, 13e3, 3e3])
-    network = NetworkStep(circulation, (MitralRegurgitation(),), rng.uniform(0.0, 0.8), dt, 0.8)
+    network = NetworkStep(Network(circulation, (MitralRegurgitation(),)), rng.uniform(0.0, 0.8), dt, 0.8)
     return Circuit(network, windkessels, rng.uniform(-3e-6, 3e-6, 2), compliance, start)
 
 

@@ -7,7 +7,8 @@ import pytest
 
 from heartfit.core.arrays import Floats
 from heartfit.heart.circulation.elements import OrificeValve
-from heartfit.heart.circulation.network import Circulation, Network, NetworkStep
+from heartfit.heart.circulation.network import Circulation, Network
+from heartfit.heart.circulation.network_step import NetworkStep
 from heartfit.mechanisms.atrial_kick import AtrialKick
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.roles import COMPARTMENTS, Flow
@@ -28,7 +29,7 @@ def random_pressures(count: int) -> np.ndarray:
 
 @networks
 def test_flow_out_of_one_compartment_enters_another(circulation: Circulation) -> None:
-    network = NetworkStep(circulation, (AtrialKick(), LEAK), 0.05, 5e-3, 0.8)
+    network = NetworkStep(Network(circulation, (AtrialKick(), LEAK)), 0.05, 5e-3, 0.8)
     for pressures in random_pressures(50):
         net = np.zeros(len(COMPARTMENTS))
         for name, flow in network.flows(pressures).items():
@@ -40,7 +41,7 @@ def test_flow_out_of_one_compartment_enters_another(circulation: Circulation) ->
 
 @networks
 def test_jacobian_is_the_derivative_of_the_outflow(circulation: Circulation) -> None:
-    network = NetworkStep(circulation, (LEAK,), 0.05, 5e-3, 0.8)
+    network = NetworkStep(Network(circulation, (LEAK,)), 0.05, 5e-3, 0.8)
     for pressures in random_pressures(20):
         direction = np.array([0.3, -0.2, 0.5, 0.4])
         slope = network.outflow(pressures)[1]
@@ -51,7 +52,7 @@ def test_jacobian_is_the_derivative_of_the_outflow(circulation: Circulation) -> 
 
 def test_blood_runs_forward_through_open_valves_only() -> None:
     """Ejection: ventricles above arteries above atria."""
-    network = NetworkStep(Circulation(), (), 0.3, 5e-3, 0.8)
+    network = NetworkStep(Network(Circulation(), ()), 0.3, 5e-3, 0.8)
     flow = network.flows(np.array([13e3, 4e3, 11e3, 2e3]))
     assert flow["aortic"] == pytest.approx(5e-6 * 2e3)
     assert flow["pulmonary"] == pytest.approx(5e-6 * 2e3)
@@ -80,3 +81,20 @@ def test_a_time_dependent_branch_gives_laws_for_many_times() -> None:
     assert laws[:, 4, 1] == pytest.approx(1e-5 * times)
     for n, time in enumerate(times):
         assert (network.laws(time) == laws[n]).all()
+
+
+def test_what_time_prescribes_is_computed_once_a_time() -> None:
+    network = Network(Circulation(), (AtrialKick(), LEAK))
+    early = network.prescribed(0.1, 0.8)
+    assert network.prescribed(0.1, 0.8) is early
+    late = network.prescribed(0.5, 0.8)
+    assert late.atrial == pytest.approx([600.0, 200.0])
+    assert (early.atrial > late.atrial).all()
+    assert (late.laws == network.laws(0.5)).all()
+
+
+def test_networks_are_equal_that_have_equal_circulations_and_mechanisms() -> None:
+    network = Network(Circulation(), (AtrialKick(), LEAK))
+    assert network.equals(Network(Circulation(), [AtrialKick(), MitralRegurgitation(area=0.4e-4)]))
+    assert not network.equals(Network(Circulation(), (AtrialKick(),)))
+    assert not network.equals(Network(CIRCULATIONS[1], (AtrialKick(), LEAK)))

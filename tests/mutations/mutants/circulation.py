@@ -63,6 +63,20 @@ CIRCULATION_MUTANTS = (
     ),
     *changes(
         "heart/circulation/network.py",
+        f"{CIRCULATION}/test_network.py",
+        (
+            "coefficients of another time",
+            "if self._last is None or self._last[0] != (time, period):",
+            "if self._last is None:",
+        ),
+        (
+            "networks of other mechanisms shared",
+            "(self.circulation, self.mechanisms) == (other.circulation, other.mechanisms)",
+            "self.circulation == other.circulation",
+        ),
+    ),
+    *changes(
+        "heart/circulation/network_step.py",
         COMPILED,
         ("no waves in the arteries", "rows[:, 0] += self._arterial", "rows[:, 0] += 0.0"),
     ),

@@ -105,6 +105,23 @@ ELEMENT_MUTANTS = (
         "heart/tangent.py",
         "tests/heart/test_tangent.py",
         ("limit cycle not continued", " + (last.signals - first.signals) @ weights", ""),
+        ("atria of neighbours ignored", "    if own != others:", "    if False:"),
+    ),
+    *changes(
+        "heart/neighbourhood.py",
+        "tests/heart/test_neighbourhood.py",
+        ("no reference of its own", "unloaded and not wall.rests_like(centre.wall)", "False"),
+        ("stress-free walls unloaded", "unloaded and not wall.rests_like", "not wall.rests_like"),
+    ),
+    *changes(
+        "heart/finite_elements/unloading.py",
+        "tests/heart/test_neighbourhood.py",
+        (
+            "loads are not compared",
+            "(wall.pressures, wall.tissue.stiffenings()",
+            "(wall.tissue.stiffenings()",
+        ),
+        ("fibres are not compared", "wall.mesh.points, mean_dyads(wall.mesh))", "wall.mesh.points)"),
     ),
     *changes(
         "heart/finite_elements/body.py",

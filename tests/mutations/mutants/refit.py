@@ -18,18 +18,18 @@ REFIT_MUTANTS = (
         ),
         (
             "renewed slopes are thrown away",
-            "known = np.where(np.isnan(fitted), fit.slopes, fitted)",
-            "known = fit.slopes",
+            "return np.where(np.isnan(fitted), known, fitted)",
+            "return known",
         ),
         (
             "renewed slopes of the other half",
-            "fitted = slopes[complete.rows_of(target.samples)]",
-            "fitted = slopes[~complete.rows_of(target.samples)]",
+            "fitted = self.slopes[self._fitted]",
+            "fitted = self.slopes[~self._fitted]",
         ),
         (
             "differences without their step",
-            "else (prediction - predicted) / RENEWAL_STEP",
-            "else prediction - predicted",
+            "else (z - centre) / around.step",
+            "else z - centre",
         ),
         (
             "an extension starts without the base",
@@ -55,6 +55,15 @@ REFIT_MUTANTS = (
             "the final size leaves its bound",
             "covariance @ (slope - fit.estimate), lower),",
             "covariance @ (slope - fit.estimate), -np.inf),",
+        ),
+    ),
+    *changes(
+        "discovery/refit/model.py",
+        "tests/discovery/refit/test_nearby_beats.py",
+        (
+            "slopes of another point",
+            "points = points_around(x, TANGENT)",
+            "points = points_around(0.0 * x, TANGENT)",
         ),
     ),
     *changes(

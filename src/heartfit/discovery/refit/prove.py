@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError
-from heartfit.discovery.refit.model import Extension, Model, ObservedBeat
+from heartfit.discovery.refit.extension import Extension
+from heartfit.discovery.refit.model import Model, ObservedBeat
 from heartfit.discovery.refit.refit import (
     Refit,
     complete_posterior,

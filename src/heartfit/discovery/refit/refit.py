@@ -1,13 +1,12 @@
-r"""Fit of an extension to samples: one unscented step, then steps of one beat each.
+r"""Fit of an extension to samples: slopes by one tangent-linear beat, then steps of one beat each.
 
-The points of the unscented step lie one standard deviation of the prior to either side of its mean, the mechanism
-switched on. Its slopes :math:`A = \mathrm{Cov}(Z, X) P^{-1}` start the descent of
+The slopes at the prior mean, the mechanism switched on, start the descent of
 
 .. math:: \tfrac12 r^T R^{-1} r + \tfrac12 |x|^2 ,
 
 see :mod:`heartfit.discovery.inference.descent`: a step costs one beat, and Broyden's update corrects the slopes after
-each. Where the descent ends all slopes are renewed once, by one beat for each coordinate, and it goes on: along
-directions in which no step was taken the first slopes are those of the prior mean. The end is the estimate, with the
+each. Where the descent ends all slopes are renewed, and it goes on until renewed slopes confirm the end: along
+directions in which no step was taken the first ones are those of the prior mean. The end is the estimate, with the
 covariance :math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. An extension starts where the model without it
 started and where it ended, with the slopes there and one more beat for each further unknown. Laplace's approximation
 
@@ -17,26 +16,21 @@ started and where it ended, with the slopes there and one more beat for each fur
 compares extensions that were fitted to the same samples; the sum is over amplitudes whose sign is known.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from heartfit.calibration.gaussian import Gaussian
-from heartfit.calibration.unscented import CalibrationError, sigma_points, transform
+from heartfit.calibration.unscented import CalibrationError
 from heartfit.core.arrays import Floats
-from heartfit.discovery.inference.descent import EXPENSIVE, Descent, InverseProblem
+from heartfit.discovery.inference.descent import EXPENSIVE, Descent, Differences, InverseProblem
 from heartfit.discovery.inference.evidence import laplace
-from heartfit.discovery.refit.model import Extension
+from heartfit.discovery.refit.extension import Extension
+from heartfit.discovery.refit.nearby_beats import Simulator, points_around
 from heartfit.discovery.refit.target import Target, sample, stack
 from heartfit.heart.beat import Beat
 from heartfit.observation.beat import beat_curves
-
-Run = Callable[[Extension, Mapping[str, float]], Beat]
-"""Map from an extended setting and all its parameters, by name [SI], to a beat."""
-
-RENEWAL_STEP = 0.25
-"""Step of the differences that renew the slopes [prior standard deviations]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +38,9 @@ class Refit:
     """Names (d,), estimate x (d,) and covariance (d, d) of an extension's coordinates, and its parameters there [SI].
 
     misfit: r^T R^-1 r of n samples at the estimate; objective: the minimised function; log_evidence: up to a
-    constant of the samples; simulations: number of beats; converged: no step was predicted to lower the objective;
-    predicted (n,), slopes (n, d): of the samples at the estimate; first_slopes (n, d): those of the unscented step;
+    constant of the samples; simulations: number of beats, a tangent-linear one counting once; converged: no step was
+    predicted to lower the objective; predicted (n,), slopes (n, d): of the samples at the estimate; first_slopes
+    (n, d): at the prior mean;
     complete_slopes (m, d): of both halves of the samples, where they were last renewed, NaN where a beat failed.
     """
 
@@ -70,19 +65,22 @@ class Refit:
         return Gaussian(self.names, self.estimate, self.covariance)
 
 
-def refit(extension: Extension, run: Run, target: Target, most: int, amplitude: float = 1.0) -> Refit:
-    """Refit an extension by an unscented step and at most ``most`` steps of one beat.
+def refit(extension: Extension, run: Simulator, target: Target, most: int, amplitude: float = 1.0) -> Refit:
+    """Refit an extension from the prior mean by at most ``most`` steps of one beat.
 
-    amplitude: of the mechanism at the centre of the unscented step [scales]. Raises CalibrationError if the
-    beat there or too many around it fail.
+    amplitude: of the mechanism there [scales]. A coordinate whose neighbouring beat fails starts without a slope.
+    Raises CalibrationError if the beat at the prior mean fails.
     """
     forward = _Forward(extension, run, target)
     start = extension.start(amplitude)
-    predicted, slopes = _unscented(extension.names, forward, start)
+    predicted = forward(start)
+    if predicted is None:
+        raise CalibrationError("refit: the beat at the prior mean fails; choose another prior or mesh")
+    slopes = np.nan_to_num(forward.slopes(start))
     return _descend(forward, start, predicted, slopes, slopes, most)
 
 
-def continue_refit(extension: Extension, run: Run, target: Target, most: int, base: Refit) -> Refit:
+def continue_refit(extension: Extension, run: Simulator, target: Target, most: int, base: Refit) -> Refit:
     """Refit from the estimate of the model without the last mechanisms, with these at half a scale.
 
     Raises CalibrationError if the beat there fails.
@@ -90,7 +88,7 @@ def continue_refit(extension: Extension, run: Run, target: Target, most: int, ba
     return _extend(extension, run, target, most, base, base.estimate, base.slopes, 0.5)
 
 
-def restart_refit(extension: Extension, run: Run, target: Target, most: int, base: Refit) -> Refit:
+def restart_refit(extension: Extension, run: Simulator, target: Target, most: int, base: Refit) -> Refit:
     """Refit from the prior means with the last mechanisms at one scale, and the first slopes of the model without them.
 
     Raises CalibrationError if the beat there fails.
@@ -101,7 +99,7 @@ def restart_refit(extension: Extension, run: Run, target: Target, most: int, bas
 
 def _extend(
     extension: Extension,
-    run: Run,
+    run: Simulator,
     target: Target,
     most: int,
     base: Refit,
@@ -123,34 +121,19 @@ def _extend(
 
 
 def renew_slopes(
-    extension: Extension, run: Run, target: Target, complete: Target, most: int, fit: Refit
+    extension: Extension, run: Simulator, target: Target, complete: Target, most: int, fit: Refit
 ) -> Refit:
-    """Renew all slopes at the estimate of a refit by differences, and descend from there.
+    """Renew all slopes at the estimate of a refit, and descend from there until renewed slopes confirm the end.
 
-    complete: both halves of the samples; the same beats give their slopes, which the descent does not use. The step
-    of the differences is long enough for the roughness of a limit cycle. A slope is kept where the beat of its
-    difference fails. Raises CalibrationError if the beat at the estimate fails.
+    complete: both halves of the samples; the same beats give their slopes, which the descent does not use. A slope is
+    kept where its neighbouring beat fails. Raises CalibrationError if a beat at an estimate fails.
     """
-    forward = _Forward(extension, run, complete)
-    predicted = forward(fit.estimate)
-    if predicted is None:
-        raise CalibrationError("refit: the beat at the estimate fails when it is repeated")
-    columns = [_difference(forward, fit.estimate, predicted, i) for i in range(fit.estimate.size)]
-    slopes = np.column_stack(columns)
-    fitted = slopes[complete.rows_of(target.samples)]
-    known = np.where(np.isnan(fitted), fit.slopes, fitted)
+    renewal = _Renewal(_Forward(extension, run, complete), complete.rows_of(target.samples))
+    known = renewal(fit.estimate, fit.predicted, fit.slopes)
     again = _Forward(extension, run, target)
-    renewed = _descend(again, fit.estimate, fit.predicted, known, fit.first_slopes, most)
-    beats = fit.simulations + forward.simulations + renewed.simulations
-    return replace(renewed, simulations=beats, complete_slopes=slopes)
-
-
-def _difference(forward: "_Forward", estimate: Floats, predicted: Floats, index: int) -> Floats:
-    """Slope (n,) along a coordinate, forwards, so that no amplitude leaves its bound; NaN where the beat fails."""
-    shifted = estimate.copy()
-    shifted[index] += RENEWAL_STEP
-    prediction = forward(shifted)
-    return np.full(predicted.size, np.nan) if prediction is None else (prediction - predicted) / RENEWAL_STEP
+    renewed = _descend(again, fit.estimate, fit.predicted, known, fit.first_slopes, most, renewal)
+    beats = fit.simulations + renewal.forward.simulations + renewed.simulations
+    return replace(renewed, simulations=beats, complete_slopes=renewal.slopes)
 
 
 def complete_posterior(
@@ -185,12 +168,18 @@ def _column(forward: "_Forward", start: Floats, predicted: Floats, index: int) -
 
 
 def _descend(
-    forward: "_Forward", start: Floats, predicted: Floats, slopes: Floats, first_slopes: Floats, most: int
+    forward: "_Forward",
+    start: Floats,
+    predicted: Floats,
+    slopes: Floats,
+    first_slopes: Floats,
+    most: int,
+    renewal: Differences | None = None,
 ) -> Refit:
     extension, target = forward.extension, forward.target
     lower = np.where(extension.one_sided, 0.0, -np.inf)
     problem = InverseProblem(forward, target.values(), target, lower)
-    descent = Descent(problem, EXPENSIVE, start, predicted, slopes)
+    descent = Descent(problem, EXPENSIVE, start, predicted, slopes, renewal)
     descent.run(most)
     covariance = descent.covariance()
     volume, kept = laplace(descent.x, covariance, extension.one_sided)
@@ -211,34 +200,46 @@ def _descend(
     )
 
 
-def _unscented(names: tuple[str, ...], forward: "_Forward", start: Floats) -> tuple[Floats, Floats]:
-    """Prediction (n,) at the start (d,), and slopes (n, d) about it."""
-    around = Gaussian(names, start, np.eye(start.size) / start.size)
-    points = sigma_points(around)
-    predictions = [forward(point.z) for point in points]
-    centre = predictions[0]
-    if centre is None:
-        raise CalibrationError(
-            "refit: the beat at the centre of the prior fails; choose another prior or mesh"
-        )
-    values = np.array([centre if prediction is None else prediction for prediction in predictions])
-    completed = np.array([prediction is not None for prediction in predictions])
-    moments = transform(points, values, completed=completed)
-    return centre, np.linalg.solve(around.covariance, moments.cov_xz).T
-
-
 class _Forward:
     """Prediction of the samples (n,) by an extension at coordinates (d,); None if its beat fails."""
 
-    def __init__(self, extension: Extension, run: Run, target: Target) -> None:
+    def __init__(self, extension: Extension, run: Simulator, target: Target) -> None:
         self.extension, self.run, self.target = extension, run, target
         self.simulations = 0
 
     def __call__(self, x: Floats) -> Floats | None:
         self.simulations += 1
-        parameters = self.extension.parameters(x)
-        beat = self.run(self.extension, parameters)
+        return self._samples(self.run(self.extension, self.extension.parameters(x)), x)
+
+    def slopes(self, x: Floats) -> Floats:
+        """Slopes (n, d) at the coordinates (d,), NaN where a neighbouring beat fails.
+
+        Raises CalibrationError if the beat at the coordinates fails.
+        """
+        around = self.run.nearby(self.extension, x)
+        self.simulations += around.simulations
+        beats = (around.centre, *around.others)
+        centre, *others = map(self._samples, beats, points_around(x, around.step))
+        if centre is None:
+            raise CalibrationError("refit: the beat at the estimate fails when it is repeated")
+        missing = np.full(centre.size, np.nan)
+        return np.column_stack([missing if z is None else (z - centre) / around.step for z in others])
+
+    def _samples(self, beat: Beat, x: Floats) -> Floats | None:
         if not beat.completed:
             return None
-        curves = beat_curves(beat, self.extension.setting.sensors(parameters))
+        curves = beat_curves(beat, self.extension.setting.sensors(self.extension.parameters(x)))
         return stack(sample(curves, self.target.samples))
+
+
+class _Renewal:
+    """Renewed slopes of the fitted samples, ``fitted`` (m,) of all; ``slopes`` (m, d): the last ones of all samples."""
+
+    def __init__(self, forward: _Forward, fitted: np.ndarray) -> None:
+        self.forward, self._fitted = forward, fitted
+        self.slopes = np.empty((fitted.size, 0))
+
+    def __call__(self, x: Floats, _: Floats, known: Floats) -> Floats:
+        self.slopes = self.forward.slopes(x)
+        fitted = self.slopes[self._fitted]
+        return np.where(np.isnan(fitted), known, fitted)

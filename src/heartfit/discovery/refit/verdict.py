@@ -8,7 +8,8 @@ import numpy as np
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import Verdict
-from heartfit.discovery.refit.model import Extension, ObservedBeat
+from heartfit.discovery.refit.extension import Extension
+from heartfit.discovery.refit.model import ObservedBeat
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Refitted, Trace

@@ -19,7 +19,7 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.hypothesis import Coordinate
 from heartfit.discovery.sphere_model.forward_model import interpolate, observe_curve
-from heartfit.discovery.wall_model.unknowns import COORDINATES, NAMES, REFERENCE, HeartInWall, heart_at
+from heartfit.discovery.wall_model.unknowns import COORDINATES, NAMES, HeartInWall, heart_at
 from heartfit.discovery.wall_model.wall_data import SEARCHED, WallRecording
 from heartfit.geometry.fibres import FibreRule
 from heartfit.geometry.mesh import Motion, VentricularMesh
@@ -28,16 +28,15 @@ from heartfit.heart.circulation.atria import chamber_table
 from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import FiniteElementBody, StepFailed
 from heartfit.heart.finite_elements.neighbours import carry_state
-from heartfit.heart.finite_elements.unloading import LoadedWall, unload, unload_neighbours
+from heartfit.heart.finite_elements.unloading import unload
 from heartfit.heart.heart import Heart
+from heartfit.heart.neighbourhood import LoadedHeart, surround
 from heartfit.heart.simulation import Numerics, simulate
-from heartfit.heart.tangent import Neighbour, differentiate
+from heartfit.heart.tangent import differentiate, tangent_numerics
 from heartfit.observation.regional import regional_curves
 from heartfit.roles import Mechanism, Sensor
 
 NUMERICS = Numerics(time_step=5e-3, max_beats=8, drift=3e-3, keep_positions=True)
-TANGENT_STEP = 10e-3
-"""Time step of tangent-linear beats [s]: slopes need fewer digits than predictions, and cost half as much."""
 IMAGED, DISTORTED_PHASES = "lv_volume", 100
 """Curve by which an error of the images is known, and number of phases at which it distorts regional curves."""
 STEP = 0.02
@@ -151,18 +150,16 @@ class WallForwardModel:
             return None
 
     def _differentiate(self, x: Floats, effects: Sequence[Mechanism]) -> Floats:
-        placed = self._heart_at(x, effects)
         steps = STEP * np.eye(len(NAMES))
-        others = [self._heart_at(x[: len(NAMES)] + step, effects) for step in steps]
-        rebuilt = [index for index, name in enumerate(NAMES) if name in REFERENCE]
-        body, bodies = self._neighbouring_bodies(placed, others, rebuilt)
-        neighbours = [Neighbour(other.heart, own, STEP) for other, own in zip(others, bodies, strict=True)]
+        centre, *others = (
+            self._measured(self._heart_at(x[: len(NAMES)] + step, effects)) for step in (0.0, *steps)
+        )
+        body, neighbours = surround(centre, others, STEP)
         self.tangents += 1
-        numerics = replace(self.numerics, time_step=max(TANGENT_STEP, self.numerics.time_step))
-        tangent = differentiate(placed.heart, body, neighbours, numerics)
-        centre = self.observe(tangent.beat, placed.heart)
+        tangent = differentiate(centre.heart, body, neighbours, tangent_numerics(self.numerics))
+        observed = self.observe(tangent.beat, centre.heart)
         columns = [
-            (self.observe(tangent.near(index), other.heart) - centre) / STEP
+            (self.observe(tangent.near(index), other.heart) - observed) / STEP
             for index, other in enumerate(others)
         ]
         return np.column_stack(columns)
@@ -184,27 +181,14 @@ class WallForwardModel:
         return beat
 
     def _body(self, placed: HeartInWall) -> FiniteElementBody:
-        wall = self._loaded(placed)
+        wall = self._measured(placed).wall
         near = None if self._before is None else self._before.body.reference
         return FiniteElementBody(unload(wall.mesh, wall.tissue, wall.pressures, near), wall.tissue)
 
-    def _neighbouring_bodies(
-        self, placed: HeartInWall, others: Sequence[HeartInWall], rebuilt: Sequence[int]
-    ) -> tuple[FiniteElementBody, list[FiniteElementBody]]:
-        """Bodies of a heart and of the others, those ``rebuilt`` on a reference of their own."""
-        walls = (self._loaded(member) for member in (placed, *(others[i] for i in rebuilt)))
-        reference, references = unload_neighbours(next(walls), list(walls))
-        shapes = dict(zip(rebuilt, references, strict=True))
-        own = FiniteElementBody(reference, placed.heart.muscle)
-        return own, [
-            FiniteElementBody(shapes.get(i, reference), other.heart.muscle, own.elimination)
-            for i, other in enumerate(others)
-        ]
-
-    def _loaded(self, placed: HeartInWall) -> LoadedWall:
-        """The measured wall of a heart, with its helix angles."""
+    def _measured(self, placed: HeartInWall) -> LoadedHeart:
+        """A heart in the measured wall, with its helix angles."""
         mesh, rule = self.mesh, self._rule
         if placed.helix.any():
             rule = replace(rule, endo=rule.endo + placed.helix[0], epi=rule.epi + placed.helix[1])
             mesh = replace(mesh, fibres=rule.fibres(), orientation=rule.orientation())
-        return LoadedWall(mesh, placed.heart.muscle, placed.loads)
+        return LoadedHeart(placed.heart, mesh, placed.loads)

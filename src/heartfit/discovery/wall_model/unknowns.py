@@ -88,8 +88,6 @@ class HeartInWall:
 
 NAMES = tuple([*(parameter.name for parameter in PARAMETERS), *LOADS, *HELIX, *CONTRACTILITY, *ACTIVATION])
 COORDINATES = tuple(map(Coordinate, NAMES))
-REFERENCE = frozenset({"tissue.passive.c_1", "tissue.right.stiffness", *LOADS, *HELIX})
-"""Unknowns that change the stress-free reference of the wall."""
 
 
 def heart_at(nominal: HeartInWall, x: Floats) -> HeartInWall:

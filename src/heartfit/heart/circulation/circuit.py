@@ -17,7 +17,7 @@ from numba import njit
 
 from heartfit.core.arrays import Floats, Integers
 from heartfit.heart.circulation.atria import begin_atria, descend_planes, store_blood
-from heartfit.heart.circulation.network import NetworkStep, net_outflow
+from heartfit.heart.circulation.network_step import NetworkStep, net_outflow
 from heartfit.heart.circulation.system import (
     CONSTANT,
     ONE_KILOPASCAL,
@@ -82,13 +82,14 @@ class Circuit:
         return system
 
     def _fill_ventricles_and_arteries(self, system: Floats) -> None:
-        a, b = self.windkessels.T[:2]
-        system[:2, CONSTANT], system[:2, WEIGHT] = self.volume_change, self.network.dt
-        system[:2, REFERENCE], system[:2, STORAGE : STORAGE + 2] = self.start[:2], self.compliance
-        system[2:, WEIGHT], system[2:, REFERENCE], system[2:, STORAGE + 2 : STORAGE + 4] = b, a, np.eye(2)
-        system[:, [CONSTANT, WEIGHT, *range(STORAGE, 7)]] /= np.repeat([ONE_MILLILITRE, ONE_KILOPASCAL], 2)[
-            :, None
-        ]
+        ventricles, arteries = system[:2], system[2:]
+        ventricles[:, CONSTANT] = self.volume_change / ONE_MILLILITRE
+        ventricles[:, WEIGHT] = self.network.dt / ONE_MILLILITRE
+        ventricles[:, REFERENCE] = self.start[:2]
+        ventricles[:, STORAGE : STORAGE + 2] = self.compliance / ONE_MILLILITRE
+        arteries[:, REFERENCE] = self.windkessels[:, 0]
+        arteries[:, WEIGHT] = self.windkessels[:, 1] / ONE_KILOPASCAL
+        arteries[0, STORAGE + 2] = arteries[1, STORAGE + 3] = 1.0 / ONE_KILOPASCAL
 
 
 @njit(cache=True, error_model="numpy", inline="always")
@@ -115,7 +116,7 @@ def circuit_residual(ends, laws, branch_states, atria, prescribed, t, system, p,
 def solve_circuit(ends, laws, branch_states, atria, prescribed, t, system, p, work, jacobian):  # type: ignore[no-untyped-def]
     """Move the pressures p (n,) to the balance of the circuit; return the norm of the residual at the start.
 
-    Branches and ``prescribed`` as in :func:`~heartfit.heart.circulation.network.net_outflow`, the table ``atria`` of
+    Branches and ``prescribed`` as in :func:`~heartfit.heart.circulation.network_step.net_outflow`, the table ``atria`` of
     :mod:`heartfit.roles.chamber`, ``system`` (n, 3 + n) with the columns of
     :mod:`heartfit.heart.circulation.system`; ``work`` (3, n), whose rows the module names, and ``jacobian`` (n, n) are
     overwritten.

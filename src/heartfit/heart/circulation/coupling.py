@@ -20,7 +20,8 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.heart.circulation.circuit import Circuit
 from heartfit.heart.circulation.enclosure import EnclosedBody
-from heartfit.heart.circulation.network import Circulation, Network, NetworkStep
+from heartfit.heart.circulation.network import Circulation, Network
+from heartfit.heart.circulation.network_step import NetworkStep
 from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import StepFailed
 from heartfit.heart.muscle.tissue import Tissue
@@ -167,8 +168,7 @@ class Coupling:
     def __init__(
         self, body: Body, circulation: Circulation, mechanisms: Sequence[Mechanism], tolerances: Tolerances
     ) -> None:
-        self.circulation, self.mechanisms = circulation, mechanisms
-        self._branches = Network(circulation, mechanisms)
+        self.network = Network(circulation, mechanisms)
         loaded = any(isinstance(m, External) for m in mechanisms)
         self.body = EnclosedBody(body, mechanisms) if loaded else body
         self.tolerances = tolerances
@@ -202,17 +202,8 @@ class Coupling:
     def equations(self, state: HeartState, step: TimeStep) -> CoupledStep:
         """Equations of ``step`` from ``state``."""
         equations = self.body.step(state.body, step)
-        start = state.starting_branches(step)
-        network = NetworkStep(
-            self.circulation,
-            self.mechanisms,
-            step.end,
-            step.effective,
-            step.period,
-            start,
-            state.starting_atria(step),
-            self._branches,
-        )
+        starts = state.starting_branches(step), state.starting_atria(step)
+        network = NetworkStep(self.network, step.end, step.effective, step.period, *starts)
         return CoupledStep(self.body, equations, network, step, state)
 
     def _newton(self, coupled: CoupledStep) -> Iterate:

@@ -155,6 +155,15 @@ class LoadedWall:
     tissue: Tissue
     pressures: Floats
 
+    def rests_like(self, other: "LoadedWall") -> bool:
+        """True if both walls have the same stress-free reference: shape, fibres, load and passive parts are equal."""
+        parts = [(wall.tissue.passive, wall.tissue.support, wall.tissue.element) for wall in (self, other)]
+        arrays = [
+            (wall.pressures, wall.tissue.stiffenings(), wall.mesh.points, mean_dyads(wall.mesh))
+            for wall in (self, other)
+        ]
+        return parts[0] == parts[1] and all(map(np.array_equal, *arrays))
+
 
 def unload_neighbours(
     wall: LoadedWall, others: Sequence[LoadedWall]

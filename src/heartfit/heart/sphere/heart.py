@@ -9,13 +9,8 @@ from scipy.optimize import brentq
 from heartfit.core.arrays import Floats
 from heartfit.heart.circulation.atria import fill_atria, sides_filling_veins
 from heartfit.heart.circulation.enclosure import VENTRICLES, load_table
-from heartfit.heart.circulation.network import (
-    ARTERIES,
-    Network,
-    atrial_walls,
-    mechanism_pressures,
-    net_outflow,
-)
+from heartfit.heart.circulation.network import ARTERIES, Network, atrial_walls, mechanism_pressures
+from heartfit.heart.circulation.network_step import net_outflow
 from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.heart import Heart
 from heartfit.heart.sphere import rows
