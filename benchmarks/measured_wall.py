@@ -17,7 +17,6 @@ from heartfit.discovery.refit.model import activate
 from heartfit.discovery.wall_model.forward_model import WallForwardModel
 from heartfit.discovery.wall_model.search import WallFindings, search_wall
 from heartfit.discovery.wall_model.territory import probability_of_segments
-from heartfit.discovery.wall_model.unknowns import HeartInWall
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.heart.heart import Heart
 from heartfit.io.configuration import read_study
@@ -66,10 +65,8 @@ def measured_wall(case: Path) -> tuple[WallRecording, WallForwardModel]:
     heart: Heart = study.setting(SETTING).base_heart(curves.period)
     for mechanism in NAMED:
         heart = heart + mechanism
-    pressures = study.end_diastolic_pressure
-    nominal = HeartInWall.loaded(heart, pressures.lv, pressures.rv)
     numerics = replace(study.numerics.numerics(), drift=3e-3, max_beats=8, keep_positions=True)
-    return recording, WallForwardModel.at_samples(recording, nominal, numerics)
+    return recording, WallForwardModel.at_samples(recording, heart, study.end_diastolic_pressure, numerics)
 
 
 def table(findings: WallFindings) -> pd.DataFrame:

@@ -6,7 +6,6 @@ from benchmarks.ventricles import ROOT
 from heartfit.discovery.refit.model import Reference, activate
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.wall_model.forward_model import WallForwardModel
-from heartfit.discovery.wall_model.unknowns import HeartInWall
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.io.configuration import read_study
 from heartfit.io.regional_noise import read_regional_noise
@@ -48,6 +47,5 @@ def wall_recording(imaged: ImagedBeat, case: PlantedCase, pressure: bool = True)
 
 def wall_model(recording: WallRecording) -> WallForwardModel:
     """Return the study's nominal heart in the wall of a recording."""
-    pressures = study().end_diastolic_pressure
     heart = study().nominal_setting().base_heart(recording.recording.period)
-    return WallForwardModel.at_samples(recording, HeartInWall.loaded(heart, pressures.lv, pressures.rv))
+    return WallForwardModel.at_samples(recording, heart, study().end_diastolic_pressure)

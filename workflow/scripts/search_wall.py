@@ -4,7 +4,6 @@ from pathlib import Path
 
 from heartfit.discovery.wall_model.forward_model import WallForwardModel
 from heartfit.discovery.wall_model.search import search_wall
-from heartfit.discovery.wall_model.unknowns import HeartInWall
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.refits import read_measured_case
@@ -19,7 +18,6 @@ curves = read_measured_case(dict(files.items())).recording()
 mesh, motion = read_mesh(Path(files.mesh)), read_motion(Path(files.registered))
 recording = WallRecording(curves, mesh, motion, read_regional_noise())
 heart = params.setting.base_heart(params.case.period)
-nominal = HeartInWall.loaded(heart, params.pressures.lv, params.pressures.rv)
-findings = search_wall(WallForwardModel.at_samples(recording, nominal), recording)
+findings = search_wall(WallForwardModel.at_samples(recording, heart, params.pressures), recording)
 title = f"{names.case}, {names.setting} setting: search with the strain of the wall"
 write_wall(Path(snakemake.output[0]).parent, render_wall(findings, title), params.code)

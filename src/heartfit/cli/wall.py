@@ -40,7 +40,6 @@ def diagnose_wall(arguments: argparse.Namespace) -> int:
     from heartfit.discovery.refit.model import activate
     from heartfit.discovery.wall_model import search
     from heartfit.discovery.wall_model.forward_model import WallForwardModel
-    from heartfit.discovery.wall_model.unknowns import HeartInWall
     from heartfit.discovery.wall_model.wall_data import WallRecording
     from heartfit.io.recordings import read_recording
     from heartfit.io.regional_noise import LEARNED, read_regional_noise
@@ -58,10 +57,9 @@ def diagnose_wall(arguments: argparse.Namespace) -> int:
             "take the motion of this mesh"
         )
     recording = WallRecording(curves, mesh, motion, read_regional_noise(arguments.noise or LEARNED))
-    pressures = study.end_diastolic_pressure
     heart = study.setting(arguments.setting).base_heart(curves.period)
-    nominal = HeartInWall.loaded(heart, pressures.lv, pressures.rv)
-    findings = search.search_wall(WallForwardModel.at_samples(recording, nominal), recording)
+    model = WallForwardModel.at_samples(recording, heart, study.end_diastolic_pressure)
+    findings = search.search_wall(model, recording)
     rendered = render_wall(findings, f"The wall of {arguments.measured.name}")
     write_wall(arguments.output, rendered, fingerprint(Path(search.__file__)))
     print(f"{rendered.summary.sentence} See {arguments.output / 'wall.md'}.")

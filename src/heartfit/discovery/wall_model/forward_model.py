@@ -34,6 +34,7 @@ from heartfit.heart.neighbourhood import LoadedHeart, surround
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.tangent import differentiate, tangent_numerics
 from heartfit.observation.regional import regional_curves
+from heartfit.personalise.numerics import Pressures
 from heartfit.roles import Mechanism, Sensor
 
 NUMERICS = Numerics(time_step=5e-3, max_beats=8, drift=3e-3, keep_positions=True)
@@ -81,9 +82,10 @@ class WallForwardModel:
 
     @classmethod
     def at_samples(
-        cls, recording: WallRecording, nominal: HeartInWall, numerics: Numerics = NUMERICS
+        cls, recording: WallRecording, heart: Heart, pressures: Pressures, numerics: Numerics = NUMERICS
     ) -> "WallForwardModel":
-        """The model of the wall of a recording at all of its samples."""
+        """The model of the wall of a recording at all of its samples, with the end-diastolic ``pressures``."""
+        nominal = HeartInWall.loaded(heart, pressures.lv, pressures.rv)
         times = {block.curve: block.times for block in recording.data().blocks}
         return cls(recording.mesh, nominal, times, recording.frames, numerics)
 

@@ -116,8 +116,8 @@ def circuit_residual(ends, laws, branch_states, atria, prescribed, t, system, p,
 def solve_circuit(ends, laws, branch_states, atria, prescribed, t, system, p, work, jacobian):  # type: ignore[no-untyped-def]
     """Move the pressures p (n,) to the balance of the circuit; return the norm of the residual at the start.
 
-    Branches and ``prescribed`` as in :func:`~heartfit.heart.circulation.network_step.net_outflow`, the table ``atria`` of
-    :mod:`heartfit.roles.chamber`, ``system`` (n, 3 + n) with the columns of
+    Branches and ``prescribed`` as in :func:`~heartfit.heart.circulation.network_step.net_outflow`, the table
+    ``atria`` of :mod:`heartfit.roles.chamber`, ``system`` (n, 3 + n) with the columns of
     :mod:`heartfit.heart.circulation.system`; ``work`` (3, n), whose rows the module names, and ``jacobian`` (n, n) are
     overwritten.
     """
