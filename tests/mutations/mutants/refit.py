@@ -18,13 +18,13 @@ REFIT_MUTANTS = (
         ),
         (
             "renewed slopes are thrown away",
-            "return np.where(np.isnan(fitted), known, fitted)",
-            "return known",
+            "known = np.where(np.isnan(fitted), fit.slopes, fitted)",
+            "known = fit.slopes",
         ),
         (
             "renewed slopes of the other half",
-            "fitted = self.slopes[self._fitted]",
-            "fitted = self.slopes[~self._fitted]",
+            "fitted = slopes[complete.rows_of(target.samples)]",
+            "fitted = slopes[~complete.rows_of(target.samples)]",
         ),
         (
             "differences without their step",

@@ -6,8 +6,7 @@ with the precision :math:`\Lambda` that the likelihood gives at the residual r =
 and pushed against it stay. Broyden keeps the Jacobian true along the steps. A simulation that fails shortens the step.
 
 A search has cheap simulations: it renews the Jacobian by finite differences after some steps, when a step fails, and
-before it accepts convergence. A refit has expensive ones: its descents renew only after a failed step and at the end,
-or never. A :class:`Schedule` states which.
+before it accepts convergence. A refit has expensive ones: its descents never do. A :class:`Schedule` states which.
 
 References: Marquardt 1963, doi:10.1137/0111030; Broyden 1965, doi:10.1090/S0025-5718-1965-0198670-6.
 """
@@ -87,8 +86,8 @@ class Schedule:
 LONGEST_STEP = 1.5
 """Longest step along a coordinate [prior standard deviations], the range in which slopes are valid."""
 EXPENSIVE = Schedule(0.3, 0.1, longest_step=LONGEST_STEP, correct_on_failure=True, active_set=True)
-"""Schedule for expensive simulations: every one corrects the slopes, and a predicted decrease below 0.3, which changes
-no verdict, ends the descent."""
+"""Schedule for expensive simulations: every one corrects the slopes, which the descent never renews, and a predicted
+decrease below 0.3, which changes no verdict, ends it."""
 
 Differences = Callable[[Floats, Floats, Floats], Floats]
 """A renewed Jacobian (n, d) at x (d,), from the predictions (n,) there and the current Jacobian (n, d)."""

@@ -5,8 +5,8 @@ The slopes at the prior mean, the mechanism switched on, start the descent of
 .. math:: \tfrac12 r^T R^{-1} r + \tfrac12 |x|^2 ,
 
 see :mod:`heartfit.discovery.inference.descent`: a step costs one beat, and Broyden's update corrects the slopes after
-each. Where the descent ends all slopes are renewed, and it goes on until renewed slopes confirm the end: along
-directions in which no step was taken the first ones are those of the prior mean. The end is the estimate, with the
+each. Where the descent ends all slopes are renewed, and it goes on, at most RENEWALS times: along directions in which
+no step was taken the first ones are those of the prior mean. The end is the estimate, with the
 covariance :math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. An extension starts where the model without it
 started and where it ended, with the slopes there and one more beat for each further unknown. Laplace's approximation
 
@@ -24,13 +24,16 @@ import numpy as np
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.core.arrays import Floats
-from heartfit.discovery.inference.descent import EXPENSIVE, Descent, Differences, InverseProblem
+from heartfit.discovery.inference.descent import EXPENSIVE, Descent, InverseProblem
 from heartfit.discovery.inference.evidence import laplace
 from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.nearby_beats import Simulator, points_around
 from heartfit.discovery.refit.target import Target, sample, stack
 from heartfit.heart.beat import Beat
 from heartfit.observation.beat import beat_curves
+
+RENEWALS = 2
+"""Largest number of times that a refit renews its slopes where the descent has ended."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,17 +126,31 @@ def _extend(
 def renew_slopes(
     extension: Extension, run: Simulator, target: Target, complete: Target, most: int, fit: Refit
 ) -> Refit:
-    """Renew all slopes at the estimate of a refit, and descend from there until renewed slopes confirm the end.
+    """Renew all slopes at the estimate of a refit and descend from there, again if that was worth it.
 
     complete: both halves of the samples; the same beats give their slopes, which the descent does not use. A slope is
     kept where its neighbouring beat fails. Raises CalibrationError if a beat at an estimate fails.
     """
-    renewal = _Renewal(_Forward(extension, run, complete), complete.rows_of(target.samples))
-    known = renewal(fit.estimate, fit.predicted, fit.slopes)
+    for _ in range(RENEWALS):
+        renewed = _renewed_once(extension, run, target, complete, most, fit)
+        settled = fit.objective - renewed.objective < EXPENSIVE.objective_tolerance
+        fit = renewed
+        if settled:
+            break
+    return fit
+
+
+def _renewed_once(
+    extension: Extension, run: Simulator, target: Target, complete: Target, most: int, fit: Refit
+) -> Refit:
+    forward = _Forward(extension, run, complete)
+    slopes = forward.slopes(fit.estimate)
+    fitted = slopes[complete.rows_of(target.samples)]
+    known = np.where(np.isnan(fitted), fit.slopes, fitted)
     again = _Forward(extension, run, target)
-    renewed = _descend(again, fit.estimate, fit.predicted, known, fit.first_slopes, most, renewal)
-    beats = fit.simulations + renewal.forward.simulations + renewed.simulations
-    return replace(renewed, simulations=beats, complete_slopes=renewal.slopes)
+    renewed = _descend(again, fit.estimate, fit.predicted, known, fit.first_slopes, most)
+    beats = fit.simulations + forward.simulations + renewed.simulations
+    return replace(renewed, simulations=beats, complete_slopes=slopes)
 
 
 def complete_posterior(
@@ -174,12 +191,11 @@ def _descend(
     slopes: Floats,
     first_slopes: Floats,
     most: int,
-    renewal: Differences | None = None,
 ) -> Refit:
     extension, target = forward.extension, forward.target
     lower = np.where(extension.one_sided, 0.0, -np.inf)
     problem = InverseProblem(forward, target.values(), target, lower)
-    descent = Descent(problem, EXPENSIVE, start, predicted, slopes, renewal)
+    descent = Descent(problem, EXPENSIVE, start, predicted, slopes)
     descent.run(most)
     covariance = descent.covariance()
     volume, kept = laplace(descent.x, covariance, extension.one_sided)
@@ -230,16 +246,3 @@ class _Forward:
             return None
         curves = beat_curves(beat, self.extension.setting.sensors(self.extension.parameters(x)))
         return stack(sample(curves, self.target.samples))
-
-
-class _Renewal:
-    """Renewed slopes of the fitted samples, ``fitted`` (m,) of all; ``slopes`` (m, d): the last ones of all samples."""
-
-    def __init__(self, forward: _Forward, fitted: np.ndarray) -> None:
-        self.forward, self._fitted = forward, fitted
-        self.slopes = np.empty((fitted.size, 0))
-
-    def __call__(self, x: Floats, _: Floats, known: Floats) -> Floats:
-        self.slopes = self.forward.slopes(x)
-        fitted = self.slopes[self._fitted]
-        return np.where(np.isnan(fitted), known, fitted)
