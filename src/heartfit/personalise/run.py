@@ -115,7 +115,7 @@ def nearby_beats(
     first heart has no beat, and InputError for spheres and where an atrium has a volume in some hearts only.
     """
     if setting.element == "sphere":
-        raise InputError("beats around a heart: spheres have no derivatives; expected finite elements")
+        raise InputError("tangent: spheres have no derivatives; expected finite elements")
     loads = np.array([pressures.lv, pressures.rv])
     hearts = [setting.base_heart(period).with_parameters(values) for values in parameters]
     centre, *others = (LoadedHeart(heart, mesh, loads) for heart in hearts)
