@@ -41,17 +41,22 @@ def surround(
     A neighbour whose relaxed wall differs has a stress-free reference of its own; without ``unloaded`` every measured
     wall is assumed to be stress-free. Raises StepFailed without a stress-free reference.
     """
-    walls = [other.wall for other in others]
-    own = [unloaded and not wall.rests_like(centre.wall) for wall in walls]
     reference, shapes = centre.mesh, [other.mesh for other in others]
     if unloaded:
-        reference, rebuilt = unload_neighbours(
-            centre.wall, [w for w, differs in zip(walls, own, strict=True) if differs]
-        )
-        references = iter(rebuilt)
-        shapes = [next(references) if differs else reference for differs in own]
+        reference, shapes = _references(centre.wall, [other.wall for other in others])
     body = FiniteElementBody(reference, centre.heart.muscle)
     return body, [
         Neighbour(other.heart, FiniteElementBody(shape, other.heart.muscle, body.elimination), size)
         for other, shape in zip(others, shapes, strict=True)
     ]
+
+
+def _references(
+    wall: LoadedWall, others: Sequence[LoadedWall]
+) -> tuple[VentricularMesh, list[VentricularMesh]]:
+    """Stress-free mesh of a wall, and those of ``others``, the same where they rest like it."""
+    own = [not other.rests_like(wall) for other in others]
+    differing = [other for other, differs in zip(others, own, strict=True) if differs]
+    reference, rebuilt = unload_neighbours(wall, differing)
+    remaining = iter(rebuilt)
+    return reference, [next(remaining) if differs else reference for differs in own]
