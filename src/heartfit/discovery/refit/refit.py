@@ -69,8 +69,9 @@ class Refit:
 
 
 def refit(extension: Extension, run: Simulator, target: Target, most: int, amplitude: float = 1.0) -> Refit:
-    """Refit an extension from the prior mean by at most ``most`` steps of one beat.
+    """Refit an extension from the prior mean by at most ``most`` steps of one beat, with the slopes there.
 
+    A descent with slopes of the prior mean may end far from the minimum: :func:`renew_slopes` goes on from its end.
     amplitude: of the mechanism there [scales]. A coordinate whose neighbouring beat fails starts without a slope.
     Raises CalibrationError if the beat at the prior mean fails.
     """
