@@ -8,7 +8,14 @@ import pytest
 
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.discovery.refit.extension import Extension
-from heartfit.discovery.refit.refit import Refit, continue_refit, refit, renew_slopes, restart_refit
+from heartfit.discovery.refit.refit import (
+    Refit,
+    continue_refit,
+    converged_refit,
+    refit,
+    renew_slopes,
+    restart_refit,
+)
 from heartfit.discovery.refit.target import BIN, BLOCK, MeasuredCase, Split, Target, average_bins, covariance
 from heartfit.discovery.refit.verdict import causes_of
 from heartfit.heart.beat import Beat, failed_beat
@@ -60,13 +67,8 @@ def target(case: MeasuredCase) -> Target:
 @pytest.fixture(scope="module")
 def refits(case: MeasuredCase) -> tuple[Refit, Refit]:
     none, extended = Extension(PLAIN), Extension.from_names(PLAIN, "MitralRegurgitation")
-    return confirmed(none, case), confirmed(extended, case)
-
-
-def confirmed(extension: Extension, case: MeasuredCase) -> Refit:
-    """Refit whose end renewed slopes confirm."""
-    fit = refit(extension, run, target(case), 20)
-    return renew_slopes(extension, run, target(case), case.complete_target, 20, fit)
+    targets = target(case), case.complete_target
+    return converged_refit(none, run, *targets, 20), converged_refit(extended, run, *targets, 20)
 
 
 def test_no_sample_is_both_fitted_and_held_out(case: MeasuredCase) -> None:

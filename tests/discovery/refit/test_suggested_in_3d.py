@@ -10,7 +10,7 @@ import pytest
 from heartfit.cli.diagnose import run_mechanism_files
 from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.model import Model, activate
-from heartfit.discovery.refit.refit import refit, renew_slopes
+from heartfit.discovery.refit.refit import converged_refit
 from heartfit.discovery.refit.target import MeasuredCase, Target, covariance
 from heartfit.discovery.sphere_model.cause import ActingPlace, Diagnosis, RankedLaw
 from heartfit.geometry.mesh import VentricularMesh
@@ -61,8 +61,7 @@ def test_a_refit_of_a_suggested_leak_gives_the_hidden_regurgitation(
     case = noisy_case(model, nominal | true | {"MitralRegurgitation.area": AREA})
     target = Target(case.split.fitted, covariance(case.split.fitted, case.raw, []))
     without, extended = (
-        renew_slopes(one, model, target, target, MOST_STEPS, refit(one, model, target, MOST_STEPS))
-        for one in (plain, extension)
+        converged_refit(one, model, target, target, MOST_STEPS) for one in (plain, extension)
     )
     assert extended.log_evidence > without.log_evidence + 10.0
     assert extended.parameters[extension.names[-1]] == pytest.approx(AREA, rel=0.1)

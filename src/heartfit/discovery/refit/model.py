@@ -62,9 +62,9 @@ class Model:
                 self.scheme,
             )
         except (
-            ValueError,
+            InputError,
             StepFailed,
-        ):  # spheres, atria in some beats only, or no step that all beats can take
+        ):  # spheres, atria in some beats only, or a step that not all beats take
             return simulate_each(self, extension, x)
         return NearbyBeats(centre, tuple(others), TANGENT, 1)
 

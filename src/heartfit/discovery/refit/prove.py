@@ -11,7 +11,7 @@ from heartfit.discovery.refit.refit import (
     Refit,
     complete_posterior,
     continue_refit,
-    refit,
+    converged_refit,
     renew_slopes,
     restart_refit,
 )
@@ -53,7 +53,7 @@ class ExtensionTrial:
 
     def refitted(self) -> Refit:
         """Return the refit of the baseline model; raises CalibrationError if too many beats fail."""
-        return self._renewed(self.baseline, refit(self.baseline, self.model, self.target, self.most_steps))
+        return converged_refit(self.baseline, self.model, self.target, self.complete, self.most_steps)
 
     def _renewed(self, extension: Extension, fit: Refit) -> Refit:
         return renew_slopes(extension, self.model, self.target, self.complete, self.most_steps, fit)

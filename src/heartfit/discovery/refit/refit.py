@@ -124,6 +124,13 @@ def _extend(
     return _descend(forward, start, predicted, with_added, first, most)
 
 
+def converged_refit(
+    extension: Extension, run: Simulator, target: Target, complete: Target, most: int
+) -> Refit:
+    """Refit from the prior mean, and renew the slopes where it ends; see :func:`refit` and :func:`renew_slopes`."""
+    return renew_slopes(extension, run, target, complete, most, refit(extension, run, target, most))
+
+
 def renew_slopes(
     extension: Extension, run: Simulator, target: Target, complete: Target, most: int, fit: Refit
 ) -> Refit:

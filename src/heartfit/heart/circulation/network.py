@@ -101,15 +101,14 @@ class Prescribed:
     """All that time alone prescribes to a network.
 
     ``laws`` (k, 6) are the coefficients of its branches, ``atrial`` and ``arterial`` (2,) the pressures [Pa] of atria
-    without a volume and of the waves in the arteries; atria with a volume have the ``contraction`` e and the pressures
-    ``outside`` (2,) [Pa].
+    without a volume and of the waves in the arteries; ``walls`` are the contraction e of atria with a volume and the
+    pressures (2,) [Pa] beside it, None without such an atrium.
     """
 
     laws: Floats
     atrial: Floats
     arterial: Floats
-    contraction: Floats
-    outside: Floats
+    walls: tuple[Floats, Floats] | None
 
 
 class Network:
@@ -148,8 +147,8 @@ class Network:
             mechanisms = self.mechanisms
             atrial = self.circulation.atrial(time, period, mechanisms)
             arterial = mechanism_pressures(ARTERIES, time, period, mechanisms)
-            walls = atrial_walls(time, period, mechanisms)
-            self._last = (time, period), Prescribed(self.laws(time), atrial, arterial, *walls)
+            walls = None if self.atria is None else atrial_walls(time, period, mechanisms)
+            self._last = (time, period), Prescribed(self.laws(time), atrial, arterial, walls)
         return self._last[1]
 
     def laws(self, time: Floats | float) -> Floats:

@@ -62,9 +62,9 @@ class NetworkStep:
             self.branch_states[START_FLOW : START_FLOW + 2] = start
         self._stateful = network.leaflets.any(axis=1)
         self.atria = None if network.atria is None else network.atria.copy()
-        if self.atria is not None:
-            self.atria[OUTSIDE] = prescribed.outside
-            self.atria[STIFFENING] = prescribed.contraction * self.atria[ACTIVE]
+        if self.atria is not None and prescribed.walls is not None:
+            contraction, self.atria[OUTSIDE] = prescribed.walls
+            self.atria[STIFFENING] = contraction * self.atria[ACTIVE]
             self.atria[[START_VOLUME, START_VEIN]] = 0.0 if atrial_start is None else atrial_start
 
     def flows(self, pressures: Floats, states: Floats | None = None) -> dict[str, float]:
