@@ -5,7 +5,8 @@ import pytest
 
 from heartfit.core.errors import InputError
 from heartfit.io.files import keep_sums, replacing
-from heartfit.io.meshes import read_arrays, read_motion, read_simulated_motion, read_slice_motion
+from heartfit.io.meshes import read_arrays, read_motion, read_simulated_motion
+from heartfit.io.slice_motions import read_slice_motion
 
 
 @pytest.fixture

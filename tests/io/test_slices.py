@@ -8,7 +8,7 @@ import pytest
 from heartfit.core.errors import InputError
 from heartfit.imaging.registration.slices import SliceMotion
 from heartfit.imaging.sequence import Grid
-from heartfit.io.meshes import read_slice_motion, write_slice_motion
+from heartfit.io.slice_motions import read_slice_motion, write_slice_motion
 
 
 def test_round_trip_to_single_precision(tmp_path: Path) -> None:

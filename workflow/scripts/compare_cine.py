@@ -4,8 +4,8 @@ from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.images import read_images
-from heartfit.io.meshes import read_slice_motion
 from heartfit.io.run import record
+from heartfit.io.slice_motions import read_slice_motion
 from heartfit.io.sources import read_heart
 from heartfit.io.tables import write_figure, write_table
 from heartfit.observation.cine import compare_cine

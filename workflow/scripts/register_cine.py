@@ -4,8 +4,8 @@ from pathlib import Path
 
 from heartfit.imaging.registration.slices import register_slices, require_unfolded
 from heartfit.io.images import read_images
-from heartfit.io.meshes import write_slice_motion
 from heartfit.io.run import record
+from heartfit.io.slice_motions import write_slice_motion
 from heartfit.io.sources import read_heart
 
 record(snakemake.log[0])

@@ -3,8 +3,9 @@
 from pathlib import Path
 
 from heartfit.io.images import read_images, write_images
-from heartfit.io.meshes import read_mesh, read_motion, read_slice_motion
+from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.run import record
+from heartfit.io.slice_motions import read_slice_motion
 from heartfit.synthetic.warp import moving_images, scanner_like
 
 record(snakemake.log[0])

@@ -13,7 +13,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from urllib.request import urlopen
 
 from heartfit.core.errors import InputError
 
@@ -151,6 +150,8 @@ def fetch(manifest: Path, address: str, folder: Path) -> None:
 def _fetch_one(address: str, path: Path, sha256: str) -> None:
     if path.is_file() and checksum(path) == sha256:
         return
+    from urllib.request import urlopen  # every job imports this module
+
     with replacing(path) as draft:
         with urlopen(address, timeout=DOWNLOAD_TIMEOUT) as source, draft.open("wb") as target:
             shutil.copyfileobj(source, target)

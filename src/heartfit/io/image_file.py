@@ -17,22 +17,11 @@ from heartfit.core.errors import InputError
 from heartfit.imaging.sequence import Grid
 from heartfit.io.files import require_as_written
 from heartfit.io.image_bytes import require_own_voxels, require_undamaged, require_whole
+from heartfit.io.image_names import SUFFIXES, is_image, stem
 from heartfit.io.text import require_file
 
-SUFFIXES = (".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd")
 MILLIMETRE = 1e-3
 LARGEST_TILT = 1e-6
-
-
-def is_image(path: Path) -> bool:
-    """Return True for a suffix of a readable image."""
-    return path.name.endswith(SUFFIXES)
-
-
-def stem(path: Path) -> str:
-    """Name without its suffix; ".nii.gz" is one suffix."""
-    suffix = next((suffix for suffix in SUFFIXES if path.name.endswith(suffix)), "")
-    return path.name.removesuffix(suffix)
 
 
 def load(path: Path) -> sitk.Image:

@@ -10,7 +10,7 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.io.files import write_text
-from heartfit.io.image_file import stem
+from heartfit.io.image_names import stem
 from heartfit.io.text import read_json
 
 KEYS = ("period_s", "times_s")

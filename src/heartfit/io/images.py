@@ -15,7 +15,8 @@ from heartfit.core.errors import InputError
 from heartfit.imaging.sequence import Grid, ImageSequence
 from heartfit.io.cine import read_cine
 from heartfit.io.files import replacing
-from heartfit.io.image_file import MILLIMETRE, grid_of, is_image, load, numbers, read_frames
+from heartfit.io.image_file import MILLIMETRE, grid_of, load, numbers, read_frames
+from heartfit.io.image_names import is_image
 from heartfit.io.image_times import Timing, read_sidecar, settle, sidecar, write_sidecar
 
 WRITTEN = (".nrrd", ".nii.gz", ".mha")

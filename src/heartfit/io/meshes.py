@@ -12,8 +12,6 @@ from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.geometry.soundness import require_indices, require_sound
 from heartfit.geometry.surface import SURFACES
 from heartfit.heart.beat import Beat, nodal_motion
-from heartfit.imaging.registration.slices import SliceMotion
-from heartfit.imaging.sequence import Grid
 from heartfit.io.files import replacing
 from heartfit.io.text import parsing, require_file
 
@@ -98,30 +96,6 @@ def read_motion(path: Path) -> Motion:
     """Read a motion of write_motion; raises InputError for a missing file or impossible times."""
     stored = read_arrays(path, "times", "period", "positions")
     return Motion(stored["times"], float(stored["period"]), stored["positions"])
-
-
-def write_slice_motion(path: Path, motion: SliceMotion) -> None:
-    """Write the grid [m], the corner of the region and the displacement [pixels]."""
-    grid = motion.grid
-    with replacing(path) as draft:
-        np.savez_compressed(
-            draft,
-            size=grid.size,
-            spacing=grid.spacing,
-            origin=grid.origin,
-            direction=grid.direction,
-            corner=motion.corner,
-            displacement=motion.displacement.astype(np.float32),
-        )
-
-
-def read_slice_motion(path: Path) -> SliceMotion:
-    """Read a motion of write_slice_motion; raises InputError for a missing file."""
-    stored = read_arrays(path, "size", "spacing", "origin", "direction", "corner", "displacement")
-    i, j, k = stored["size"].tolist()
-    column, row = stored["corner"].tolist()
-    grid = Grid((i, j, k), stored["spacing"], stored["origin"], stored["direction"])
-    return SliceMotion(grid, (column, row), stored["displacement"].astype(float))
 
 
 def write_simulated_motion(path: Path, beat: Beat, times: Floats) -> None:

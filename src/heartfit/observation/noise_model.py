@@ -20,7 +20,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import betaincinv
 
 from heartfit.core.arrays import Floats, Integers
 from heartfit.core.errors import InputError
@@ -220,6 +219,8 @@ class Share:
     @classmethod
     def from_count(cls, covered: float, sequences: int, level: float = 0.95) -> "Share":
         """Return the share for ``covered`` of ``sequences`` sequences, with its interval at ``level``."""
+        from scipy.special import betaincinv  # many jobs import noise models, few need shares
+
         missed, tail = sequences - covered, 0.5 * (1.0 - level)
         low = float(betaincinv(covered, missed + 1.0, tail)) if covered > 0.0 else 0.0
         high = float(betaincinv(covered + 1.0, missed, 1.0 - tail)) if missed > 0.0 else 1.0
