@@ -32,8 +32,9 @@ def directed_edges(triangles: Integers) -> Integers:
 def rim_edges(triangles: Integers) -> Integers:
     """Return the directed edges (e,2) of a surface's open rims, in the sense of rotation of their triangles."""
     edges = directed_edges(triangles)
-    reverse = set(map(tuple, edges[:, ::-1].tolist()))
-    return edges[[tuple(edge) not in reverse for edge in edges.tolist()]]
+    nodes = int(triangles.max(initial=-1)) + 1
+    numbers, reverse = edges @ [nodes, 1], edges @ [1, nodes]
+    return edges[~np.isin(numbers, reverse)]
 
 
 def rim_loops(triangles: Integers) -> list[Integers]:
