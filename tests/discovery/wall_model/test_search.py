@@ -71,9 +71,9 @@ class Measured:
         return Data(self.values, (volume, *strains))
 
 
-def searched(effects: list[Mechanism], seed: int) -> WallFindings:
+def searched(effects: list[Mechanism], seed: int, wall: EvenWall | None = None) -> WallFindings:
     """Search a wall that varies naturally, with noise and these effects."""
-    rng, wall = np.random.default_rng(seed), EvenWall()
+    rng, wall = np.random.default_rng(seed), wall or EvenWall()
     x = np.zeros(len(NAMES))
     x[[0, *range(FIRST, FIRST + FOLLOWED), *range(LATE, LATE + FOLLOWED)]] = rng.standard_normal(
         1 + 2 * FOLLOWED
@@ -132,6 +132,22 @@ def test_a_baseline_that_does_not_beat_is_an_error() -> None:
     measured = Measured(np.zeros((1 + FOLLOWED) * TIMES.size))
     with pytest.raises(InputError, match="wall search: the beat of the baseline fails"):
         search_wall(Stopped(), measured, LIBRARY)
+
+
+def test_a_fit_that_has_no_slopes_is_approached_by_half() -> None:
+    """The first fit is too far for derivatives; the search goes on from the middle of the way, and names the scar."""
+
+    asked: list[Floats] = []
+
+    class Fragile(EvenWall):
+        def slopes(self, x: Floats, effects: object = ()) -> tuple[Floats, Floats] | None:  # type: ignore[override]
+            asked.append(x)
+            return None if len(asked) == 2 else super().slopes(x, ())
+
+    findings = searched([Scar(extent=0.24, angle=1.2)], 11, Fragile())
+    start, first, second = asked[:3]
+    np.testing.assert_allclose(second, (start + first) / 2.0)
+    assert findings.decision.effects == ("Scar",)
 
 
 def test_the_best_fit_of_each_effect_leads_its_others() -> None:

@@ -33,6 +33,8 @@ REGIONAL_RULES = Rules(detected=10.0)
 """For an effect of a region, which rests on strain."""
 BASELINE_STEPS, EFFECT_STEPS = (10, 8, 6), 8
 """Largest numbers of steps of the baseline, before its slopes are renewed and at last, and of an effect."""
+SHORTEST = 0.1
+"""Distance from a heart with slopes [prior sd] below which the way to a fit without them is not halved."""
 REFITTED = 5
 """Number of placements of effects that are fitted."""
 SUSPECTED = 2.0
@@ -153,14 +155,25 @@ def _decide(evidences: Evidences) -> Decision:
 
 def _fit_baseline(context: FitContext, model: WallForwardModel) -> Explanation:
     """The baseline's fit, its slopes renewed on the way."""
-    baseline, x = hypothesis(model), np.zeros(len(COORDINATES))
+    baseline, start = hypothesis(model), np.zeros(len(COORDINATES))
+    x = start
     for steps in BASELINE_STEPS:
-        tangent = model.slopes(x)
-        if tangent is None:
-            raise InputError("wall search: the beat of the baseline fails; expected one to start from")
-        fitted = _fit(context, baseline, x, *tangent, steps)
+        start, tangent = _nearest_slopes(model, start, x)
+        fitted = _fit(context, baseline, start, *tangent, steps)
         x = fitted.fit.x
     return fitted
+
+
+def _nearest_slopes(
+    model: WallForwardModel, start: Floats, x: Floats
+) -> tuple[Floats, tuple[Floats, Floats]]:
+    """Coordinates of the heart with slopes, and these: at x, or where the way back to ``start`` is halved."""
+    tangent = model.slopes(x)
+    if tangent is not None:
+        return x, tangent
+    if np.linalg.norm(x - start) < SHORTEST:
+        raise InputError("wall search: the beat of the baseline fails; expected one to start from")
+    return _nearest_slopes(model, start, (x + start) / 2.0)
 
 
 def _fit(
