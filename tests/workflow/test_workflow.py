@@ -76,7 +76,7 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert readers(planned.stdout, "images/cine") == {"register_volunteer", "plot_contours", "plot_overlay"}
     assert readers(planned.stdout, "verification/motion") == {"plot_overlay", "plot_residual", "report_study"}
     assert counts["plot_overlay"] == PATIENTS + 1
-    assert counts["try_acquisition"] == 21 + 3 + 6 * 2
+    assert counts["try_acquisition"] == counts["draw_volunteer"] == 21
     assert counts["build_template"] == 5
     assert counts["tabulate_costs"] == counts["report_study"] == 1
     assert counts["judge_claims"] == counts["print_tables"] == 1
@@ -88,9 +88,6 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     beating = {"generate_volunteer", "draw_volunteer", "simulate_point", "simulate_calibrated"}
     beating |= {
         "simulate_surrounding",
-        "study_sphere",
-        "compare_alternatives",
-        "cover_spheres",
         "search_cause",
         "refit_case",
         "prove_cause",
@@ -100,6 +97,24 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert sum("/beats/" in name for name in targets) == (
         counts["simulate_point"] + counts["simulate_surrounding"]
     ), "a deleted beat would go unnoticed"
+
+
+def test_the_full_study_adds_comparisons_of_methods_and_changes_no_other_job(workflow, planned):
+    run = workflow.snakemake("-n", "--configfile", "config/full.yaml")
+    assert run.returncode == 0, run.stdout
+    default, full = job_counts(planned.stdout), job_counts(run.stdout)
+    added = {rule: count - default.get(rule, 0) for rule, count in full.items()}
+    assert {rule: count for rule, count in added.items() if count and rule != "total"} == {
+        "compare_alternatives": 1,
+        "cover_spheres": 1,
+        "study_sphere": 1,
+        "plot_sobol": 1,
+        "draw_volunteer": 3,
+        "try_acquisition": 3 + 6 * 2,
+        "tabulate_registration": 1,
+        "tabulate_noise": 1,
+    }
+    assert not default.keys() - full.keys()
 
 
 @pytest.mark.measured

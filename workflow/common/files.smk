@@ -204,7 +204,9 @@ def report_templates(_):
 
 # figures about methods need hearts of known truth, which a study of measured hearts lacks
 METHOD_FIGURES = (
-    ["alternatives", "coverage_sphere", "registration", "noise_model", "sobol"] if VIRTUAL else []
+    ["alternatives", "coverage_sphere", "registration", "noise_model", "sobol"]
+    if STUDY.methods and VIRTUAL
+    else []
 )
 CASE_FIGURES = [
     f"{case}_{setting}{topic}.{suffix}"

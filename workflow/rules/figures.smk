@@ -44,8 +44,15 @@ rule plot_case:
         reference=beat_at_prior,
         calibrated="<results>/{case}/{setting}/verification/beat.json",
         errors="<results>/{case}/{setting}/verification/errors.json",
+        posterior="<results>/{case}/{setting}/calibration/posterior.json",
+        mesh="<results>/{case}/geometry/mesh.vtu",
+        motion="<results>/{case}/registration/motion.npz",
+        shape="<results>/{case}/{setting}/verification/shape.csv",
     output:
-        figure_files("{case}_{setting}", "curves"),
+        curves=figure_files("{case}_{setting}", "curves"),
+        sensitivity=figure_files("{case}_{setting}_sensitivity", "sensitivity"),
+        shape=figure_files("{case}_{setting}_shape", "shape"),
+        table=table_files("{case}_{setting}_shape"),
     params:
         setting=setting_of,
         mechanisms=setting_mechanisms,
@@ -53,27 +60,6 @@ rule plot_case:
         stated=configuration_text(setting_of, STUDY.observation),
     script:
         "../scripts/plot_case.py"
-
-
-rule plot_sensitivity:
-    input:
-        "<results>/{case}/{setting}/calibration/posterior.json",
-    output:
-        figure_files("{case}_{setting}_sensitivity", "sensitivity"),
-    script:
-        "../scripts/plot_sensitivity.py"
-
-
-rule compare_shape:
-    input:
-        mesh="<results>/{case}/geometry/mesh.vtu",
-        motion="<results>/{case}/registration/motion.npz",
-        calibrated="<results>/{case}/{setting}/verification/shape.csv",
-    output:
-        table=table_files("{case}_{setting}_shape"),
-        figure=figure_files("{case}_{setting}_shape", "shape"),
-    script:
-        "../scripts/compare_shape.py"
 
 
 rule plot_septal_flash:

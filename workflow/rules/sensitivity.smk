@@ -87,16 +87,29 @@ rule tabulate_selection:
     input:
         sensitivities=expand("<results>/sensitivity/{setting}/sensitivity.json", setting=PERTURBED_SETTINGS),
         ranges=expand("<results>/sensitivity/{setting}/ranges.json", setting=PERTURBED_SETTINGS),
-        sobol="<results>/sensitivity/sobol.json",
     output:
         selection=table_files("selection"),
         prior=table_files("prior"),
-        sobol=table_files("sobol"),
         bulk_modulus=table_files("bulk_modulus"),
-        figure=figure_files("sobol", "sobol", "Parameters"),
     params:
         settings=PERTURBED_SETTINGS,
         estimated=STUDY.estimated(),
         units=SPHERE.units(),
     script:
         "../scripts/tabulate_selection.py"
+
+
+rule plot_sobol:
+    input:
+        sensitivities=expand("<results>/sensitivity/{setting}/sensitivity.json", setting=PERTURBED_SETTINGS),
+        sobol="<results>/sensitivity/sobol.json",
+    output:
+        table=table_files("sobol"),
+        figure=figure_files("sobol", "sobol", "Parameters"),
+    resources:
+        mem_mb=1000,
+        runtime=2,
+    params:
+        settings=PERTURBED_SETTINGS,
+    script:
+        "../scripts/plot_sobol.py"

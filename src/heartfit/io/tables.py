@@ -92,10 +92,14 @@ def read_shape(path: Path) -> pd.DataFrame:
 
 
 def write_figure(path: Path, figure: Figure) -> None:
-    """Write in the format of the suffix (png, pdf, svg), without a date, so that equal figures have equal bytes."""
+    """Write in the format of the suffix (png, pdf, svg), without a date, so that equal figures have equal bytes.
+
+    The layout that the first format computes is kept for the next one.
+    """
     date = {"png": "Software", "pdf": "CreationDate", "svg": "Date"}.get(Path(path).suffix[1:])
     with replacing(path) as draft:
         figure.savefig(draft, dpi=200, metadata={date: None} if date else None)
+    figure.set_layout_engine("none")
 
 
 ANIMATION_SUFFIXES = (".gif", ".png")

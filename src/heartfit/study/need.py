@@ -10,7 +10,8 @@ SHARED = ("sensitivity", "registration_error", "templates", "discovery_benchmark
 """Folders of stages that run once for all cases."""
 
 OPTIONAL_JOBS = re.compile(
-    r"^(plant|diagnose|discovery|check|refit|prove|try_mechanism|compare_(attempts|elements)|tabulate_discovery)"
+    r"^(plant|diagnose|discovery|check|refit|prove|try_mechanism|compare_(alternatives|attempts|elements)|"
+    r"cover_spheres|study_sphere|plot_sobol|tabulate_(discovery|noise|registration))"
 )
 """Names of optional jobs, which a study runs only on request."""
 

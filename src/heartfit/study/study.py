@@ -42,6 +42,10 @@ class Study(Strict):
     measured_heart: tuple[str, ...] = Field(
         description="folders, of which the first existing one serves measured cases without sources"
     )
+    methods: bool = Field(
+        False,
+        description="also compare methods: of calibration, with its coverage, on spheres; Sobol's indices; images",
+    )
     sources: dict[str, Source] = Field({}, description="data of measured cases, by name")
     mesh: MeshSize = Field(description="mesh of a measured heart")
     virtual_mesh: MeshSize = Field(description="the calibrator's mesh of a virtual heart")

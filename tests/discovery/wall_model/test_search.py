@@ -137,15 +137,15 @@ def test_a_baseline_that_does_not_beat_is_an_error() -> None:
 def test_a_fit_that_has_no_slopes_is_approached_by_half() -> None:
     """The first fit is too far for derivatives; the search goes on from the middle of the way, and names the scar."""
 
-    asked: list[Floats] = []
+    points: list[Floats] = []
 
     class Fragile(EvenWall):
         def slopes(self, x: Floats, effects: object = ()) -> tuple[Floats, Floats] | None:  # type: ignore[override]
-            asked.append(x)
-            return None if len(asked) == 2 else super().slopes(x, ())
+            points.append(x)
+            return None if len(points) == 2 else super().slopes(x, ())
 
     findings = searched([Scar(extent=0.24, angle=1.2)], 11, Fragile())
-    start, first, second = asked[:3]
+    start, first, second = points[:3]
     np.testing.assert_allclose(second, (start + first) / 2.0)
     assert findings.decision.effects == ("Scar",)
 
