@@ -9,7 +9,7 @@ import pandas as pd
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import Effects
 from heartfit.discovery.sphere_model.searched_recording import NAMING_VERDICTS
-from heartfit.discovery.wall_model.search import REGIONAL_RULES, RULES
+from heartfit.discovery.wall_model.search import RULES
 from heartfit.results.cause_card import spaced_name
 
 RIGHT_TERRITORY = 45.0
@@ -112,11 +112,14 @@ def rates_table(hearts: pd.DataFrame) -> pd.DataFrame:
     sound = hearts[hearts["hidden"] == SOUND]
     hidden = hearts[hearts["hidden"] != SOUND]
     scars = hidden[hidden["hidden"] == "scar"]
-    detected = (_gains(hidden, PRESSURE) > RULES.detected) | (
-        _gains(hidden, PRESSURE, SMOOTH) > RULES.detected
-    )
+    detected = _is_detected(hidden, PRESSURE) | _is_detected(hidden, PRESSURE, SMOOTH)
     rows = [
         ("hearts without an effect that are named", "at most 2 %", _named(sound, PRESSURE)),
+        (
+            f"the same at a threshold of {RULES.detected:.0f}, which these hearts chose",
+            "at most 2 %",
+            _named(sound, PRESSURE) & _is_detected(sound, PRESSURE),
+        ),
         ("the same by images alone", "at most 2 %", _named(_searched(sound, IMAGES), IMAGES)),
         (
             "hearts without an effect whose verdict is unknown",
@@ -148,9 +151,9 @@ def _searched(hearts: pd.DataFrame, search: str) -> pd.DataFrame:
     return hearts[hearts[_column(search, VERDICT)] != NOT_SEARCHED]
 
 
-def _gains(hearts: pd.DataFrame, search: str, name: str = GAIN) -> pd.Series:
-    """ln Bayes factors, -inf where nothing was fitted."""
-    return pd.to_numeric(hearts[_column(search, name)], errors="coerce").fillna(-np.inf)
+def _is_detected(hearts: pd.DataFrame, search: str, name: str = GAIN) -> pd.Series:
+    """True where a ln Bayes factor is above the threshold; nothing was fitted where it is missing."""
+    return pd.to_numeric(hearts[_column(search, name)], errors="coerce").fillna(-np.inf) > RULES.detected
 
 
 def _named(hearts: pd.DataFrame, search: str) -> pd.Series:
@@ -159,7 +162,7 @@ def _named(hearts: pd.DataFrame, search: str) -> pd.Series:
 
 def _seen(hearts: pd.DataFrame, search: str) -> pd.Series:
     best = hearts[_column(search, BEST)] == hearts["hidden"]
-    return best & (_gains(hearts, search) > REGIONAL_RULES.detected)
+    return best & _is_detected(hearts, search)
 
 
 def _right_territory(scars: pd.DataFrame, search: str) -> pd.Series:

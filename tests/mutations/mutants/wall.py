@@ -43,11 +43,8 @@ WALL_MUTANTS = (
         "discovery/wall_model/search.py",
         f"{WALL}/test_search.py",
         ("effects fitted from the baseline alone", "best[:REFITTED]", "best[:0]"),
-        (
-            "any gain of a region named",
-            "REGIONAL_RULES = Rules(detected=10.0)",
-            "REGIONAL_RULES = Rules(detected=-50.0)",
-        ),
+        ("any gain named", "RULES = STRICT_RULES", "RULES = type(STRICT_RULES)(detected=-50.0)"),
+        ("fit without slopes given up", "(x + start) / 2.0)", "start)"),
     ),
     *changes(
         "discovery/inference/data.py",
