@@ -19,8 +19,9 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.geometry.mesher import fill_wall
 from heartfit.heart.activation.conduction import assign_activation
 from heartfit.io.configuration import read_cases, read_study
+from heartfit.io.figures import write_figure
 from heartfit.io.files import write_text
-from heartfit.io.tables import read_published, write_figure
+from heartfit.io.tables import read_published
 from heartfit.observation.beat import observe_beats
 from heartfit.observation.operator import CurveFeatures
 from heartfit.personalise.run import run_beat

@@ -26,9 +26,10 @@ from benchmarks.ventricles import ROOT
 from heartfit.heart.beat import Beat
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.io.configuration import read_cases, read_study
+from heartfit.io.figures import write_figure
 from heartfit.io.files import write_text
 from heartfit.io.meshes import read_prepared_mesh
-from heartfit.io.tables import read_published, write_figure
+from heartfit.io.tables import read_published
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
 from heartfit.observation.filling import volume_indices

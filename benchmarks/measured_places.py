@@ -27,8 +27,8 @@ from heartfit.discovery.sphere_model.shown_place import ShownPlace
 from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.io.beats import read_beat
 from heartfit.io.configuration import read_cases, read_study
+from heartfit.io.figures import write_figure
 from heartfit.io.refits import read_measured_case
-from heartfit.io.tables import write_figure
 from heartfit.mechanisms.left_atrium import LeftAtrium
 from heartfit.observation.beat import beat_curves
 from heartfit.places import AtrialPressure

@@ -20,10 +20,10 @@ from heartfit.discovery.wall_model.territory import probability_of_segments
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.heart.heart import Heart
 from heartfit.io.configuration import read_study
+from heartfit.io.figures import write_figure
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.refits import read_measured_case
 from heartfit.io.regional_noise import read_regional_noise
-from heartfit.io.tables import write_figure
 from heartfit.mechanisms.mitral_dynamics import MitralDynamics
 from heartfit.mechanisms.relaxed_friction import RelaxedFriction
 from heartfit.results.bullseye import plot_bullseye

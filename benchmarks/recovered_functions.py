@@ -14,7 +14,7 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.beat import Beat
-from heartfit.io.tables import write_figure
+from heartfit.io.figures import write_figure
 from heartfit.mechanisms.arterial_reflection import ArterialReflection
 from heartfit.observation.beat import beat_curves
 from heartfit.places import PLACES, regions_of

@@ -27,7 +27,7 @@ from heartfit.discovery.wall_model.territory import (
 )
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.geometry.territory import APEX
-from heartfit.io.tables import write_figure
+from heartfit.io.figures import write_figure
 from heartfit.results.bullseye import plot_bullseye
 from heartfit.results.wall_search import WallResult, WallTrial, hearts_table, rates_table
 from heartfit.roles import registered

@@ -34,6 +34,7 @@ PAGES = {
             "derivatives",
             "deviations",
             "discovery_in_3d",
+            "growth",
             "measured_heart",
             "mutations",
             "other_worlds",

@@ -8,14 +8,13 @@ import pytest
 from matplotlib.figure import Figure
 
 from heartfit.core.errors import InputError
+from heartfit.io.figures import write_figure, write_figures
 from heartfit.io.tables import (
     read_claims,
     read_numbers,
     read_published,
     read_shape,
     write_csv,
-    write_figure,
-    write_figures,
     write_table,
     write_tables,
 )

@@ -10,7 +10,7 @@ from PIL import Image
 from heartfit.core.errors import InputError
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import Motion, VentricularMesh
-from heartfit.io.tables import write_animation
+from heartfit.io.figures import write_animation
 from heartfit.results.contours import animate_contours, plot_contours
 from heartfit.results.overlay import Overlay
 from tests.results.imaged_beat import FRAMES, PERIOD, SYSTOLE, beating, images

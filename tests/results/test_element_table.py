@@ -3,7 +3,7 @@
 import numpy as np
 
 from heartfit.discovery.sphere_model.cause import Gain
-from heartfit.io.tables import write_figure
+from heartfit.io.figures import write_figure
 from heartfit.observation.curve import Curve
 from heartfit.results.element import element_table, plot_element
 from heartfit.synthetic.element import CompetingModel

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.io.tables import write_figure
+from heartfit.io.figures import write_figure
 from heartfit.observation.curve import Curve
 from heartfit.observation.noise_model import NoiseModel, Share
 from heartfit.observation.operator import Pair, Reading

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from heartfit.discovery.sphere_model.cause import Cause
-from heartfit.io.tables import write_figure
+from heartfit.io.figures import write_figure
 from heartfit.results.planted_figures import plot_confusion, plot_power, plot_rates
 from heartfit.results.planted_page import (
     compare_data,

@@ -1,7 +1,7 @@
 """Verdicts on effects hidden in three dimensions, printed and drawn."""
 
 from heartfit.discovery.sphere_model.cause import Cause
-from heartfit.io.tables import write_figure
+from heartfit.io.figures import write_figure
 from heartfit.results.planted_figures import plot_ventricles
 from heartfit.results.planted_page import ventricles_page, ventricles_rates
 from heartfit.synthetic.campaign import Effect

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from heartfit.core.errors import InputError
-from heartfit.io.tables import write_figure
+from heartfit.io.figures import write_figure
 from heartfit.observation.comparison import Comparison
 from heartfit.observation.curve import Curve
 from heartfit.observation.operator import Pair, Reading, VolumeFeatures

@@ -10,7 +10,7 @@ from heartfit.calibration.plausible import End, Plausible, PlausibleRange
 from heartfit.calibration.sensitivity import Sensitivity
 from heartfit.calibration.sobol import SobolIndices
 from heartfit.heart.heart import PAPER_PARAMETERS
-from heartfit.io.tables import write_figure
+from heartfit.io.figures import write_figure
 from heartfit.observation.curve import Curve
 from heartfit.results.figures import plot_perturbations
 from heartfit.results.parameters import prior_table

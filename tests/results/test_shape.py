@@ -12,12 +12,12 @@ from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.beat import failed_beat
 from heartfit.io.tables import read_shape, write_csv
 from heartfit.observation.shape import Shape
-from heartfit.results.motion import (
+from heartfit.results.case_figures import plot_shape
+from heartfit.results.shape import (
     COLUMNS,
     VOLUME_COLUMNS,
     beat_shape_table,
     end_systole_table,
-    plot_shape,
     shape_table,
 )
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.io.tables import write_figure
+from heartfit.io.figures import write_figure
 from heartfit.results.race import plot_race, plot_sphere_coverage, race_table, sphere_coverage_table
 from heartfit.synthetic.race import Coverage, MethodScore
 

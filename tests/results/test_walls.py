@@ -8,7 +8,8 @@ import pytest
 
 from heartfit.io.tables import read_shape, write_csv
 from heartfit.observation.strain import WallMotion, septal_flash
-from heartfit.results.motion import COLUMNS, flash_table, plot_walls, walls_by_case, walls_table
+from heartfit.results.septal_flash import flash_table, plot_walls, walls_by_case
+from heartfit.results.shape import COLUMNS, walls_table
 
 TIMES = 0.01 * np.arange(80)
 WAVE = np.sin(np.pi * np.clip(TIMES / 0.4, 0.0, 1.0))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.io.tables import write_figure
+from heartfit.io.figures import write_figure
 from heartfit.observation.comparison import Comparison, compare_motions
 from heartfit.observation.operator import VolumeFeatures
 from heartfit.results.warped_cine import plot_warped, warped_table

@@ -1,14 +1,18 @@
 """Forecasts multiply measured costs by numbers of units."""
 
+import pytest
+
 from heartfit.study.forecast import (
     Footprint,
     Subjects,
+    chain_seconds,
     footprints,
     forecast,
     forecast_page,
     part_per_subject,
     total_of,
     unit_of,
+    wall_seconds,
 )
 from heartfit.study.need import Need
 from tests.printed import numbers_in, rows_of
@@ -44,6 +48,17 @@ def test_a_subject_adds_all_parts_except_those_of_the_study():
     parts = forecast(ROWS, PRINTS, SUBJECTS)
     assert total_of(parts).jobs == 5 + 100 * part_per_subject(parts, SUBJECTS).jobs
     assert part_per_subject(parts, SUBJECTS).jobs == 1 + 2.5 + 18
+
+
+def test_a_chain_has_one_job_of_each_kind_and_none_on_request():
+    assert chain_seconds(ROWS, "virtual") == 30.0 + 5.0 + 2.0 + 1.0 + 4.0 + 6.0
+    assert chain_seconds(ROWS, "measured") == 30.0 + 5.0 + 28.0
+
+
+def test_the_time_on_many_cpus_ends_at_the_chain():
+    assert wall_seconds(1000.0, 48.0, 1) == 1000.0
+    assert wall_seconds(1000.0, 48.0, 2) == 500.0 + 24.0
+    assert wall_seconds(1000.0, 48.0, 10**6) == pytest.approx(48.0, rel=1e-4)
 
 
 def test_the_page_states_total_and_days():

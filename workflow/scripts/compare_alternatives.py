@@ -3,8 +3,9 @@
 from itertools import repeat
 from pathlib import Path
 
+from heartfit.io.figures import write_figure
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure, write_table
+from heartfit.io.tables import write_table
 from heartfit.results.race import plot_race, race_table
 from heartfit.results.text import render_table
 from heartfit.synthetic.race import compare_on_spheres

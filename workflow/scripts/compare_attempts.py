@@ -3,9 +3,10 @@
 from itertools import repeat
 from pathlib import Path
 
+from heartfit.io.figures import write_figure
 from heartfit.io.refits import read_attempt
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure, write_table
+from heartfit.io.tables import write_table
 from heartfit.results.attempts import attempts_table, plot_attempts
 from heartfit.results.text import render_table
 

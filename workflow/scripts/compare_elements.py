@@ -5,9 +5,10 @@ from pathlib import Path
 
 from heartfit.discovery.refit.model import Model
 from heartfit.heart.heart import Heart
+from heartfit.io.figures import write_figure
 from heartfit.io.meshes import read_mesh
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure, write_table
+from heartfit.io.tables import write_table
 from heartfit.results.element import element_table, plot_element
 from heartfit.results.text import render_table
 from heartfit.synthetic.element import compare_extensions, competing_extensions, hidden_case

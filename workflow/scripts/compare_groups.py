@@ -2,9 +2,10 @@
 
 from pathlib import Path
 
+from heartfit.io.figures import write_figures
 from heartfit.io.results import read_posterior, read_truth
 from heartfit.io.run import record
-from heartfit.io.tables import read_published, write_figures, write_tables
+from heartfit.io.tables import read_published, write_tables
 from heartfit.results.card import cards
 from heartfit.results.claims import claimed_limits
 from heartfit.results.specificity import compare_groups

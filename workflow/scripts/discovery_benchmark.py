@@ -3,11 +3,12 @@
 from pathlib import Path
 
 from heartfit.discovery.inference.decide import DEFAULT_RULES
+from heartfit.io.figures import write_figure
 from heartfit.io.files import write_text
 from heartfit.io.results import read_fingerprint
 from heartfit.io.run import record
 from heartfit.io.scores import read_scored
-from heartfit.io.tables import write_figure, write_tables
+from heartfit.io.tables import write_tables
 from heartfit.results.planted_figures import plot_confusion, plot_power, plot_rates
 from heartfit.results.planted_page import planted_page, planted_tables
 from heartfit.results.text import render_tables

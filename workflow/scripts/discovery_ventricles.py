@@ -3,10 +3,11 @@
 from pathlib import Path
 
 from heartfit.discovery.inference.decide import CENTRED_RULES
+from heartfit.io.figures import write_figure
 from heartfit.io.files import write_text
 from heartfit.io.run import record
 from heartfit.io.scores import read_scored
-from heartfit.io.tables import write_figure, write_tables
+from heartfit.io.tables import write_tables
 from heartfit.results.planted_figures import plot_ventricles
 from heartfit.results.planted_page import ventricles_page, ventricles_rates
 from heartfit.results.planted_table import cases_table, mechanisms_table

@@ -4,9 +4,10 @@ intervals.
 
 from pathlib import Path
 
+from heartfit.io.figures import write_figures
 from heartfit.io.results import read_posterior, read_truth
 from heartfit.io.run import record
-from heartfit.io.tables import write_figures, write_tables
+from heartfit.io.tables import write_tables
 from heartfit.results.card import cards, cards_table, coverage_table
 from heartfit.results.card_figure import plot_cards
 from heartfit.results.text import render_tables

@@ -3,9 +3,9 @@
 from itertools import repeat
 from pathlib import Path
 
+from heartfit.io.figures import write_figure
 from heartfit.io.meshes import read_mesh
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure
 from heartfit.results.activation import plot_activation
 
 record(snakemake.log[0])

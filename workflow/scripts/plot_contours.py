@@ -3,10 +3,10 @@
 from itertools import repeat
 from pathlib import Path
 
+from heartfit.io.figures import write_animation, write_figure
 from heartfit.io.images import read_images
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.run import record
-from heartfit.io.tables import write_animation, write_figure
 from heartfit.results.contours import animate_contours, plot_contours
 
 record(snakemake.log[0])

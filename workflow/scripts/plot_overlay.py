@@ -3,10 +3,10 @@
 from itertools import repeat
 from pathlib import Path
 
+from heartfit.io.figures import write_figure
 from heartfit.io.images import read_images
 from heartfit.io.meshes import read_mesh, read_motion, read_simulated_motion
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure
 from heartfit.results.overlay import plot_overlay
 
 record(snakemake.log[0])

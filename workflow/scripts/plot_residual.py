@@ -5,10 +5,11 @@ from pathlib import Path
 
 from heartfit.io.beats import read_fitted_curves
 from heartfit.io.curves import read_curves
+from heartfit.io.figures import write_figure
 from heartfit.io.meshes import read_mesh, read_motion, read_simulated_motion
 from heartfit.io.noise_models import read_comparison, read_noise_model
 from heartfit.io.run import record
-from heartfit.io.tables import write_csv, write_figure
+from heartfit.io.tables import write_csv
 from heartfit.observation.residual import case_residual, strain_residual
 from heartfit.results.residual import LABELS, plot_residual, residual_table
 

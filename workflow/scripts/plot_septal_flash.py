@@ -3,11 +3,12 @@
 from itertools import repeat
 from pathlib import Path
 
+from heartfit.io.figures import write_figure
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.run import record
-from heartfit.io.tables import read_shape, write_figure, write_table
+from heartfit.io.tables import read_shape, write_table
 from heartfit.observation.strain import wall_motion
-from heartfit.results.motion import flash_table, plot_walls, walls_by_case
+from heartfit.results.septal_flash import flash_table, plot_walls, walls_by_case
 from heartfit.results.text import render_table
 
 record(snakemake.log[0])

@@ -3,10 +3,11 @@
 from itertools import repeat
 from pathlib import Path
 
+from heartfit.io.figures import write_figure
 from heartfit.io.noise_models import read_sobol
 from heartfit.io.results import read_sensitivity
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure, write_table
+from heartfit.io.tables import write_table
 from heartfit.results.sensitivity import plot_sobol, sobol_table
 from heartfit.results.text import render_table
 

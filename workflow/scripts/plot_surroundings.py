@@ -4,9 +4,10 @@ from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.beats import read_beat
+from heartfit.io.figures import write_figure
 from heartfit.io.results import read_sensitivity, read_sigma_points
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure, write_table
+from heartfit.io.tables import write_table
 from heartfit.personalise.run import curves_of_points
 from heartfit.results.figures import plot_perturbations
 from heartfit.results.sensitivity import plot_sensitivities, sensitivity_table

@@ -8,7 +8,7 @@ from heartfit.io.results import read_posterior
 from heartfit.io.run import record
 from heartfit.io.tables import write_csv
 from heartfit.personalise.run import run_beat
-from heartfit.results.motion import beat_shape_table
+from heartfit.results.shape import beat_shape_table
 
 record(snakemake.log[0])
 mesh = read_mesh(Path(snakemake.input.mesh))

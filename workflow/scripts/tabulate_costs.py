@@ -3,8 +3,9 @@
 from pathlib import Path
 
 from heartfit.io.campaign import read_benchmarks
+from heartfit.io.figures import write_figures
 from heartfit.io.run import record
-from heartfit.io.tables import write_figures, write_tables
+from heartfit.io.tables import write_tables
 from heartfit.results.costs import cost_table, plot_costs
 from heartfit.results.text import render_tables
 

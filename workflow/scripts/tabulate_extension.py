@@ -4,9 +4,10 @@ from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.causes import read_diagnosis
+from heartfit.io.figures import write_figure
 from heartfit.io.refits import read_left_volume
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure, write_table
+from heartfit.io.tables import write_table
 from heartfit.results.extension import extension_table, plot_extension
 from heartfit.results.text import render_table
 

@@ -4,9 +4,10 @@ from itertools import repeat
 from operator import attrgetter
 from pathlib import Path
 
+from heartfit.io.figures import write_figure
 from heartfit.io.noise_models import read_comparison, read_noise_model, read_sensors
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure, write_table
+from heartfit.io.tables import write_table
 from heartfit.observation.noise_model import coverage, leave_one_out_coverage
 from heartfit.results.noise_model import noise_model_table, plot_noise_model, sensor_table
 from heartfit.results.text import render_table

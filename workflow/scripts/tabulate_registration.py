@@ -3,9 +3,10 @@
 from itertools import repeat
 from pathlib import Path
 
+from heartfit.io.figures import write_figure
 from heartfit.io.noise_models import read_comparison
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure, write_table
+from heartfit.io.tables import write_table
 from heartfit.results.acquisitions import Acquisitions
 from heartfit.results.registration import plot_registration, registration_table, segment_table
 from heartfit.results.text import render_table

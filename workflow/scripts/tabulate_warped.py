@@ -4,11 +4,12 @@ from itertools import repeat
 from operator import attrgetter
 from pathlib import Path
 
+from heartfit.io.figures import write_figure
 from heartfit.io.images import read_images
 from heartfit.io.meshes import read_mesh, read_motion
 from heartfit.io.noise_models import read_comparison
 from heartfit.io.run import record
-from heartfit.io.tables import write_figure, write_table
+from heartfit.io.tables import write_table
 from heartfit.results.text import render_table
 from heartfit.results.warped_cine import plot_warped, warped_table
 

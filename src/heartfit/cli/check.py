@@ -77,7 +77,7 @@ def _draw(inspection: "Inspection", problems: list[str]) -> list[str]:
 
 def _picture(subject: "Subject", file: Path) -> list[str]:
     from heartfit.geometry.mesher import MeshingError
-    from heartfit.io.tables import write_figure
+    from heartfit.io.figures import write_figure
     from heartfit.results.understood import plot_imported_case
 
     try:

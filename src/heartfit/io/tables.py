@@ -1,14 +1,12 @@
-"""Tables, figures and animations written; tables of a study and published tables read."""
+"""Tables written; tables of a study and published tables read."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
-from matplotlib.animation import FuncAnimation
-from matplotlib.figure import Figure
 
 from heartfit.core.errors import InputError
-from heartfit.io.files import replacing, write_text
+from heartfit.io.files import write_text
 from heartfit.io.fingerprint import made_by
 from heartfit.results.text import RenderedTable
 
@@ -49,13 +47,6 @@ def _write(path: Path, text: str) -> None:
     write_text(path, COMMENTS[Path(path).suffix].format(text=text, comment=f"made by {made_by()}"))
 
 
-def write_figures(folder: Path, figures: Mapping[str, Figure]) -> None:
-    """Write each figure by its name as PNG and PDF."""
-    for name, figure in figures.items():
-        for suffix in ("png", "pdf"):
-            write_figure(Path(folder, f"{name}.{suffix}"), figure)
-
-
 def read_numbers(path: Path) -> pd.DataFrame:
     """Read the numbers of a study, values as text; raises InputError for a missing file."""
     if not Path(path).is_file():
@@ -89,28 +80,3 @@ def read_shape(path: Path) -> pd.DataFrame:
             f"{path}: no such file; expected the shape of a calibrated motion: simulate it first"
         )
     return pd.read_csv(path, comment="#")
-
-
-def write_figure(path: Path, figure: Figure) -> None:
-    """Write in the format of the suffix (png, pdf, svg), without a date, so that equal figures have equal bytes.
-
-    The layout that the first format computes is kept for the next one.
-    """
-    date = {"png": "Software", "pdf": "CreationDate", "svg": "Date"}.get(Path(path).suffix[1:])
-    with replacing(path) as draft:
-        figure.savefig(draft, dpi=200, metadata={date: None} if date else None)
-    figure.set_layout_engine("none")
-
-
-ANIMATION_SUFFIXES = (".gif", ".png")
-
-
-def write_animation(path: Path, animation: FuncAnimation) -> None:
-    """Write an animated GIF, or PNG in full colour; raises ValueError for another suffix.
-
-    The delays of a GIF are whole hundredths of a second.
-    """
-    if Path(path).suffix not in ANIMATION_SUFFIXES:
-        raise ValueError(f"{path}: animations are written as {', '.join(ANIMATION_SUFFIXES)}")
-    with replacing(path) as draft:
-        animation.save(draft, writer="pillow")

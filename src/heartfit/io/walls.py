@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from heartfit.io.figures import write_figure
 from heartfit.io.files import write_text
 from heartfit.io.results import read_record, write_result
-from heartfit.io.tables import write_figure
 from heartfit.results.wall_card import RenderedWall
 from heartfit.results.wall_summary import WallSummary
 

@@ -22,6 +22,23 @@ SURFACE_NAMES = {"lv_endo": "LV endocardium", "rv_endo": "RV endocardium", "epi"
 SQUARE_CENTIMETRE, MILLIMETRE, MILLILITRE = 1e-4, 1e-3, 1e-6
 
 
+def cine_tables(cine: CineComparison, case: str) -> dict[str, pd.DataFrame]:
+    """Return the tables of the outlines, of points of the wall and of volumes, by name."""
+    return {
+        f"{case}_cine_outlines": outline_table(cine),
+        f"{case}_cine_wall": wall_table(cine),
+        f"{case}_cine_volume": short_axis_volume_table(cine.volumes),
+    }
+
+
+def cine_figures(images: ImageSequence, cine: CineComparison, case: str) -> dict[str, Figure]:
+    """Plot the outlines over the images, and the volumes, by name."""
+    return {
+        f"{case}_cine_outlines": plot_outlines(images, cine, case),
+        f"{case}_cine_volume": plot_volumes(cine.volumes, case),
+    }
+
+
 def outline_table(cine: CineComparison) -> pd.DataFrame:
     """Return one row per outline and slice with a closed measured outline; slices above the valves have none.
 

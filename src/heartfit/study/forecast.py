@@ -112,6 +112,24 @@ def total_of(parts: Sequence[Part]) -> Part:
     return Part("all", *sums)
 
 
+def chain_seconds(rows: Sequence[Need], kind: str) -> float:
+    """Return the time [s] of one job of each kind in turn: no chain of dependent jobs of a study is longer.
+
+    A second iteration of a setting has a chain of its own and is not counted.
+    """
+    return sum(row.typical_s for row in rows if row.usual and row.kind in ("", kind))
+
+
+def wall_seconds(seconds: float, chain: float, cpus: int) -> float:
+    """Return the longest time [s] on ``cpus`` CPUs, none of which waits while a job is ready.
+
+    .. math:: t = T / m + (1 - 1 / m) c
+
+    with the time T of all jobs on m CPUs and the longest chain c. Source: Graham, SIAM J. Appl. Math. 17 (1969) 416.
+    """
+    return seconds / cpus + (1.0 - 1.0 / cpus) * chain
+
+
 def part_per_subject(parts: Sequence[Part], subjects: Subjects) -> Part:
     """Return the cost that one subject adds."""
     marginal = total_of([part for part in parts if part.per != "study"])
