@@ -83,6 +83,13 @@ def test_the_tangent_at_fixed_loaded_positions_is_exact_but_for_the_supports(
     assert_derivative(residual, tangent @ direction, x.ravel(), direction)
 
 
+def test_a_residual_that_overflows_is_infinite(coarse_body: FiniteElementBody) -> None:
+    """A stiff wall at a long step throws iterates this far; they end in a failed step, not in a warning."""
+    step, x = coarse_body.static_step(coarse_body.rest()), coarse_body.rest().x
+    assert step.size(np.full(x.size, 1e200)) == np.inf
+    assert step.size(np.zeros(x.size)) == 0.0
+
+
 def test_without_pressure_unloading_changes_no_node(ventricle: VentricularMesh) -> None:
     assert unload(ventricle, Tissue(), np.zeros(2)).points == pytest.approx(ventricle.points, abs=1e-9)
 

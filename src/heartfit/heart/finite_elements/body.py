@@ -258,11 +258,14 @@ class Step:
         return BodyState(x.copy(), fibres, self._C.copy(), self._fibre[0].copy(), self.state.x, self.state.C)
 
     def size(self, residual: Floats) -> float:
-        """Norm of a residual [N]; wall-volume equations are weighted by shear modulus over length."""
+        """Norm of a residual [N], infinite where it overflows.
+
+        Wall-volume equations are weighted by shear modulus over length.
+        """
         rows = residual.reshape(-1, self.body.element.dofs)
-        force = float(np.linalg.norm(rows[:, :3]))
         weight = self.body.tissue.passive.shear_modulus / 5e-3
-        return force + weight * float(np.linalg.norm(rows[:, 3:]))
+        with np.errstate(over="ignore"):
+            return float(np.linalg.norm(rows[:, :3]) + weight * np.linalg.norm(rows[:, 3:]))
 
     def weights(self, x: Floats) -> Floats:
         """Weights (n, dofs) under which displacements of 1 mm and wall pressures of 10 kPa count alike."""
