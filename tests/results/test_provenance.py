@@ -65,6 +65,15 @@ def test_every_cell_with_a_number_is_there_once(numbers):
     assert numbers["run"].notna().all()
 
 
+def test_marks_of_numbers_are_not_among_them(numbers):
+    """Marks come and go with the last digits; tables of one study would have other rows on another processor."""
+    marked = {
+        name: table.assign(**{"below noise": "V_min", "long steps": "K -3.0"})
+        for name, table in TABLES.items()
+    }
+    pd.testing.assert_frame_equal(numbers_table(marked, CASES, ORIGIN), numbers)
+
+
 def test_a_number_of_a_case_knows_its_run_parameters_seed_and_code(numbers):
     row = numbers[(numbers["case"] == "v1") & (numbers["quantity"] == "V_min")].iloc[0]
     assert (row["value"], row["unit"], row["seed"], row["period (s)"]) == (1.5, "%", 1, 0.8)

@@ -8,7 +8,8 @@ import pandas as pd
 
 from heartfit.core.errors import InputError
 from heartfit.results.case import CaseResult, Origin, require_one_fingerprint
-from heartfit.results.errors import PAPER
+from heartfit.results.errors import BELOW_NOISE, PAPER
+from heartfit.results.text import LONG_STEPS
 
 ROW_KEY = ["table", "setting", "case", "quantity"]
 ROW_VALUE = ["value", "unit", "fingerprint"]
@@ -70,7 +71,8 @@ def summarise_cohort(numbers: pd.DataFrame) -> pd.DataFrame:
     return statistics.reset_index()
 
 
-CELL_KEYS = ("setting", "case", "quantity", "unit")
+NO_NUMBERS = ("setting", "case", "quantity", "unit", BELOW_NOISE, LONG_STEPS)
+"""Columns of keys, and of marks that say something about the numbers beside them."""
 PUBLISHED = {
     "table1": "table1.csv",
     "table2": "table2.csv",
@@ -83,7 +85,7 @@ PUBLISHED = {
 def numbers_table(
     tables: Mapping[str, pd.DataFrame], cases: Sequence[CaseResult], origin: Origin
 ) -> pd.DataFrame:
-    """Return one row per non-empty cell of the tables, which are given by name.
+    """Return one row per number of the tables, which are given by name; marks of numbers are left out.
 
     quantity and unit are those of the column heading, after the quantity of the row if it has one; run is the result
     behind the number, for a mean those of its cases in braces; parameters (SI), seed, period and fingerprint are those
@@ -98,7 +100,7 @@ def numbers_table(
 def _cells(name: str, table: pd.DataFrame) -> Iterable[dict[str, Any]]:
     for row in table.to_dict("records"):
         for column, value in row.items():
-            if column not in CELL_KEYS and value != "" and not pd.isna(value):
+            if column not in NO_NUMBERS and value != "" and not pd.isna(value):
                 quantity, unit = _heading(str(column), row)
                 key = {"setting": row["setting"], "case": row["case"], "quantity": quantity}
                 yield {"table": name, **key, "value": value, "unit": unit}
