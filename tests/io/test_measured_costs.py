@@ -44,6 +44,22 @@ def test_sums_are_files_of_what_they_are_sums_of(tmp_path):
     assert counts["point", "measured"] == 2.0
 
 
+def test_files_of_another_study_within_the_folder_do_not_count(tmp_path):
+    results = study(tmp_path, heart1__build_mesh=5.0)
+    beat = (
+        study(tmp_path / "other", heart2__build_mesh=5.0)
+        / "heart2"
+        / "paper"
+        / "calibration"
+        / "beats"
+        / "0.json"
+    )
+    beat.parent.mkdir(parents=True)
+    beat.write_text("{}")
+    counts = {(footprint.per, footprint.kind): footprint.files for footprint in measured_footprints(results)}
+    assert counts == {("case", "measured"): 1.0}
+
+
 def test_a_table_is_read_as_it_was_written(tmp_path):
     rows = [Need("build_mesh", "case", "virtual", 9, 1.0, 2.33, 3.78, 208.7)]
     (tmp_path / "costs.tsv").write_text(as_table(Need, rows))

@@ -46,8 +46,9 @@ NEEDS, FOOTPRINTS = "costs.tsv", "footprints.tsv"
 
 def write_costs(folder: Path, results: Sequence[Path]) -> None:
     """Write the needs of jobs of several studies, and the footprint of the files of the first study."""
-    write_text(folder / NEEDS, as_table(Need, measured_needs(results)))
-    write_text(folder / FOOTPRINTS, as_table(Footprint, measured_footprints(results[0])))
+    jobs, files = measured_needs(results), measured_footprints(results[0])
+    write_text(folder / NEEDS, as_table(Need, jobs))
+    write_text(folder / FOOTPRINTS, as_table(Footprint, files))
 
 
 def measured_needs(results: Sequence[Path]) -> list[Need]:
@@ -60,7 +61,8 @@ def measured_needs(results: Sequence[Path]) -> list[Need]:
 
 
 def measured_footprints(results: Path) -> list[Footprint]:
-    """Number and size of the files of a study, by kind."""
+    """Number and size of the files of a study, by kind; without those of other studies within its folder."""
+    others = {benchmarks.parent for benchmarks in results.glob("*/benchmarks")}
     costs = read_benchmarks(results / "benchmarks")
     virtual = virtual_cases(costs)
     cases = {cost.job.split("/")[0] for cost in costs if "/" in cost.job} - {*SHARED}
@@ -69,7 +71,7 @@ def measured_footprints(results: Path) -> list[Footprint]:
     sizes = [
         (file.relative_to(results).as_posix(), file.stat().st_size)
         for file in sorted(results.rglob("*"))
-        if file.is_file()
+        if file.is_file() and others.isdisjoint(file.parents)
     ]
     return footprints(sizes, kinds, settings)
 
