@@ -107,8 +107,9 @@ def _error(trial: WallTrial, result: WallResult) -> str:
     return f"{np.rad2deg(np.abs(np.angle(np.exp(1j * (result.angle - trial.angle))))):.0f}"
 
 
-def rates_table(hearts: pd.DataFrame) -> pd.DataFrame:
-    """Return the rates beside their targets, of the rows of hearts as text."""
+def rates_table(hearts: pd.DataFrame, fresh: pd.DataFrame) -> pd.DataFrame:
+    """Return the rates beside their targets, of the rows of hearts as text; fresh: sound ones that chose nothing."""
+    fresh = fresh.reindex(columns=hearts.columns)
     sound = hearts[hearts["hidden"] == SOUND]
     hidden = hearts[hearts["hidden"] != SOUND]
     scars = hidden[hidden["hidden"] == "scar"]
@@ -120,11 +121,17 @@ def rates_table(hearts: pd.DataFrame) -> pd.DataFrame:
             "at most 2 %",
             _named(sound, PRESSURE) & _is_detected(sound, PRESSURE),
         ),
+        ("the same in fresh hearts", "at most 2 %", _named(fresh, PRESSURE)),
         ("the same by images alone", "at most 2 %", _named(_searched(sound, IMAGES), IMAGES)),
         (
             "hearts without an effect whose verdict is unknown",
             "",
             sound[_column(PRESSURE, VERDICT)] == "unknown",
+        ),
+        (
+            "the same in fresh hearts",
+            "",
+            fresh[_column(PRESSURE, VERDICT)] == "unknown",
         ),
         ("scars of 2 scales that are seen", "80 %", _seen(scars, PRESSURE)),
         ("the same by images alone", "80 %", _seen(scars, IMAGES)),
