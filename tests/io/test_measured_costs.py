@@ -46,14 +46,8 @@ def test_sums_are_files_of_what_they_are_sums_of(tmp_path):
 
 def test_files_of_another_study_within_the_folder_do_not_count(tmp_path):
     results = study(tmp_path, heart1__build_mesh=5.0)
-    beat = (
-        study(tmp_path / "other", heart2__build_mesh=5.0)
-        / "heart2"
-        / "paper"
-        / "calibration"
-        / "beats"
-        / "0.json"
-    )
+    other = study(tmp_path / "other", heart2__build_mesh=5.0)
+    beat = other / "heart2" / "paper" / "calibration" / "beats" / "0.json"
     beat.parent.mkdir(parents=True)
     beat.write_text("{}")
     counts = {(footprint.per, footprint.kind): footprint.files for footprint in measured_footprints(results)}

@@ -123,16 +123,8 @@ def rates_table(hearts: pd.DataFrame, fresh: pd.DataFrame) -> pd.DataFrame:
         ),
         ("the same in fresh hearts", "at most 2 %", _named(fresh, PRESSURE)),
         ("the same by images alone", "at most 2 %", _named(_searched(sound, IMAGES), IMAGES)),
-        (
-            "hearts without an effect whose verdict is unknown",
-            "",
-            sound[_column(PRESSURE, VERDICT)] == "unknown",
-        ),
-        (
-            "the same in fresh hearts",
-            "",
-            fresh[_column(PRESSURE, VERDICT)] == "unknown",
-        ),
+        ("hearts without an effect whose verdict is unknown", "", _is_unknown(sound)),
+        ("the same in fresh hearts", "", _is_unknown(fresh)),
         ("scars of 2 scales that are seen", "80 %", _seen(scars, PRESSURE)),
         ("the same by images alone", "80 %", _seen(scars, IMAGES)),
         ("scars that the sphere names", "", scars["on the sphere"] == "scar"),
@@ -165,6 +157,10 @@ def _is_detected(hearts: pd.DataFrame, search: str, name: str = GAIN) -> pd.Seri
 
 def _named(hearts: pd.DataFrame, search: str) -> pd.Series:
     return hearts[_column(search, VERDICT)].isin(NAMING_VERDICTS)
+
+
+def _is_unknown(hearts: pd.DataFrame) -> pd.Series:
+    return hearts[_column(PRESSURE, VERDICT)] == "unknown"
 
 
 def _seen(hearts: pd.DataFrame, search: str) -> pd.Series:
