@@ -59,7 +59,8 @@ def test_every_page_is_in_the_index_once():
 def commands_of_study(text):
     """Commands of study.py that start a line of a text, `run` where none is named."""
     return {
-        command or "run" for command in re.findall(r"^(?:step )?python3 study\.py ?(\w*)", text, re.MULTILINE)
+        command or "run"
+        for command in re.findall(r"^ *(?:step )?python3 study\.py ?(\w*)", text, re.MULTILINE)
     }
 
 

@@ -27,6 +27,7 @@ def searched(monkeypatch):
     return recordings
 
 
+@pytest.mark.long
 def test_less_and_more_data_are_searched_where_there_are_more(searched):
     diagnosis = diagnose_by_data(recorded(OFFSET), {"legs_raised": recorded(OFFSET, "legs_raised")})
     curves = [len(recording.curves) for recording in searched]

@@ -58,7 +58,11 @@ def cycle(heart: Heart, steps: int) -> list[HeartState]:
     return histories[-1]
 
 
-@pytest.mark.parametrize("heart", [OPEN, CLOSED, LEAKING], ids=["open", "closed", "leaking"])
+@pytest.mark.parametrize(
+    "heart",
+    [OPEN, CLOSED, pytest.param(LEAKING, marks=pytest.mark.long)],
+    ids=["open", "closed", "leaking"],
+)
 def test_the_work_of_the_walls_is_lost_in_the_circuit(heart: Heart) -> None:
     """The remainder is the error in time, of second order in the step: 0.54, 0.15 and 0.04 % measured."""
     audits = [audit_circuit(heart, cycle(heart, steps)) for steps in (100, 400)]

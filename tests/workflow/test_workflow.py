@@ -99,6 +99,7 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     ), "a deleted beat would go unnoticed"
 
 
+@pytest.mark.long
 def test_the_full_study_adds_comparisons_of_methods_and_changes_no_other_job(workflow, planned):
     run = workflow.snakemake("-n", "--configfile", "config/full.yaml")
     assert run.returncode == 0, run.stdout

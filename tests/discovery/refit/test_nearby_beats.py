@@ -63,6 +63,7 @@ def test_spheres_are_simulated_one_by_one(ventricle: VentricularMesh) -> None:
         nearby_beats(model.mesh, sphere, PERIOD, [{}], TANGENT, PRESSURES, SCHEME)
 
 
+@pytest.mark.long
 def test_a_failing_beat_is_found_one_by_one(ventricle: VentricularMesh) -> None:
     """Beats that no step of time can take are failed beats, not an error."""
     soft = Extension(setting("mixed"))

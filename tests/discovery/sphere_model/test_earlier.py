@@ -51,6 +51,7 @@ def error(problem: SphereProblem, curve: int) -> float:
     return float(np.sqrt(np.mean(left**2)))
 
 
+@pytest.mark.long
 def test_functions_fit_the_heart_of_another_simulator_to_its_noise(
     before: Recording, earlier: EarlierHeart
 ) -> None:
