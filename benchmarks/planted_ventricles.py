@@ -1,5 +1,6 @@
 """Planter of the study's hidden ventricles, and what a search in three dimensions starts from."""
 
+from dataclasses import replace
 from functools import cache
 
 from benchmarks.ventricles import ROOT
@@ -30,6 +31,12 @@ def ventricles() -> Ventricles:
     imaging = Imaging(study().scanner(), study().registration.free_form(), observed, hidden.mesh)
     protocol = planned.generator.protocol(study().end_diastolic_pressure)
     return Ventricles(hidden, study().cohort.heart, protocol, imaging)
+
+
+@cache
+def balanced_ventricles() -> Ventricles:
+    """Return the planter of hearts in which both sides pump the same volume, for searches that see both."""
+    return replace(ventricles(), balanced=True)
 
 
 def sphere_reference(imaged: ImagedBeat) -> Reference:

@@ -1,5 +1,6 @@
 """Effects hidden in three dimensions: planted from the seed, in a wall that the case passes on."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,12 +12,13 @@ from heartfit.heart.simulation import Numerics
 from heartfit.imaging.registration.track import FreeForm
 from heartfit.io.configuration import read_study
 from heartfit.personalise.numerics import Protocol
+from heartfit.roles.sides import right_excess
 from heartfit.synthetic import ventricles
 from heartfit.synthetic import ventricles as imaging
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.scanner import Scanner
 from heartfit.synthetic.ventricles import Imaging, Ventricles
-from heartfit.synthetic.volunteer import Template
+from heartfit.synthetic.volunteer import Template, generate
 
 CONFIG = Path(__file__).parents[2] / "config"
 COARSE = Numerics(time_step=0.02, max_beats=1, drift=1.0)
@@ -51,6 +53,21 @@ def test_a_leak_is_planted_in_the_heart_of_the_seed(hidden, sound):
     assert (effect.name, effect.scales) == ("MitralRegurgitation", 3.0)
     assert np.ptp(volumes(leaking)) > np.ptp(volumes(sound[1]))
     assert set(leaking.curves["rest"]) == {"lv_volume", "lv_pressure"}
+
+
+def test_both_sides_of_a_balanced_heart_pump_the_same_volume(hidden, monkeypatch):
+    beats = []
+
+    def observed(*arguments):
+        volunteer = generate(*arguments)
+        beats.append((volunteer.beat, arguments[1][0].mechanisms))
+        return volunteer
+
+    monkeypatch.setattr(ventricles, "generate", observed)
+    replace(hidden, balanced=True).plant(SOUND)
+    excess = [right_excess(beat.flow, mechanisms) * beat.period for beat, mechanisms in beats]
+    assert abs(excess[-1]) < 0.5e-6
+    assert abs(excess[0]) > 2e-6
 
 
 def test_the_volume_is_that_of_the_mesh_that_followed_the_images(sound):

@@ -13,7 +13,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import brentq
 
 from heartfit.heart.beat import Beat
 from heartfit.heart.sphere.body import Sphere
@@ -22,6 +21,7 @@ from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
 from heartfit.roles import Mechanism
 from heartfit.roles.sides import right_excess
+from heartfit.synthetic.balance import balancing_value
 from heartfit.synthetic.campaign import Inadmissible
 from heartfit.synthetic.hidden import (
     NUMERICS,
@@ -59,8 +59,8 @@ RIGHT_ROUGHNESS = 0.3
 """Model discrepancy of the right pressure over that of the left one."""
 DELAY = (0.020, 0.005)
 """Mean and standard deviation of the delay of the right wall [s]."""
-SIZE_RATIO, MOST_RATIOS, SIZE_TOLERANCE = 1.3, 4, 1e-4
-"""Ratio of sizes between which the balance is sought, their number, and the tolerance of the size, 0.01 mL."""
+SIZE_RATIO, SIZE_TOLERANCE = 1.3, 1e-4
+"""Ratio of sizes between which the balance is sought, and the tolerance of the size, 0.01 mL."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,18 +81,7 @@ class HiddenVentricles:
 
     def beat(self) -> Beat:
         """Simulate the beat at which both sides pump the same volume; raises Inadmissible where there is none."""
-        return self._beat(brentq(self._excess, *self._bracket(), xtol=SIZE_TOLERANCE))
-
-    def _bracket(self) -> tuple[float, float]:
-        """Neighbouring sizes of which one gives too small a right stroke and the other too large a one."""
-        size, excess = 1.0, self._excess(1.0)
-        ratio = SIZE_RATIO if excess < 0.0 else 1.0 / SIZE_RATIO
-        for _ in range(MOST_RATIOS):
-            following = self._excess(ratio * size)
-            if excess * following <= 0.0:
-                return size, ratio * size
-            size, excess = ratio * size, following
-        raise Inadmissible("no size of the right ventricle balances the sides")
+        return self._beat(balancing_value(self._excess, 1.0, SIZE_RATIO, SIZE_TOLERANCE))
 
     def _excess(self, size: float) -> float:
         """Volume that the right side pumps beyond the left one [m^3], its ventricle ``size`` times as large."""

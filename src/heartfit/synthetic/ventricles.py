@@ -26,6 +26,8 @@ from heartfit.observation.curve import Curve
 from heartfit.observation.shape import cavity_volumes
 from heartfit.personalise.numerics import Protocol
 from heartfit.roles import Sensor
+from heartfit.roles.sides import right_excess
+from heartfit.synthetic.balance import balancing_value
 from heartfit.synthetic.campaign import Inadmissible, PlantedPlan, effects_of
 from heartfit.synthetic.case import (
     REST,
@@ -111,17 +113,25 @@ def distort_motion(motion: Motion, sensors: Sequence[Sensor]) -> Motion:
     return replace(motion, positions=np.apply_along_axis(distort, 0, motion.positions)) if acting else motion
 
 
+RIGHT_ATRIUM = "circulation.right_atrium"
+PRESSURE_RATIO, PRESSURE_TOLERANCE = 1.5, 5.0
+"""Ratio of right atrial pressures between which the balance is sought, and their tolerance [Pa], 0.4 mL of a stroke."""
 DEVIATES = (*RELATIVE, *TIMES, "mitral resistance")
 
 
 @dataclass(frozen=True, eq=False)
 class Ventricles:
-    """Planter of cases in 3-D: template of the hidden meshes, nominal parameters, numerical protocol and imaging."""
+    """Planter of cases in 3-D: template of the hidden meshes, nominal parameters, numerical protocol and imaging.
+
+    balanced: the right atrial pressure is the one at which both sides pump the same volume. A search that sees both
+    sides takes a heart without balance for one with a leak.
+    """
 
     template: Template
     standard: Mapping[str, float]
     protocol: Protocol
     imaging: Imaging
+    balanced: bool = False
 
     def plant(self, plan: PlantedPlan) -> tuple[ImagedBeat, PlantedCase]:
         """Return the imaged beat on the diagnoser's mesh, and the case; implausible draws are repeated."""
@@ -140,7 +150,8 @@ class Ventricles:
         effects = draw_effects(plan, rng, sides=2)
         for effect in effects:
             heart = add_effect(heart, effect)
-        volunteer = self._simulate(self.template.deformed_to(anatomy.shape), heart)
+        wall = self.template.deformed_to(anatomy.shape)
+        volunteer = self._simulate(wall, self._balance(wall, heart) if self.balanced else heart)
         imaged = self._image(volunteer, heart, protocol.frames, int(rng.integers(2**31)))
         pressure = record_pressure(beat_curves(volunteer.beat, heart.sensors)["lv_pressure"], rng)
         curves = {REST: {VOLUME: imaged.volumes[VOLUME], "lv_pressure": pressure}}
@@ -152,6 +163,19 @@ class Ventricles:
     def _average_heart(self, period: float) -> Heart:
         """Return the nominal heart of this period [s]."""
         return Heart(circulation=VALVES, period=period).with_parameters({**self.standard, **OTHER_MODEL})
+
+    def _balance(self, wall: VentricularMesh, heart: Heart) -> Heart:
+        """Return the heart with the right atrial pressure at which both sides pump the same volume."""
+
+        def filled(pressure: float) -> Heart:
+            return heart.with_parameters({RIGHT_ATRIUM: pressure})
+
+        def excess(pressure: float) -> float:
+            beat = self._simulate(wall, filled(pressure)).beat
+            return right_excess(beat.flow, heart.mechanisms) * beat.period
+
+        start = float(heart.parameters()[RIGHT_ATRIUM])
+        return filled(balancing_value(excess, start, PRESSURE_RATIO, PRESSURE_TOLERANCE))
 
     def _simulate(self, wall: VentricularMesh, heart: Heart) -> Volunteer:
         try:

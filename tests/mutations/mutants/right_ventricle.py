@@ -51,6 +51,6 @@ RIGHT_VENTRICLE_MUTANTS = (
     *changes(
         "synthetic/hidden_ventricles.py",
         HIDDEN,
-        ("a rough size balances the sides", "xtol=SIZE_TOLERANCE", "xtol=0.3"),
+        ("a rough size balances the sides", "SIZE_RATIO, SIZE_TOLERANCE)", "SIZE_RATIO, 0.3)"),
     ),
 )
