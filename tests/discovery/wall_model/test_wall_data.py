@@ -1,5 +1,7 @@
 """Data of a wall: what is searched, what ties it together, and what stands alone."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,8 +13,6 @@ from heartfit.observation.curve import Curve
 from heartfit.observation.shape import cavity_volumes
 from tests.observation.test_regional import PERIOD, TIMES, contraction
 from tests.observation.test_regional_noise import KNOWN
-
-VOLUMES = ("lv_volume", "rv_volume")
 
 
 @pytest.fixture(scope="module")
@@ -26,8 +26,8 @@ def recording(ventricle: VentricularMesh) -> WallRecording:
 def test_regional_curves_follow_the_others(recording: WallRecording) -> None:
     data = recording.data()
     names = [block.curve for block in data.blocks]
-    assert names == ["lv_volume", "lv_pressure", "rv_volume", BALANCE, *SEARCHED]
-    assert data.independent == 4
+    assert names == ["lv_volume", "lv_pressure", BALANCE, "rv_volume", *SEARCHED]
+    assert data.independent == 3
     assert all(block.times.size == TIMES.size - 1 for block in data.blocks[4:])
 
 
@@ -38,11 +38,29 @@ def test_strain_is_that_of_the_motion_over_its_gain(recording: WallRecording) ->
     assert strain.min() == pytest.approx(0.5 * (0.8**2 - 1.0) / 0.9, rel=1e-6)
 
 
+def test_a_tenth_of_the_right_stroke_is_the_gain_of_its_images(recording: WallRecording) -> None:
+    data = recording.data()
+    assert data.structure is not None
+    right = data.rows[3]
+    variance = np.diag(data.structure)[right]
+    assert np.sqrt(variance.max()) == pytest.approx(0.1 * np.ptp(data.values[right]), rel=1e-9)
+    assert variance[0] == 0.0
+    assert np.linalg.matrix_rank(data.structure[right, right]) == 1
+
+
+def test_a_heart_without_right_volume_has_neither_its_gain_nor_a_balance(recording: WallRecording) -> None:
+    curves = {name: one for name, one in recording.recording.curves.items() if name != "rv_volume"}
+    data = replace(recording, recording=replace(recording.recording, curves=curves)).data()
+    assert [block.curve for block in data.blocks] == ["lv_volume", "lv_pressure", *SEARCHED]
+    assert data.independent == 2
+
+
 def test_gains_tie_the_strains_and_nothing_else(recording: WallRecording) -> None:
     data = recording.data()
     structure, start = data.structure, data.rows[4].start
     assert structure is not None
-    assert not structure[:start].any()
+    assert not structure[: data.rows[3].start].any()
+    assert not structure[:start, start:].any()
     assert np.linalg.eigvalsh(structure[start:, start:]).min() > 0.0
     one, other = (data.rows[4 + k].start + 5 for k in (0, 3))
     assert structure[one, other] > 0.0
@@ -64,4 +82,4 @@ def test_without_pressure_nothing_of_it_is_left(recording: WallRecording) -> Non
     alone = recording.without_pressure()
     assert recording.has_pressure
     assert not alone.has_pressure
-    assert [block.curve for block in alone.data().blocks][:3] == [*VOLUMES, BALANCE]
+    assert [block.curve for block in alone.data().blocks][:3] == ["lv_volume", BALANCE, "rv_volume"]

@@ -5,6 +5,8 @@ from tests.mutations.mutant import changes
 SIDES = "tests/heart/circulation/test_sides.py"
 RIGHT = "tests/discovery/sphere_model/test_right_ventricle.py"
 STROKES = "tests/discovery/sphere_model/test_strokes.py"
+BALANCE = "tests/synthetic/test_balance.py"
+PLANTED = "tests/synthetic/test_ventricles.py"
 HIDDEN = "tests/synthetic/test_hidden_ventricles.py"
 
 RIGHT_VENTRICLE_MUTANTS = (
@@ -52,5 +54,15 @@ RIGHT_VENTRICLE_MUTANTS = (
         "synthetic/hidden_ventricles.py",
         HIDDEN,
         ("a rough size balances the sides", "SIZE_RATIO, SIZE_TOLERANCE)", "SIZE_RATIO, 0.3)"),
+    ),
+    *changes(
+        "synthetic/balance.py",
+        BALANCE,
+        ("the balance is sought on the wrong side", "at_value < 0.0", "at_value > 0.0"),
+    ),
+    *changes(
+        "synthetic/ventricles.py",
+        PLANTED,
+        ("nothing balances a planted heart", "if self.balanced else heart", "if False else heart"),
     ),
 )

@@ -15,8 +15,13 @@ WALL_MUTANTS = (
         f"{WALL}/test_wall_data.py",
         (
             "gains of registration forgotten",
-            "        structure[tied, tied] = self._covariance(curves)\n",
+            "        structure[-len(tied) :, -len(tied) :] = tied\n",
             "",
+        ),
+        (
+            "the right volume has no gain",
+            "GAIN_SD * (volumes - volumes[0])",
+            "0.0 * (volumes - volumes[0])",
         ),
         (
             "measured strain not over its gain",

@@ -6,17 +6,21 @@ over the mean gain of their kind; the noise of that registration ties them toget
 .. math:: \mathrm{Cov}(y) = R + c^2\, \Sigma(e), \qquad c \in \{0.7, 1, 1.5\},
 
 with R the roughness of any simulation and Sigma that of :mod:`heartfit.observation.regional_noise` at the measured
-strain, held while models are fitted. Strain of the apical segments, which registration does not follow, and
+strain, held while models are fitted. As on the sphere the right volume has a gain of its own; since the mesh has the
+volume of the first frame, it acts on the change from there and adds
+:math:`c^2\, 0.1^2\, (V_i - V_0)(V_j - V_0)`. Strain of the apical segments, which registration does not follow, and
 longitudinal strain, whose noise is as large as what a scar changes, are left out.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Block, Data, Noise
 from heartfit.discovery.sphere_model.recording import Recording, search_data
+from heartfit.discovery.sphere_model.strokes import GAIN_SD
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.observation.curve import Curve
 from heartfit.observation.regional import (
@@ -33,6 +37,7 @@ FOLLOWED = 12
 """Number of the basal and the middle segments, which registration follows."""
 SEARCHED = (*names_of_kind(CIRCUMFERENTIAL)[:FOLLOWED], BASE_DESCENT)
 """Names of the regional curves that a search explains."""
+RIGHT_VOLUME = "rv_volume"
 STRAIN = Noise((1e-4,), 0.0, 0.004, 0.02)
 DESCENT = Noise((1e-5,), 0.0, 3e-4, 2e-3)
 """Roughness and discrepancy of a strain [1] and of the descent of the base [m]."""
@@ -66,15 +71,16 @@ class WallRecording:
         return replace(self, recording=replace(self.recording, curves=curves))
 
     def data(self) -> Data:
-        """Data of the search: volumes, pressures and the balance of both sides, then the regional curves."""
-        both = "rv_volume" in self.recording.curves
-        whole = search_data(replace(self.recording, unsearched={}, balanced=both))
+        """Data of the search: pressures, the balance of both sides and volumes, then the regional curves."""
+        both = RIGHT_VOLUME in self.recording.curves
+        whole = _right_volume_last(search_data(replace(self.recording, unsearched={}, balanced=both)))
         curves = self.noise.corrected(regional_curves(self.mesh, self.motion))
         blocks = tuple(_block(name, curves[name]) for name in SEARCHED)
         values = np.concatenate([whole.values, *(curves[name].values[1:] for name in SEARCHED)])
+        right = [_gain_covariance(whole.values[whole.rows[-1]])] if both else []
+        tied = block_diag(*right, self._covariance(curves))
         structure = np.zeros((values.size, values.size))
-        tied = slice(whole.values.size, values.size)
-        structure[tied, tied] = self._covariance(curves)
+        structure[-len(tied) :, -len(tied) :] = tied
         return Data(values, (*whole.blocks, *blocks), structure, NOISE_SCALES)
 
     def _covariance(self, curves: dict[str, Curve]) -> Floats:
@@ -84,6 +90,19 @@ class WallRecording:
         rows = later[np.isin(owners[later], SEARCHED)]
         covariance: Floats = self.noise.corrected_covariance(ordered)[np.ix_(rows, rows)]
         return covariance
+
+
+def _right_volume_last(data: Data) -> Data:
+    """The same data with the right volume, if there is one, after all other blocks."""
+    order = sorted(range(len(data.blocks)), key=lambda place: data.blocks[place].curve == RIGHT_VOLUME)
+    values = np.concatenate([data.values[data.rows[place]] for place in order])
+    return Data(values, tuple(data.blocks[place] for place in order))
+
+
+def _gain_covariance(volumes: Floats) -> Floats:
+    """Covariance (k, k) by the gain of right volumes (k,) [m^6], the first of which the mesh has."""
+    change = GAIN_SD * (volumes - volumes[0])
+    return np.outer(change, change)
 
 
 def _block(name: str, curve: Curve) -> Block:
