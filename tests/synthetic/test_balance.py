@@ -19,3 +19,14 @@ def test_a_heart_out_of_reach_is_inadmissible() -> None:
     assert balancing_value(lambda x: x - 0.99 * reach, 1.0, RATIO, TOLERANCE) < reach
     with pytest.raises(Inadmissible, match="do not balance"):
         balancing_value(lambda x: x - 1.01 * reach, 1.0, RATIO, TOLERANCE)
+
+
+def test_no_value_is_simulated_twice() -> None:
+    tried: list[float] = []
+
+    def excess(value: float) -> float:
+        tried.append(value)
+        return value - 2.0
+
+    balancing_value(excess, 1.0, RATIO, TOLERANCE)
+    assert len(tried) == len(set(tried)) > 2

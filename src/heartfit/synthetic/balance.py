@@ -8,6 +8,7 @@ A circulation with prescribed atrial pressures does not know this: its sides mee
 """
 
 from collections.abc import Callable
+from functools import cache
 
 from scipy.optimize import brentq
 
@@ -23,6 +24,7 @@ def balancing_value(excess: Callable[[float], float], start: float, ratio: float
     The excess increases with the parameter, which is tried at ``start`` and then at ever more powers of ``ratio``.
     Raises Inadmissible where none of them changes its sign.
     """
+    excess = cache(excess)  # the ends of the bracket are asked for again
     value, at_value = start, excess(start)
     factor = ratio if at_value < 0.0 else 1.0 / ratio
     for _ in range(MOST_RATIOS):
