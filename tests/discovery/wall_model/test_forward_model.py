@@ -109,8 +109,13 @@ def test_late_images_delay_strain_as_they_delay_the_volume(model: WallForwardMod
 
 @pytest.mark.parametrize(
     ("before", "effect"),
-    [([MitralRegurgitation()], []), ([], [LeftAtrium()])],
-    ids=["leak before", "atrium after"],
+    [
+        ([], []),
+        ([], [MitralRegurgitation()]),
+        ([MitralRegurgitation()], [MitralRegurgitation()]),
+        ([], [LeftAtrium()]),
+    ],
+    ids=["sound", "leak after", "leak before and after", "atrium after"],
 )
 def test_a_prediction_does_not_depend_on_the_heart_before(
     model: WallForwardModel, before: list[Mechanism], effect: list[Mechanism]

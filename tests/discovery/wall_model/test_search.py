@@ -28,10 +28,15 @@ FIRST, LATE = NAMES.index("segment.01"), NAMES.index("delay.01")
 
 @dataclass
 class EvenWall:
-    """Segments that shorten by one pulse, weaker where bridges are lost and later where the wave is late."""
+    """Segments that shorten by one pulse, weaker where bridges are lost and later where the wave is late.
+
+    Long time steps shift the strain.
+    """
 
     simulations: int = 0
     tangents: int = 0
+    shift: float = 0.0
+    longer: float = 0.02
     times: dict[str, Floats] = field(default_factory=dict)
     base = COORDINATES
 
@@ -43,8 +48,11 @@ class EvenWall:
             kept *= 1.0 - effect.lost_share()[1 : FOLLOWED + 1] if isinstance(effect, Availability) else 1.0
             late = late + (effect.delay()[1 : FOLLOWED + 1] if isinstance(effect, Delay) else 0.0)
         phase = np.pi * np.mod(TIMES - late[:, None], PERIOD) / PERIOD
-        strain = -0.18 * np.exp(0.2 * x[0]) * kept[:, None] * np.sin(phase) ** 2
+        strain = self.shift - 0.18 * np.exp(0.2 * x[0]) * kept[:, None] * np.sin(phase) ** 2
         return np.concatenate([1.5e-4 * (1.0 + 1.5 * strain.mean(axis=0)), strain.ravel()])
+
+    def with_long_steps(self) -> "EvenWall":
+        return replace(self, simulations=0, shift=self.longer)
 
     def slopes(
         self, x: Floats, effects: list[Mechanism] | tuple[Mechanism, ...] = ()
@@ -132,6 +140,21 @@ def test_a_baseline_that_does_not_beat_is_an_error() -> None:
     measured = Measured(np.zeros((1 + FOLLOWED) * TIMES.size))
     with pytest.raises(InputError, match="wall search: the beat of the baseline fails"):
         search_wall(Stopped(), measured, LIBRARY)
+
+
+def test_effects_are_ranked_without_the_error_of_long_steps() -> None:
+    shifted, exact = (searched([], 3, EvenWall(longer=longer)).screened for longer in (0.02, 0.0))
+    assert [one.effect for one in shifted] == [one.effect for one in exact]
+    gains = np.array([[one.log_bayes_factor for one in screened] for screened in (shifted, exact)])
+    np.testing.assert_allclose(gains[0], gains[1], atol=1e-6)
+
+
+@pytest.mark.parametrize(("stiffer", "tangents"), [(0.0, 1), (3.0, 2)])
+def test_slopes_are_renewed_while_the_fit_moves(stiffer: float, tangents: int) -> None:
+    wall, x = EvenWall(), np.zeros(len(NAMES))
+    x[0] = stiffer
+    search_wall(wall, Measured(wall.predict(x)), LIBRARY)
+    assert wall.tangents == tangents
 
 
 def test_a_fit_that_has_no_slopes_is_approached_by_half() -> None:

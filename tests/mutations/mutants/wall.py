@@ -50,6 +50,8 @@ WALL_MUTANTS = (
         ("effects fitted from the baseline alone", "best[:REFITTED]", "best[:0]"),
         ("any gain named", "RULES = STRICT_RULES", "RULES = type(STRICT_RULES)(detected=-50.0)"),
         ("fit without slopes given up", "(x + start) / 2.0)", "start)"),
+        ("slopes always renewed", "CONVERGED = 1.5", "CONVERGED = 0.0"),
+        ("secants between time steps", "else (longer, before)", "else (longer, base.fit.predicted)"),
     ),
     *changes(
         "discovery/inference/data.py",

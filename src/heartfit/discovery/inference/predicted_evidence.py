@@ -99,16 +99,18 @@ def predict_evidence(
     further: Hypothesis,
     placement: Floats | float = 0.0,
     amplitudes: tuple[float, float] = START_AMPLITUDES,
+    before: Floats | None = None,
 ) -> PredictedEvidence | None:
     """The prediction for a hypothesis that adds one effect to a fitted one; None where its simulation fails.
 
-    placement (d,): other unknowns of the effect; amplitudes: the least and the largest one to start from.
+    placement (d,): other unknowns of the effect; amplitudes: the least and the largest one to start from; before (n,):
+    the prediction without the effect, where ``further`` simulates with other numerics than the fit.
     """
     old = np.array([further.names.index(name) for name in fitted.fit.hypothesis.names], dtype=np.int64)
     new = further.amplitudes & ~np.isin(np.arange(len(further.names)), old)
     x = np.zeros(len(further.names)) + placement
     x[old] = fitted.fit.x
-    secant = _secant(context, further, x, new, fitted.fit.predicted)
+    secant = _secant(context, further, x, new, fitted.fit.predicted if before is None else before)
     if secant is None:
         return None
     slopes = np.zeros((fitted.fit.predicted.size, x.size))

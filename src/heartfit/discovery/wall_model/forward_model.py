@@ -6,12 +6,13 @@ those of the search on the sphere do; regional curves from its nodes at the time
 .. math:: f(x) = (V(t_i), P(t_j), E_s(t_k), d(t_k)),
 
 with all image times counted from the trigger of that heart. Slopes by many unknowns come from one tangent-linear beat.
-Reference and beat start from those of the heart before, which saves a beat and most of the unloading.
+Reference and beat start from those of a heart before, which saves a beat and most of the unloading: the last one with
+the same effects, otherwise the last one without any.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial, reduce
+from functools import cached_property, lru_cache, partial, reduce
 from operator import add
 
 import numpy as np
@@ -28,7 +29,7 @@ from heartfit.heart.circulation.atria import chamber_table
 from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import FiniteElementBody, StepFailed
 from heartfit.heart.finite_elements.neighbours import carry_state
-from heartfit.heart.finite_elements.unloading import unload
+from heartfit.heart.finite_elements.unloading import LoadedWall, unload
 from heartfit.heart.heart import Heart
 from heartfit.heart.neighbourhood import LoadedHeart, surround
 from heartfit.heart.simulation import Numerics, simulate
@@ -42,12 +43,15 @@ IMAGED, DISTORTED_PHASES = "lv_volume", 100
 """Curve by which an error of the images is known, and number of phases at which it distorts regional curves."""
 STEP = 0.02
 """Distance of a neighbour [prior standard deviations]."""
+HELICES = 4
+"""Number of meshes with other helix angles that are kept."""
 
 
 @dataclass(frozen=True, eq=False)
 class _BeatEnd:
-    """Ventricles at the end of a beat on the limit cycle."""
+    """Ventricles at the end of a beat on the limit cycle, and the measured wall whose reference they have."""
 
+    wall: LoadedWall
     body: FiniteElementBody
     state: HeartState
 
@@ -78,7 +82,7 @@ class WallForwardModel:
     numerics: Numerics = NUMERICS
     simulations: int = 0
     tangents: int = 0
-    _before: _BeatEnd | None = field(default=None, init=False, repr=False)
+    _before: dict[tuple[str, ...], _BeatEnd] = field(default_factory=dict, init=False, repr=False)
 
     @classmethod
     def at_samples(
@@ -89,14 +93,16 @@ class WallForwardModel:
         times = {block.curve: block.times for block in recording.data().blocks}
         return cls(recording.mesh, nominal, times, recording.frames, numerics)
 
+    def with_long_steps(self) -> "WallForwardModel":
+        """The model with the time step of derivatives; its first beats start from those of this model."""
+        longer = replace(self, numerics=tangent_numerics(self.numerics), simulations=0, tangents=0)
+        longer._before = self._before
+        return longer
+
     @property
     def base(self) -> tuple[Coordinate, ...]:
         """Coordinates of the unknowns, which come first in every hypothesis."""
         return COORDINATES
-
-    @cached_property
-    def _rule(self) -> FibreRule:
-        return FibreRule.from_mesh(self.mesh)
 
     @cached_property
     def regional(self) -> tuple[str, ...]:
@@ -108,7 +114,7 @@ class WallForwardModel:
         self.simulations += 1
         try:
             placed = self._heart_at(x, effects)
-            beat = self._beat(placed)
+            beat = self._beat(placed, tuple(type(effect).__name__ for effect in effects))
         except (ValueError, StepFailed):  # outside the range of a parameter, or no stress-free wall
             return None
         return self.observe(beat, placed.heart) if beat.completed else None
@@ -170,27 +176,44 @@ class WallForwardModel:
         placed = heart_at(self.nominal, x)
         return replace(placed, heart=reduce(add, effects, placed.heart))
 
-    def _beat(self, placed: HeartInWall) -> Beat:
-        """The beat on the limit cycle, from the end of the beat before; from relaxed ventricles if that one fails."""
-        body = self._body(placed)
+    def _beat(self, placed: HeartInWall, effects: tuple[str, ...]) -> Beat:
+        """The beat on the limit cycle, from the end of one before; from relaxed ventricles if that one fails."""
+        near = self._before.get(effects, self._before.get(()))
+        wall = self._measured(placed).wall
+        body = _unloaded_body(wall, near)
         history: list[HeartState] = []
-        start = None if self._before is None else self._before.carried_to(placed.heart, body)
+        start = None if near is None else near.carried_to(placed.heart, body)
         beat = simulate(placed.heart, body, self.numerics, watch=history.extend, start=start)
         if start is not None and not beat.completed:
             beat = simulate(placed.heart, body, self.numerics, watch=history.extend)
         if beat.completed:
-            self._before = _BeatEnd(body, history[-1])
+            others = {(): self._before[()]} if () in self._before else {}
+            self._before = others | {effects: _BeatEnd(wall, body, history[-1])}
         return beat
-
-    def _body(self, placed: HeartInWall) -> FiniteElementBody:
-        wall = self._measured(placed).wall
-        near = None if self._before is None else self._before.body.reference
-        return FiniteElementBody(unload(wall.mesh, wall.tissue, wall.pressures, near), wall.tissue)
 
     def _measured(self, placed: HeartInWall) -> LoadedHeart:
         """A heart in the measured wall, with its helix angles."""
-        mesh, rule = self.mesh, self._rule
-        if placed.helix.any():
-            rule = replace(rule, endo=rule.endo + placed.helix[0], epi=rule.epi + placed.helix[1])
-            mesh = replace(mesh, fibres=rule.fibres(), orientation=rule.orientation())
-        return LoadedHeart(placed.heart, mesh, placed.loads)
+        return LoadedHeart(placed.heart, self._turned(*placed.helix), placed.loads)
+
+    @cached_property
+    def _turned(self) -> Callable[[float, float], VentricularMesh]:
+        """The mesh by the changes of its helix angles [rad]; most hearts that follow one another share it."""
+        return lru_cache(HELICES)(partial(_with_helix, self.mesh, FibreRule.from_mesh(self.mesh)))
+
+
+def _with_helix(mesh: VentricularMesh, rule: FibreRule, endo: float, epi: float) -> VentricularMesh:
+    """The mesh with fibres by a rule whose helix angles are changed [rad]."""
+    if endo == epi == 0.0:
+        return mesh
+    turned = replace(rule, endo=rule.endo + endo, epi=rule.epi + epi)
+    return replace(mesh, fibres=turned.fibres(), orientation=turned.orientation())
+
+
+def _unloaded_body(wall: LoadedWall, near: _BeatEnd | None) -> FiniteElementBody:
+    """Ventricles on the stress-free reference of a wall, that of a body before where both rest alike."""
+    if near is None:
+        return FiniteElementBody(unload(wall.mesh, wall.tissue, wall.pressures), wall.tissue)
+    reference = near.body.reference
+    if not wall.rests_like(near.wall):
+        reference = unload(wall.mesh, wall.tissue, wall.pressures, reference)
+    return FiniteElementBody(reference, wall.tissue, near.body.elimination)

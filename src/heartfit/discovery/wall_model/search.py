@@ -1,10 +1,11 @@
 r"""The search for a missing effect in three dimensions, with the strain of the wall among the data.
 
-The baseline, all unknowns free, is fitted with the slopes of a tangent-linear beat, which are renewed twice. Every
-mechanism, regional ones at six angles, is then switched on once; the secant ranks it by the evidence of the linear
-model. Only the best are fitted, from the baseline's fit, one beat a step, the best of them once more with slopes of
-its own. They are judged by their evidence as on the sphere, with the stricter rules: an effect needs a ln Bayes factor
-of ten and must beat the smooth discrepancies of all curves.
+The baseline, all unknowns free, is fitted with the slopes of a tangent-linear beat, which are renewed while the fit
+moves, twice at most. Every mechanism, regional ones at six angles, is then switched on once, in beats with the time
+step of derivatives; the secant ranks it by the evidence of the linear model. Only the best are fitted, from the
+baseline's fit, one beat a step, the best of them once more with slopes of its own. They are judged by their evidence as
+on the sphere, with the stricter rules: an effect needs a ln Bayes factor of ten and must beat the smooth discrepancies
+of all curves.
 """
 
 import time as clock
@@ -31,7 +32,9 @@ from heartfit.roles import registered
 RULES = STRICT_RULES
 """See decision 43: sound hearts of another mesh and other valves reach 8.7."""
 BASELINE_STEPS, EFFECT_STEPS = (10, 8, 6), 8
-"""Largest numbers of steps of the baseline, before its slopes are renewed and at last, and of an effect."""
+"""Largest numbers of steps of the baseline, with its first and with renewed slopes, and of an effect."""
+CONVERGED = 1.5
+"""Distance of a fit from the heart with its slopes [prior sd] below which these are not renewed."""
 SHORTEST = 0.1
 """Distance from a heart with slopes [prior sd] below which the way to a fit without them is not halved."""
 REFITTED = 5
@@ -144,13 +147,15 @@ def _screened(prediction: PredictedEvidence, baseline: float) -> Screened:
 
 
 def _fit_baseline(context: FitContext, model: WallForwardModel) -> Explanation:
-    """The baseline's fit, its slopes renewed on the way."""
+    """The baseline's fit, its slopes renewed while it moves."""
     baseline, start = hypothesis(model), np.zeros(len(COORDINATES))
     x = start
     for steps in BASELINE_STEPS:
         start, tangent = _nearest_slopes(model, start, x)
         fitted = _fit(context, baseline, start, *tangent, steps)
         x = fitted.fit.x
+        if np.linalg.norm(x - start) < CONVERGED:
+            break
     return fitted
 
 
@@ -178,14 +183,24 @@ def _fit(
 def _predict_all(
     context: FitContext, model: WallForwardModel, base: Explanation, tried: Sequence[Candidate]
 ) -> list[PredictedEvidence]:
-    """Predictions of all placements, in descending evidence."""
-    shared = np.zeros(len(COORDINATES))
+    """Predictions of all placements, in descending evidence, their secants between beats of long time steps."""
+    longer, shared = model.with_long_steps(), np.zeros(len(COORDINATES))
+    before = longer.predict(base.fit.x)
+    screen, at_base = (model, base.fit.predicted) if before is None else (longer, before)
     predictions = [
-        predict_evidence(context, base, hypothesis(model, [effect]), np.concatenate([shared, place]), STARTS)
+        predict_evidence(
+            context, base, hypothesis(screen, [effect]), np.concatenate([shared, place]), STARTS, at_base
+        )
         for effect in tried
         for place in placements(effect)
     ]
-    completed = [prediction for prediction in predictions if prediction is not None]
+    model.simulations += longer.simulations
+    to_fit = {effect.name: hypothesis(model, [effect]) for effect in tried}
+    completed = [
+        replace(prediction, hypothesis=to_fit[prediction.hypothesis.effects[0]])
+        for prediction in predictions
+        if prediction is not None
+    ]
     return sorted(completed, key=lambda prediction: -prediction.log_evidence)
 
 
