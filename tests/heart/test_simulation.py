@@ -9,7 +9,7 @@ from heartfit.heart.beat import Beat
 from heartfit.heart.circulation.coupling import Tolerances
 from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.heart import Heart
-from heartfit.heart.simulation import Numerics, simulate
+from heartfit.heart.simulation import RESPONSES, Numerics, simulate
 from heartfit.heart.sphere.body import Sphere, SphericalBody
 
 NUMERICS = Numerics(max_beats=12)
@@ -46,6 +46,16 @@ def test_a_run_from_its_own_limit_cycle_takes_one_beat(
     assert again.volume["lv"] == pytest.approx(
         first.volume["lv"], abs=NUMERICS.drift * np.ptp(first.volume["lv"])
     )
+
+
+def test_a_wrong_guess_of_the_responses_costs_a_beat_and_measured_ones_save_it(
+    beat: Beat, spherical_heart: Heart, spheres: SphericalBody
+) -> None:
+    guessed = simulate(spherical_heart, spheres, NUMERICS, responses=(2.5, 2.5))
+    measured = [guessed.diagnostics[name] for name in RESPONSES]
+    informed = simulate(spherical_heart, spheres, NUMERICS, responses=measured)
+    assert informed.diagnostics["beats"] < guessed.diagnostics["beats"]
+    assert measured == pytest.approx([beat.diagnostics[name] for name in RESPONSES], rel=0.1)
 
 
 def test_inflow_equals_outflow(beat: Beat) -> None:

@@ -1,9 +1,4 @@
-"""Simulation of beats until the limit cycle; a failed run is a result with a reason.
-
-The drift of a beat, from its start to its end, measures its distance from the limit cycle. The time constant tau of a
-Windkessel is longer than a beat, so plain repetition converges slowly: between beats its pressure is shifted to the
-value that the stroke volume of the next beats will hold, as predicted from the last one or two beats.
-"""
+"""Simulation of beats until the limit cycle; a failed run is a result with a reason."""
 
 import time as clock
 from collections.abc import Callable, Sequence
@@ -21,87 +16,19 @@ from heartfit.heart.circulation.atria import (
     sides_with_volume,
 )
 from heartfit.heart.circulation.coupling import Body, Coupling, Tolerances
-from heartfit.heart.circulation.elements import Windkessel, WindkesselState
 from heartfit.heart.circulation.network import ATRIA
 from heartfit.heart.circulation.network_step import NetworkStep
 from heartfit.heart.circulation.state import HeartState
 from heartfit.heart.finite_elements.body import StepFailed
 from heartfit.heart.finite_elements.unloading import inflate
 from heartfit.heart.heart import Heart
+from heartfit.heart.limit_cycle import INITIAL_RESPONSES, Recurrence
 from heartfit.heart.time_step import TimeStep
 from heartfit.roles import COMPARTMENTS
 from heartfit.roles.chamber import VEIN_END, VOLUME
 
-INITIAL_RESPONSES = 1.1, 1.0
-"""Fall of the pressure deficit of the aorta and of the pulmonary artery per rise of the pressure at the start of a beat
-[Pa/Pa], as a higher pressure also lowers the stroke volume. Initial guesses; after two beats it is measured."""
-
-CREDIBLE_RESPONSES = 0.7, 4.0
-"""Range of measured responses that are used; one outside it has another cause than the rise of the pressure."""
-
-SURPLUS_FRACTION = 0.3
-"""Excess of the stroke over later ones, as a fraction of the volume that the initially fuller ventricle lost."""
-
-
-@dataclass(frozen=True, eq=False)
-class Recurrence:
-    """Cavity volumes (t, v) of a beat, and the states of the v Windkessels at its start and its end.
-
-    ``atria`` (t, c) are the volumes of c atria that have one. In a ``closed`` circuit arteries fill veins.
-    """
-
-    volumes: Floats
-    first: Sequence[WindkesselState]
-    last: Sequence[WindkesselState]
-    atria: Floats = field(default_factory=lambda: np.empty((1, 0)))
-    closed: bool = False
-
-    def drift(self) -> float:
-        """Largest change over the beat: of volumes over stroke volume, and of Windkessel pressures over themselves."""
-        in_volume = [*_relative_change(self.volumes), *_relative_change(self.atria)]
-        in_pressure = [abs(b.P_c / a.P_c - 1.0) for a, b in zip(self.first, self.last, strict=True)]
-        return float(max(*in_volume, *in_pressure))
-
-    def shifts(
-        self, trees: Sequence[Windkessel], period: float, before: "Recurrence | None" = None
-    ) -> list[float]:
-        """Rises [Pa] of the Windkessel pressures for the next beat; ``before`` is the beat that preceded this one.
-
-        They are zero in a closed circuit, in which a rise would create blood.
-        """
-        if self.closed:
-            return [0.0] * len(trees)
-        deficits = self._deficits(trees, period)
-        responses: Sequence[float] = INITIAL_RESPONSES
-        if before is not None:
-            earlier = before._deficits(trees, period)
-            rises = [new.P_c - old.P_c for new, old in zip(self.first, before.first, strict=True)]
-            responses = list(map(_measured_response, earlier, deficits, rises, INITIAL_RESPONSES))
-        states = zip(self.first, self.last, strict=True)
-        changes = [last.P_c - first.P_c for first, last in states]
-        return [
-            deficit / response - change
-            for deficit, response, change in zip(deficits, responses, changes, strict=False)
-        ]
-
-    def _deficits(self, trees: Sequence[Windkessel], period: float) -> list[float]:
-        surplus = SURPLUS_FRACTION * (self.volumes[0] - self.volumes[-1])
-        sides = zip(trees, self.first, self.last, surplus.tolist(), strict=True)
-        return [tree.pressure_deficit(first, last, period, volume) for tree, first, last, volume in sides]
-
-
-def _relative_change(volumes: Floats) -> Floats:
-    """Changes (v,) of volumes (t, v) over the beat, over their ranges."""
-    result: Floats = np.abs(volumes[-1] - volumes[0]) / (volumes.max(axis=0) - volumes.min(axis=0))
-    return result
-
-
-def _measured_response(earlier: float, deficit: float, rise: float, guess: float) -> float:
-    """Fall of the deficit per rise of the pressure, or ``guess`` where the measurement is not credible."""
-    low, high = CREDIBLE_RESPONSES
-    response = (earlier - deficit) / rise if rise else guess
-    return response if low < response < high else guess
-
+RESPONSES = "aortic_response", "pulmonary_response"
+"""Keys of the measured responses among the diagnostics."""
 
 Progress = Callable[[float], None]
 Watch = Callable[[Sequence[HeartState]], None]
@@ -131,6 +58,7 @@ def simulate(
     progress: Progress | None = None,
     watch: Watch | None = None,
     start: HeartState | None = None,
+    responses: Sequence[float] = INITIAL_RESPONSES,
 ) -> Beat:
     """Beat of ``heart`` with the ventricles ``body`` on its limit cycle.
 
@@ -139,10 +67,11 @@ def simulate(
     ``numerics``. A run that fails returns a failed beat with the reason. ``progress`` is called after every time step
     with the completed fraction of ``max_beats``, ``watch`` once with the states of the last beat, one per time. Beats
     begin at ``start``, a state of the body near the limit cycle, or without one at relaxed ventricles, filled at the
-    resting atrial pressures. Raises InputError unless the body is made of ``heart.muscle``.
+    resting atrial pressures. ``responses`` guesses the :meth:`Recurrence.responses`; the diagnostics hold the measured
+    ones, with which a similar heart takes fewer beats. Raises InputError unless the body is made of ``heart.muscle``.
     """
     _require_muscle(heart, body)
-    run = _Run(heart, body, numerics or Numerics(), progress, watch)
+    run = _Run(heart, body, numerics or Numerics(), progress, watch, responses)
     try:
         return run.to_limit_cycle(run.relaxed() if start is None else start)
     except StepFailed as failure:
@@ -163,7 +92,13 @@ def _ignore(_: object) -> None:
 
 class _Run:
     def __init__(
-        self, heart: Heart, body: Body, numerics: Numerics, progress: Progress | None, watch: Watch | None
+        self,
+        heart: Heart,
+        body: Body,
+        numerics: Numerics,
+        progress: Progress | None,
+        watch: Watch | None,
+        responses: Sequence[float],
     ) -> None:
         self.heart, self.body, self.numerics = heart, body, numerics
         self.coupling = Coupling(body, heart.circulation, heart.mechanisms, numerics.tolerances)
@@ -171,10 +106,11 @@ class _Run:
         self.atria = chamber_table(heart.mechanisms)
         self.progress, self.watch = progress or _ignore, watch or _ignore
         self.beats, self.cuts, self.drift = 0, 0, np.inf
+        self.guesses = self.responses = list(responses)
         self._started = clock.process_time()
 
     def to_limit_cycle(self, state: HeartState) -> Beat:
-        before: Recurrence | None = None
+        before, trees = None, self.heart.circulation.trees()
         while True:
             history = [state]
             for n in range(self.steps):
@@ -184,12 +120,13 @@ class _Run:
             self.beats += 1
             cycle = self._recurrence(history)
             self.drift = cycle.drift()
-            if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
+            periodic = self.drift < self.numerics.drift or self.beats == self.numerics.max_beats
+            if self.beats == 2 or not periodic:  # the last of more beats rises too little to measure
+                self.responses = cycle.responses(trees, self.heart.period, before, self.guesses)
+            if periodic:
                 self.watch(history)
                 return self._beat(history)
-            state = state.shift_pressures(
-                cycle.shifts(self.heart.circulation.trees(), self.heart.period, before)
-            )
+            state = state.shift_pressures(cycle.shifts(trees, self.heart.period, self.responses))
             before = cycle
 
     def _recurrence(self, history: list[HeartState]) -> Recurrence:
@@ -278,12 +215,13 @@ class _Run:
         return {"wall_volume_loss": float(1.0 - walls.min() / walls.max())}
 
     def diagnostics(self) -> dict[str, float]:
-        """Number of beats, drift, halved steps, iterations, factorisations and CPU time [s] of the run."""
+        """Beats, drift, halved steps, iterations, factorisations, measured responses and CPU time [s] of the run."""
         return {
             "beats": float(self.beats),
             "drift": float(self.drift),
             "step_cuts": float(self.cuts),
             "iterations": float(self.coupling.iterations),
             "factorisations": float(self.coupling.factorisations),
+            **dict(zip(RESPONSES, self.responses, strict=True)),
             COST: clock.process_time() - self._started,
         }

@@ -18,9 +18,10 @@ from heartfit.discovery.wall_model.unknowns import (
     heart_at,
 )
 from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart.beat import Beat
 from heartfit.heart.circulation.coupling import Tolerances
 from heartfit.heart.heart import Heart
-from heartfit.heart.simulation import Numerics
+from heartfit.heart.simulation import Numerics, simulate
 from heartfit.mechanisms.image_trigger_delay import ImageTriggerDelay
 from heartfit.mechanisms.left_atrium import LeftAtrium
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
@@ -129,6 +130,22 @@ def test_a_prediction_does_not_depend_on_the_heart_before(
     errors = {"lv_volume": 0.2e-6, "rv_volume": 0.2e-6, "lv_pressure": 60.0, STRAIN: 1e-3}
     for curve, error in errors.items():
         assert part(predicted, curve) == pytest.approx(part(alone, curve), abs=error), curve
+
+
+def test_the_beats_of_a_similar_heart_start_with_the_measured_responses(
+    model: WallForwardModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    beats: list[Beat] = []
+
+    def recorded(*arguments: Any, **keywords: Any) -> Beat:
+        beats.append(simulate(*arguments, **keywords))
+        return beats[-1]
+
+    monkeypatch.setattr("heartfit.discovery.wall_model.forward_model.simulate", recorded)
+    following = replace(model)
+    for distance in (0.0, 0.3, 0.0):
+        following.predict(np.full(len(NAMES), distance))
+    assert beats[-1].diagnostics["beats"] == 2
 
 
 def test_a_wall_outside_the_range_has_no_prediction(model: WallForwardModel) -> None:

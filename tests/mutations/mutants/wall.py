@@ -66,6 +66,11 @@ WALL_MUTANTS = (
             "if self.state.atria is not None or chamber_table(heart.mechanisms) is not None:",
             "if self.state.atria is not None:",
         ),
+        (
+            "measured responses forgotten",
+            "run(start=start, responses=near.responses)",
+            "run(start=start)",
+        ),
     ),
     *changes(
         "discovery/inference/predicted_evidence.py",
@@ -82,6 +87,7 @@ WALL_MUTANTS = (
         "heart/simulation.py",
         "tests/heart/test_simulation.py",
         ("start of a beat ignored", "run.relaxed() if start is None else start", "run.relaxed()"),
+        ("guesses of the responses ignored", "before, self.guesses)", "before)"),
     ),
     *changes(
         "results/wall_summary.py",

@@ -32,7 +32,7 @@ from heartfit.heart.finite_elements.neighbours import carry_state
 from heartfit.heart.finite_elements.unloading import LoadedWall, unload
 from heartfit.heart.heart import Heart
 from heartfit.heart.neighbourhood import LoadedHeart, surround
-from heartfit.heart.simulation import Numerics, simulate
+from heartfit.heart.simulation import RESPONSES, Numerics, simulate
 from heartfit.heart.tangent import differentiate, tangent_numerics
 from heartfit.observation.regional import regional_curves
 from heartfit.personalise.numerics import Pressures
@@ -49,11 +49,15 @@ HELICES = 4
 
 @dataclass(frozen=True, eq=False)
 class _BeatEnd:
-    """Ventricles at the end of a beat on the limit cycle, and the measured wall whose reference they have."""
+    """Ventricles at the end of a beat on the limit cycle, and the measured wall whose reference they have.
+
+    responses: of the Windkessels, see :meth:`Recurrence.responses`.
+    """
 
     wall: LoadedWall
     body: FiniteElementBody
     state: HeartState
+    responses: tuple[float, ...]
 
     def carried_to(self, heart: Heart, body: FiniteElementBody) -> HeartState | None:
         """State at which the beats of another heart begin, the nodes and pressures kept, the blood in valves at rest.
@@ -182,13 +186,15 @@ class WallForwardModel:
         wall = self._measured(placed).wall
         body = _unloaded_body(wall, near)
         history: list[HeartState] = []
+        run = partial(simulate, placed.heart, body, self.numerics, watch=history.extend)
         start = None if near is None else near.carried_to(placed.heart, body)
-        beat = simulate(placed.heart, body, self.numerics, watch=history.extend, start=start)
+        beat = run() if near is None or start is None else run(start=start, responses=near.responses)
         if start is not None and not beat.completed:
-            beat = simulate(placed.heart, body, self.numerics, watch=history.extend)
+            beat = run()
         if beat.completed:
             others = {(): self._before[()]} if () in self._before else {}
-            self._before = others | {effects: _BeatEnd(wall, body, history[-1])}
+            responses = tuple(beat.diagnostics[name] for name in RESPONSES)
+            self._before = others | {effects: _BeatEnd(wall, body, history[-1], responses)}
         return beat
 
     def _measured(self, placed: HeartInWall) -> LoadedHeart:

@@ -12,7 +12,8 @@ from heartfit.heart.circulation.elements import WindkesselState
 from heartfit.heart.circulation.network import ATRIA
 from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.heart import Heart
-from heartfit.heart.simulation import Numerics, Recurrence
+from heartfit.heart.limit_cycle import Recurrence
+from heartfit.heart.simulation import Numerics
 from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.beat import State, StepInputs, advance
 from heartfit.heart.sphere.body import HEALTHY_ACTIVATION, Sphere
@@ -77,7 +78,8 @@ class _SphereRun:
             self.drift = cycle.drift()
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
                 return self._beat(curves)
-            _shift_pressures(state, cycle.shifts(self.heart.trees, self.period, before))
+            responses = cycle.responses(self.heart.trees, self.period, before)
+            _shift_pressures(state, cycle.shifts(self.heart.trees, self.period, responses))
             before = cycle
 
     def _recurrence(
