@@ -17,7 +17,7 @@ from heartfit.synthetic import ventricles
 from heartfit.synthetic import ventricles as imaging
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.scanner import Scanner
-from heartfit.synthetic.ventricles import Imaging, Ventricles
+from heartfit.synthetic.ventricles import LEFT_ATRIUM, RIGHT_ATRIUM, Imaging, Ventricles
 from heartfit.synthetic.volunteer import Template, generate
 
 CONFIG = Path(__file__).parents[2] / "config"
@@ -55,19 +55,36 @@ def test_a_leak_is_planted_in_the_heart_of_the_seed(hidden, sound):
     assert set(leaking.curves["rest"]) == {"lv_volume", "lv_pressure"}
 
 
-def test_both_sides_of_a_balanced_heart_pump_the_same_volume(hidden, monkeypatch):
-    beats = []
+def simulated(hidden, plan, monkeypatch):
+    """Hearts that a balanced planter simulates, in their order, and what the right side of each pumps more [m^3]."""
+    hearts = []
 
     def observed(*arguments):
         volunteer = generate(*arguments)
-        beats.append((volunteer.beat, arguments[1][0].mechanisms))
+        heart = arguments[1][0]
+        hearts.append((heart, right_excess(volunteer.beat.flow, heart.mechanisms) * heart.period))
         return volunteer
 
     monkeypatch.setattr(ventricles, "generate", observed)
-    replace(hidden, balanced=True).plant(SOUND)
-    excess = [right_excess(beat.flow, mechanisms) * beat.period for beat, mechanisms in beats]
-    assert abs(excess[-1]) < 0.5e-6
-    assert abs(excess[0]) > 2e-6
+    replace(hidden, balanced=True).plant(plan)
+    return hearts
+
+
+def test_both_sides_of_a_balanced_heart_pump_the_same_volume(hidden, monkeypatch):
+    (_, before), *_, (_, after) = simulated(hidden, SOUND, monkeypatch)
+    assert abs(before) > 2e-6
+    assert abs(after) < 0.5e-6
+
+
+def test_blood_that_a_leak_keeps_from_the_body_fills_the_left_atrium(hidden, monkeypatch):
+    hearts = simulated(hidden, replace(LEAK, scales=1.0), monkeypatch)
+    fewest = min(len(heart.mechanisms) for heart, _ in hearts)
+    *_, sound = [heart.parameters() for heart, _ in hearts if len(heart.mechanisms) == fewest]
+    leaking, excess = hearts[-1]
+    left, right = (leaking.parameters()[name] / sound[name] for name in (LEFT_ATRIUM, RIGHT_ATRIUM))
+    assert abs(excess) < 0.5e-6
+    assert left > 1.1
+    assert right == pytest.approx(1.0 / left, rel=0.1)
 
 
 def test_the_volume_is_that_of_the_mesh_that_followed_the_images(sound):

@@ -9,7 +9,7 @@ scanner; the pressure has the errors of the hidden spheres. Sensors of the heart
 with S the composition of all sensors that act on a volume: late frame labels, a wrong rate, or smearing.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 
@@ -113,9 +113,11 @@ def distort_motion(motion: Motion, sensors: Sequence[Sensor]) -> Motion:
     return replace(motion, positions=np.apply_along_axis(distort, 0, motion.positions)) if acting else motion
 
 
-RIGHT_ATRIUM = "circulation.right_atrium"
+LEFT_ATRIUM, RIGHT_ATRIUM = "circulation.left_atrium", "circulation.right_atrium"
 PRESSURE_RATIO, PRESSURE_TOLERANCE = 1.5, 5.0
 """Ratio of right atrial pressures between which the balance is sought, and their tolerance [Pa], 0.4 mL of a stroke."""
+MOVED_TOLERANCE = 1.0
+"""The same where the left pressure, which is several times as high, changes by the inverse ratio."""
 DEVIATES = (*RELATIVE, *TIMES, "mitral resistance")
 
 
@@ -123,8 +125,9 @@ DEVIATES = (*RELATIVE, *TIMES, "mitral resistance")
 class Ventricles:
     """Planter of cases in 3-D: template of the hidden meshes, nominal parameters, numerical protocol and imaging.
 
-    balanced: the right atrial pressure is the one at which both sides pump the same volume. A search that sees both
-    sides takes a heart without balance for one with a leak.
+    balanced: both sides pump the same volume, in the sound heart by its right atrial pressure, with hidden effects by
+    blood that moves from one atrium to the other. A search that sees both sides takes a heart without balance for one
+    with a leak.
     """
 
     template: Template
@@ -148,10 +151,14 @@ class Ventricles:
         deviates = {name: normal() for name in DEVIATES}
         heart = scatter_parameters(self._average_heart(anatomy.period), deviates, normal)
         effects = draw_effects(plan, rng, sides=2)
+        wall = self.template.deformed_to(anatomy.shape)
+        if self.balanced:
+            heart = self._balance(wall, heart, _with_right_pressure, PRESSURE_TOLERANCE)
         for effect in effects:
             heart = add_effect(heart, effect)
-        wall = self.template.deformed_to(anatomy.shape)
-        volunteer = self._simulate(wall, self._balance(wall, heart) if self.balanced else heart)
+        if self.balanced and effects:
+            heart = self._balance(wall, heart, _with_moved_blood, MOVED_TOLERANCE)
+        volunteer = self._simulate(wall, heart)
         imaged = self._image(volunteer, heart, protocol.frames, int(rng.integers(2**31)))
         pressure = record_pressure(beat_curves(volunteer.beat, heart.sensors)["lv_pressure"], rng)
         curves = {REST: {VOLUME: imaged.volumes[VOLUME], "lv_pressure": pressure}}
@@ -164,18 +171,21 @@ class Ventricles:
         """Return the nominal heart of this period [s]."""
         return Heart(circulation=VALVES, period=period).with_parameters({**self.standard, **OTHER_MODEL})
 
-    def _balance(self, wall: VentricularMesh, heart: Heart) -> Heart:
-        """Return the heart with the right atrial pressure at which both sides pump the same volume."""
-
-        def filled(pressure: float) -> Heart:
-            return heart.with_parameters({RIGHT_ATRIUM: pressure})
+    def _balance(
+        self,
+        wall: VentricularMesh,
+        heart: Heart,
+        filled: Callable[[Heart, float], Heart],
+        tolerance: float,
+    ) -> Heart:
+        """Return the heart filled by the right atrial pressure at which both sides pump the same volume."""
 
         def excess(pressure: float) -> float:
-            beat = self._simulate(wall, filled(pressure)).beat
+            beat = self._simulate(wall, filled(heart, pressure)).beat
             return right_excess(beat.flow, heart.mechanisms) * beat.period
 
         start = float(heart.parameters()[RIGHT_ATRIUM])
-        return filled(balancing_value(excess, start, PRESSURE_RATIO, PRESSURE_TOLERANCE))
+        return filled(heart, balancing_value(excess, start, PRESSURE_RATIO, tolerance))
 
     def _simulate(self, wall: VentricularMesh, heart: Heart) -> Volunteer:
         try:
@@ -190,3 +200,14 @@ class Ventricles:
             return self.imaging.image(volunteer, heart.sensors, frames, seed)
         except InputError:
             raise Inadmissible("not followed by registration") from None
+
+
+def _with_right_pressure(heart: Heart, pressure: float) -> Heart:
+    return heart.with_parameters({RIGHT_ATRIUM: pressure})
+
+
+def _with_moved_blood(heart: Heart, pressure: float) -> Heart:
+    """Heart with this right atrial pressure [Pa], the left one changed by the inverse ratio."""
+    before = heart.parameters()
+    ratio = pressure / before[RIGHT_ATRIUM]
+    return heart.with_parameters({RIGHT_ATRIUM: pressure, LEFT_ATRIUM: before[LEFT_ATRIUM] / ratio})

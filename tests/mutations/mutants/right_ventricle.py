@@ -63,6 +63,7 @@ RIGHT_VENTRICLE_MUTANTS = (
     *changes(
         "synthetic/ventricles.py",
         PLANTED,
-        ("nothing balances a planted heart", "if self.balanced else heart", "if False else heart"),
+        ("nothing balances a planted heart", "if self.balanced:", "if False:"),
+        ("nothing balances a planted effect", "if self.balanced and effects:", "if False:"),
     ),
 )
