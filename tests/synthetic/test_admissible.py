@@ -14,6 +14,7 @@ from heartfit.synthetic.case import (
     PlantedCase,
     draw_admissible,
     require_plausible,
+    require_plausible_right,
     require_recordable,
 )
 
@@ -52,6 +53,13 @@ def test_a_plausible_beat_is_taken_as_it_is():
 def test_an_implausible_beat_is_refused_with_its_reason(implausible, reason):
     with pytest.raises(Inadmissible, match=reason):
         require_plausible(implausible, 1e-3)
+
+
+def test_a_right_ventricle_that_empties_almost_completely_is_refused():
+    volume = 80e-6 + 70e-6 * WAVE
+    with pytest.raises(Inadmissible, match="right ejection fraction"):
+        require_plausible_right(SimpleNamespace(volume={"lv": 0.7 * volume, "rv": volume}))
+    require_plausible_right(SimpleNamespace(volume={"lv": volume, "rv": volume + 40e-6}))
 
 
 def test_a_pressure_that_no_reader_accepts_is_refused():

@@ -7,6 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from heartfit.core.arrays import Floats
 from heartfit.heart.beat import Beat
 from heartfit.observation.curve import PRESSURE_RANGE, Curve
 from heartfit.roles import Mechanism
@@ -25,7 +26,8 @@ from heartfit.synthetic.misspecified import AS_SEARCHED, Misspecification
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 
 EDV, EJECTION_FRACTION, PEAK = (80e-6, 300e-6), (0.15, 0.80), (8e3, 30e3)
-"""Plausible ranges of end-diastolic volume [m^3], ejection fraction [1] and peak pressure [Pa] of a patient."""
+"""Plausible ranges of end-diastolic volume [m^3], ejection fraction [1] and peak pressure [Pa] of a patient; the
+fraction is that of either ventricle."""
 PRELOAD = (1.3, 1.6)
 """Range of the ratio of the atrial filling pressure with raised legs to that at rest."""
 REST, RAISED = "rest", "legs_raised"
@@ -134,10 +136,21 @@ def require_plausible(beat: Beat, drift: float) -> Beat:
     volume, pressure = beat.volume["lv"], beat.pressure["lv"]
     ranges = {
         "end-diastolic volume": (volume.max(), EDV),
-        "ejection fraction": (1.0 - volume.min() / volume.max(), EJECTION_FRACTION),
+        "ejection fraction": (_ejection_fraction(volume), EJECTION_FRACTION),
         "peak pressure": (pressure.max(), PEAK),
     }
     for name, (value, (low, high)) in ranges.items():
         if not low <= value <= high:
             raise Inadmissible(name)
     return beat
+
+
+def require_plausible_right(beat: Beat) -> None:
+    """Raise Inadmissible for an implausible right ejection fraction, where a search sees the right volume."""
+    low, high = EJECTION_FRACTION
+    if not low <= _ejection_fraction(beat.volume["rv"]) <= high:
+        raise Inadmissible("right ejection fraction")
+
+
+def _ejection_fraction(volume: Floats) -> float:
+    return float(1.0 - volume.min() / volume.max())

@@ -36,6 +36,7 @@ from heartfit.synthetic.case import (
     draw_admissible,
     draw_effects,
     require_plausible,
+    require_plausible_right,
     require_recordable,
 )
 from heartfit.synthetic.cine import image_beat
@@ -159,6 +160,8 @@ class Ventricles:
         if self.balanced and effects:
             heart = self._balance(wall, heart, _with_moved_blood, MOVED_TOLERANCE)
         volunteer = self._simulate(wall, heart)
+        if self.balanced:
+            require_plausible_right(volunteer.beat)
         imaged = self._image(volunteer, heart, protocol.frames, int(rng.integers(2**31)))
         pressure = record_pressure(beat_curves(volunteer.beat, heart.sensors)["lv_pressure"], rng)
         curves = {REST: {VOLUME: imaged.volumes[VOLUME], "lv_pressure": pressure}}

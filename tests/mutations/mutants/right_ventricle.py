@@ -63,7 +63,11 @@ RIGHT_VENTRICLE_MUTANTS = (
     *changes(
         "synthetic/ventricles.py",
         PLANTED,
-        ("nothing balances a planted heart", "if self.balanced:", "if False:"),
+        (
+            "nothing balances a planted heart",
+            "self._balance(wall, heart, _with_right_pressure, PRESSURE_TOLERANCE)",
+            "heart",
+        ),
         ("nothing balances a planted effect", "if self.balanced and effects:", "if False:"),
     ),
 )
