@@ -32,25 +32,15 @@ TRIALS = [
     trial("AorticStenosis", result("named", {"MitralStenosis": 9.0}), sphere=("AorticStenosis",), **SOUND),
 ]
 
-FRESH_TRIALS = [
-    trial("", result("none", {}), **SOUND),
-    trial("", result("unknown", {}, 20.0), **SOUND),
-    trial("", result("named", {"Viscosity": 11.0}), **SOUND),
-]
-
 
 def measured(table: pd.DataFrame) -> list[str]:
     return table["measured"].tolist()
 
 
 def test_rates_count_their_hearts() -> None:
-    assert measured(rates_table(hearts_table(TRIALS), hearts_table(FRESH_TRIALS))) == [
+    assert measured(rates_table(hearts_table(TRIALS))) == [
         "1 of 2",  # a sound heart with a pressure
-        "1 of 2",
-        "1 of 3",  # fresh ones
         "0 of 2",
-        "0 of 2",
-        "1 of 3",
         "1 of 2",  # a scar of ln B 8 is not seen: it rests on strain
         "1 of 2",
         "1 of 2",
@@ -64,12 +54,8 @@ def test_rates_count_their_hearts() -> None:
 
 
 def test_rates_of_stored_rows_are_those_of_the_trials() -> None:
-    rows, fresh = hearts_table(TRIALS), hearts_table(FRESH_TRIALS)
-    assert measured(rates_table(rows.astype(str), fresh.astype(str))) == measured(rates_table(rows, fresh))
-
-
-def test_rates_can_do_without_fresh_hearts() -> None:
-    assert "0 of 0" in measured(rates_table(hearts_table(TRIALS), pd.DataFrame()))
+    rows = hearts_table(TRIALS)
+    assert measured(rates_table(rows.astype(str))) == measured(rates_table(rows))
 
 
 def test_errors_of_the_middle_wrap_around() -> None:
