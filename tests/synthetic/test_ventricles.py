@@ -14,7 +14,6 @@ from heartfit.io.configuration import read_study
 from heartfit.personalise.numerics import Protocol
 from heartfit.roles.sides import right_excess
 from heartfit.synthetic import ventricles
-from heartfit.synthetic import ventricles as imaging
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.scanner import Scanner
 from heartfit.synthetic.ventricles import LEFT_ATRIUM, RIGHT_ATRIUM, Imaging, Ventricles
@@ -98,7 +97,7 @@ def test_the_volume_is_that_of_the_mesh_that_followed_the_images(sound):
 
 
 def test_hearts_that_cannot_be_registered_are_counted_and_redrawn(hidden, monkeypatch):
-    calls, follow = [], imaging.track
+    calls, follow = [], ventricles.track
 
     def folding_once(*arguments):
         calls.append(arguments)
@@ -106,7 +105,7 @@ def test_hearts_that_cannot_be_registered_are_counted_and_redrawn(hidden, monkey
             raise InputError("registration: frames [3] fold the wall")
         return follow(*arguments)
 
-    monkeypatch.setattr(imaging, "track", folding_once)
+    monkeypatch.setattr(ventricles, "track", folding_once)
     _, case = hidden.plant(SOUND)
     assert case.answer.rejected == {"not followed by registration": 1}
 

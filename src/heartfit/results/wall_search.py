@@ -123,7 +123,7 @@ def rates_table(hearts: pd.DataFrame) -> pd.DataFrame:
         ("the same by images alone", "90 %", _right_territory(scars, IMAGES)),
         ("effects that are detected", "60 %", detected),
         ("names that are right", "95 %", _right_names(hidden, PRESSURE)),
-        ("the same by images alone", "95 %", _right_names(_searched(hidden, IMAGES), IMAGES)),
+        ("the same by images alone", "95 %", _right_names(hidden, IMAGES)),
     ]
     shares = [(figure, target, f"{int(holds.sum())} of {len(holds)}") for figure, target, holds in rows]
     minutes = np.median(hidden["CPU s"].astype(float)) / 60.0
@@ -135,10 +135,6 @@ def rates_table(hearts: pd.DataFrame) -> pd.DataFrame:
 
 def _column(search: str, name: str) -> str:
     return f"{search}: {name}"
-
-
-def _searched(hearts: pd.DataFrame, search: str) -> pd.DataFrame:
-    return hearts[hearts[_column(search, VERDICT)] != NOT_SEARCHED]
 
 
 def _is_detected(hearts: pd.DataFrame, search: str, name: str = GAIN) -> pd.Series:
