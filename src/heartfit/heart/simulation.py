@@ -110,11 +110,12 @@ class _Run:
         self._started = clock.process_time()
 
     def to_limit_cycle(self, state: HeartState) -> Beat:
-        before, trees = None, self.heart.circulation.trees()
+        before, trees, history = None, self.heart.circulation.trees(), [state]
         while True:
-            history = [state]
+            last, history = history, [state]
             for n in range(self.steps):
-                state = self._advance(state, self._step(n, state), self.numerics.cuts)
+                expected = state.body.x + last[n + 1].body.x - last[n].body.x if self.beats else None
+                state = self._advance(state, self._step(n, state), self.numerics.cuts, expected)
                 history.append(state)
                 self.progress((self.beats + (n + 1) / self.steps) / self.numerics.max_beats)
             self.beats += 1
@@ -163,9 +164,11 @@ class _Run:
     def _step(self, n: int, state: HeartState) -> TimeStep:
         return TimeStep(n * self.dt, self.dt, self.heart.period, self.numerics.second_order, state.last)
 
-    def _advance(self, state: HeartState, step: TimeStep, cuts: int) -> HeartState:
+    def _advance(
+        self, state: HeartState, step: TimeStep, cuts: int, expected: Floats | None = None
+    ) -> HeartState:
         try:
-            return self.coupling.advance(state, step)
+            return self.coupling.advance(state, step, expected)
         except StepFailed as failure:
             if cuts == 0:
                 raise StepFailed(f"at {step.start:.4f} s, step {step.length:.2g} s: {failure}") from failure

@@ -139,10 +139,10 @@ class HalvedCoupling:
     coupling: object
     length: float
 
-    def advance(self, state: HeartState, step) -> HeartState:
+    def advance(self, state: HeartState, step, expected=None) -> HeartState:
         if step.length == self.length and round(step.start / step.length) % 7 == 3:
             raise StepFailed("cut")
-        return self.coupling.advance(state, step)  # type: ignore[attr-defined]
+        return self.coupling.advance(state, step, expected)  # type: ignore[attr-defined]
 
     def __getattr__(self, name: str):
         return getattr(self.coupling, name)

@@ -13,7 +13,7 @@ not affect the large system.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -36,6 +36,9 @@ NEWTON_HALVINGS = 6
 
 PRESSURE_WEIGHT = 1e-4
 """Weight of a pressure [1/Pa], beside the weights of the body, in the Anderson mixing."""
+
+LARGEST_REUSED = 50_000
+"""Number of unknowns up to which the factors of a beat are kept for the next one; more would take gigabytes."""
 
 
 class Body(Protocol):
@@ -89,21 +92,25 @@ class CoupledStep:
         self, body: Any, step: Any, network: NetworkStep, time_step: TimeStep, state: HeartState
     ) -> None:
         self._body, self.step, self._network, self._state = body, step, network, state
-        self._time_step = time_step
+        self.time_step = time_step
         self._volumes, self._trees = state.starting_values(time_step)
         self._windkessels = network.windkessels(self._trees)
 
-    def predict(self) -> Iterate:
-        """Initial iterate by extrapolation, or the old state if that is not admissible."""
-        state, dt = self._state, self._time_step.length
-        weighted = zip(EXTRAPOLATION_WEIGHTS[len(state.trend)], state.trend, strict=True)
-        velocity = sum(
-            (weight * velocity_before for weight, velocity_before in weighted), np.zeros_like(state.body.x)
-        )
+    def predict(self, expected: Floats | None = None) -> Iterate:
+        """Initial iterate: ``expected`` (n, dofs) or an extrapolation; the old state if elements collapse there."""
+        state = self._state
         try:
-            return self.at(state.body.x + dt * velocity, state.pressures)
+            return self.at(self._extrapolated() if expected is None else expected, state.pressures)
         except StepFailed:
             return self.at(state.body.x, state.pressures)
+
+    def _extrapolated(self) -> Floats:
+        """Unknowns (n, dofs) at the end of the step if the velocity changes as before."""
+        x, trend = self._state.body.x, self._state.trend
+        weighted = zip(EXTRAPOLATION_WEIGHTS[len(trend)], trend, strict=True)
+        velocity = sum((weight * before for weight, before in weighted), np.zeros_like(x))
+        result: Floats = x + self.time_step.length * velocity
+        return result
 
     def at(self, x: Floats, pressures: Floats) -> Iterate:
         """Iterate with the forces at ``x`` (n, dofs); raises StepFailed if an element collapses."""
@@ -153,7 +160,7 @@ class CoupledStep:
 
     def commit(self, now: Iterate) -> HeartState:
         """State at the end of the step; the inflow of the Windkessels is the outflow of the ventricles."""
-        state, length = self._state, self._time_step.length
+        state, length = self._state, self.time_step.length
         trees = self._network.advance(self._trees, now.pressures)
         trend = ((now.x - state.body.x) / length, *state.trend[:1])
         before = replace(state, before=None)
@@ -162,8 +169,19 @@ class CoupledStep:
         return HeartState(body, now.pressures, now.volumes, trees, trend, length, before, branches, atria)
 
 
+class Tangent(NamedTuple):
+    """Factorised tangent for steps of an effective ``length`` [s], and the response (N, 2) to the cavity pressures."""
+
+    factor: Any
+    response: Floats
+    length: float
+
+
 class Coupling:
-    """Time stepper of body and circuit; owns the factorisation that the steps share."""
+    """Time stepper of body and circuit; owns the factorised tangents that the steps share.
+
+    A tangent serves until it contracts too little. In later beats the ones of the beat before return at their steps.
+    """
 
     def __init__(
         self, body: Body, circulation: Circulation, mechanisms: Sequence[Mechanism], tolerances: Tolerances
@@ -173,13 +191,15 @@ class Coupling:
         self.body = EnclosedBody(body, mechanisms) if loaded else body
         self.tolerances = tolerances
         self.iterations = self.factorisations = 0
-        self._factor: Any = None
-        self._response = np.empty((0, 2))
-        self._length = 0.0
+        self._tangent: Tangent | None = None
+        self._renewed: dict[float, Tangent] = {}  # by the start of the step that renewed them
 
-    def advance(self, state: HeartState, step: TimeStep) -> HeartState:
-        """State after ``step``; raises StepFailed if Newton's method does not converge."""
-        coupled, now = self._solve(state, step)
+    def advance(self, state: HeartState, step: TimeStep, expected: Floats | None = None) -> HeartState:
+        """State after ``step``; raises StepFailed if Newton's method does not converge.
+
+        Newton's method begins at the ``expected`` unknowns (n, dofs), or at extrapolated ones.
+        """
+        coupled, now = self._solve(state, step, expected)
         return coupled.commit(now)
 
     def linearise(self, state: HeartState, step: TimeStep) -> "tuple[CoupledStep, Iterate, Any, Floats]":
@@ -188,16 +208,19 @@ class Coupling:
         One more iteration, with this tangent, reduces the residual some hundredfold.
         """
         coupled, now = self._solve(state, step)
-        self._renew(coupled.step, now)
-        change, pressures = coupled.balance(now, -self._factor.solve(now.residual), self._response)
-        return coupled, coupled.move(now, change, pressures), self._factor, self._response
+        self._tangent = self._tangent_at(coupled, now)
+        factor, response, _ = self._tangent
+        change, pressures = coupled.balance(now, -factor.solve(now.residual), response)
+        return coupled, coupled.move(now, change, pressures), factor, response
 
-    def _solve(self, state: HeartState, step: TimeStep) -> tuple[CoupledStep, Iterate]:
+    def _solve(
+        self, state: HeartState, step: TimeStep, expected: Floats | None = None
+    ) -> tuple[CoupledStep, Iterate]:
         """Equations of ``step`` and the iterate at which they hold to the tolerances."""
-        if step.effective != self._length:
-            self._factor, self._length = None, step.effective
+        tangent = self._renewed.get(step.start, self._tangent)
+        self._tangent = tangent if tangent and tangent.length == step.effective else None
         coupled = self.equations(state, step)
-        return coupled, self._newton(coupled)
+        return coupled, self._newton(coupled, coupled.predict(expected))
 
     def equations(self, state: HeartState, step: TimeStep) -> CoupledStep:
         """Equations of ``step`` from ``state``."""
@@ -206,8 +229,8 @@ class Coupling:
         network = NetworkStep(self.network, step.end, step.effective, step.period, *starts)
         return CoupledStep(self.body, equations, network, step, state)
 
-    def _newton(self, coupled: CoupledStep) -> Iterate:
-        now, previous, renew = coupled.predict(), np.inf, False
+    def _newton(self, coupled: CoupledStep, now: Iterate) -> Iterate:
+        previous, renewed = np.inf, False
         anderson = Anderson(
             np.append(coupled.step.weights(now.x), np.full(len(now.pressures), PRESSURE_WEIGHT))
         )
@@ -215,22 +238,30 @@ class Coupling:
             size = coupled.step.size(now.residual)
             if size < self.tolerances.force and coupled.balanced(now, self.tolerances):
                 return now
-            stale = not renew and size > self.tolerances.contraction * previous
-            renew, previous = self._factor is None or stale, size
-            if renew:
-                self._renew(coupled.step, now)
+            stale = not renewed and size > self.tolerances.contraction * previous
+            tangent, renewed, previous = self._tangent, self._tangent is None or stale, size
+            if tangent is None or stale:
+                tangent = self._renew(coupled, now)
                 anderson.forget()
-            now = self._iterate(coupled, now, anderson)
+            now = self._iterate(coupled, now, tangent, anderson)
             self.iterations += 1
         raise StepFailed(f"no equilibrium in {self.tolerances.iterations} iterations, residual {size:.3g} N")
 
-    def _renew(self, step: Any, now: Iterate) -> None:
-        self._factor = step.tangent(now.x)
-        self._response = self._factor.solve(now.gradients)
-        self.factorisations += 1
+    def _renew(self, coupled: CoupledStep, now: Iterate) -> Tangent:
+        """Tangent at ``now``, which serves from now on and again at this step of the next beat."""
+        self._tangent = self._tangent_at(coupled, now)
+        if now.x.size <= LARGEST_REUSED:
+            self._renewed[coupled.time_step.start] = self._tangent
+        return self._tangent
 
-    def _iterate(self, coupled: CoupledStep, now: Iterate, anderson: Anderson) -> Iterate:
-        change, pressures = coupled.balance(now, -self._factor.solve(now.residual), self._response)
+    def _tangent_at(self, coupled: CoupledStep, now: Iterate) -> Tangent:
+        factor = coupled.step.tangent(now.x)
+        self.factorisations += 1
+        return Tangent(factor, factor.solve(now.gradients), coupled.time_step.effective)
+
+    @staticmethod
+    def _iterate(coupled: CoupledStep, now: Iterate, tangent: Tangent, anderson: Anderson) -> Iterate:
+        change, pressures = coupled.balance(now, -tangent.factor.solve(now.residual), tangent.response)
         mixed = anderson.mix(np.append(now.x, now.pressures), np.append(change, pressures - now.pressures))
         n = len(pressures)
         return coupled.move(now, mixed[:-n], now.pressures + mixed[-n:])
