@@ -1,13 +1,25 @@
-"""A noise model survives its file to the last bit."""
+"""A noise model survives its file to the last bit, and a stored one serves where it applies."""
 
+import json
 from pathlib import Path
 
 import numpy as np
+import pytest
 
-from heartfit.io.noise_models import read_noise_model, read_sensors, write_noise_model, write_sensors
+from heartfit.io.configuration import read_study
+from heartfit.io.noise_models import (
+    read_noise_model,
+    read_sensors,
+    stored_noise_model,
+    write_noise_model,
+    write_sensors,
+)
 from heartfit.io.results import read_fingerprint
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.scatter import Scatter
+
+ROOT = Path(__file__).parents[2]
+DEFAULT = ROOT / "config" / "config.yaml"
 
 
 def require_same(one: Scatter, other: Scatter) -> None:
@@ -30,6 +42,24 @@ def test_a_noise_model_round_trip(tmp_path: Path) -> None:
     require_same(restored.observations, model.observations)
     require_same(restored.curve, model.curve)
     assert read_fingerprint(tmp_path / "model.json") == "abc"
+
+
+@pytest.mark.parametrize(
+    ("changes", "file"),
+    [
+        ({}, "resources/noise_model.json"),
+        ({"methods": True}, None),
+        ({"cohort": {"scanner": {"voxel": 0.003}}}, None),
+        ({"registration": {"knots": 0.016}}, None),
+        ({"registration_error": {"noise_model": None}}, None),
+    ],
+)
+def test_the_stored_noise_model_serves_images_of_its_protocol(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, changes: dict, file: str | None
+) -> None:
+    monkeypatch.chdir(ROOT)
+    Path(tmp_path, "changes.yaml").write_text(json.dumps(changes))
+    assert stored_noise_model(read_study([DEFAULT, tmp_path / "changes.yaml"])) == file
 
 
 def test_the_sensors_round_trip(tmp_path: Path) -> None:

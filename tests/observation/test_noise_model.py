@@ -10,12 +10,22 @@ from heartfit.core.errors import InputError
 from heartfit.observation.curve import Curve
 from heartfit.observation.noise_model import NoiseModel, Share, coverage
 from heartfit.observation.operator import Pair, Reading, VolumeFeatures
+from heartfit.observation.scatter import Scatter
 
 NAMES = ("V_min", "q_max", "q_min")
 BIAS = np.array([0.04, -0.2, -0.15])
 SPREAD = np.array([[1.0, -0.5, -0.2], [-0.5, 9.0, 4.0], [-0.2, 4.0, 6.0]]) * 1e-3
 FRAMES = 10
 PROTOCOL = {"snr": 30.0, "slice_thickness": 0.008}
+
+
+@pytest.mark.parametrize(("bias", "sd"), [(0.0, 0.1), (0.04, 0.1), (-0.2, 0.01)])
+def test_the_mean_unsigned_error_is_that_of_normal_draws(bias: float, sd: float) -> None:
+    scatter = Scatter(("q_max",), 20, np.array([bias]), np.array([[sd**2]]))
+    drawn = bias + sd * np.random.default_rng(0).standard_normal(10**6)
+    assert NoiseModel({}, scatter, scatter).mean_unsigned_error("q_max") == pytest.approx(
+        np.abs(drawn).mean(), rel=3e-3
+    )
 
 
 def planted_curve(rng: np.random.Generator) -> np.ndarray:

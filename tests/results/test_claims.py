@@ -12,6 +12,8 @@ from heartfit.calibration.sensitivity import Sensitivity
 from heartfit.core.errors import InputError
 from heartfit.heart.heart import PAPER_PARAMETERS
 from heartfit.io.tables import read_published
+from heartfit.observation.noise_model import NoiseModel
+from heartfit.observation.scatter import Scatter
 from heartfit.results.case import Groups
 from heartfit.results.claims import FINDINGS, claimed_limits, claims_table
 from heartfit.results.errors import PAPER
@@ -20,7 +22,6 @@ from heartfit.results.sensitivity import FOUR, SEVEN
 from heartfit.results.text import render_tables
 from heartfit.study.need import Cost
 from tests.results.hearts import calibrated
-from tests.results.test_registration import comparison
 
 PUBLISHED = Path(__file__).parents[2] / "resources" / "marchesseau2012"
 CLAIMS = read_published(PUBLISHED / "claims.tsv")
@@ -43,6 +44,8 @@ SELECTION = pd.DataFrame(
 )
 FOURTEEN = Gaussian.from_relative(dict.fromkeys(PAPER_PARAMETERS, 1.0), dict.fromkeys(PAPER_PARAMETERS, 0.2))
 SENSITIVITY = Sensitivity(FOURTEEN, ("V_min",), np.ones(1), np.zeros((14, 1)), np.zeros((14, 1)))
+SLOPE_ERRORS = Scatter(("q_max", "q_min"), 21, np.array([0.1, -0.1]), np.diag([1e-6, 1e-6]))
+NOISE = NoiseModel({}, SLOPE_ERRORS, SLOPE_ERRORS)
 RESULTS = StudyResults(
     cases=[
         calibrated("volunteer1", errors=10.0, ratios={"sigma_0": 1.2}),
@@ -57,7 +60,7 @@ RESULTS = StudyResults(
     ],
     sensitivities={"paper": SENSITIVITY},
     selection=[SELECTION],
-    registered=[comparison(0.1), comparison(-0.1)],
+    noise=[NOISE],
 )
 
 
@@ -145,16 +148,14 @@ def test_the_spread_of_a_cohort_is_judged_unless_its_ratios_are_the_paper_s() ->
 
 
 def test_registration_is_compared_with_known_motion_and_with_the_calibration() -> None:
-    assert ours("registration_q_max", "2 image sequences") == ("10", "met")
+    assert ours("registration_q_max", "21 image sequences") == ("10", "met")
     assert ours("registration_over_calibration", "2 virtual") == ("0.769", "met"), "10 % over 13 %"
 
 
 def test_virtual_hearts_are_no_volunteers_and_what_is_missing_is_not_judged() -> None:
     assert ours("volunteers", "measured") == ("1", "not met")
     assert ours("volunteers", "virtual")[1].startswith("not comparable: virtual hearts")
-    alone = replace(
-        RESULTS, cases=RESULTS.cases[2:3], groups=Groups((), ("real",)), selection=[], registered=[]
-    )
+    alone = replace(RESULTS, cases=RESULTS.cases[2:3], groups=Groups((), ("real",)), selection=[], noise=[])
     for claim in ("patients_error", "registration_q_max", "selection_of_volume", "stiffness_of_dilated"):
         assert ours(claim, "", alone) == ("", "not comparable: this study has no such hearts")
     failed = replace(RESULTS.cases[0], calibrated={})

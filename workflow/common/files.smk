@@ -1,11 +1,14 @@
 """Files that rules read and write, and the results of the study."""
 
 from heartfit.io.fingerprint import PACKAGE
+from heartfit.io.noise_models import stored_noise_model
 from heartfit.io.sources import source_files
 from heartfit.results.report.record import TITLES
 
 TABLE_SUFFIXES = ("csv", "md", "tex")
-NOISE_MODEL = "<results>/registration_error/noise_model.json"
+LEARNT_NOISE = "<results>/registration_error/noise_model.json"
+# of the virtual images: stored, or learnt in this study
+NOISE_MODEL = stored_noise_model(STUDY) or LEARNT_NOISE
 
 
 def posteriors(calibrations):
@@ -159,11 +162,6 @@ def second_reading(wildcards):
 def registered_sequences(acquisition, numbers):
     """Comparisons of registered with true motion, of numbered sequences of an acquisition."""
     return expand(f"<results>/registration_error/{acquisition}/{{number}}.json", number=numbers)
-
-
-def noise_training_sequences(wildcards):
-    """Sequences that the noise model of a virtual case was learnt from; empty for a measured heart."""
-    return registered_sequences("baseline", SEQUENCES["baseline"] if wildcards.case in VIRTUAL else ())
 
 
 def calibrated_beats(kind):

@@ -8,7 +8,6 @@ IMAGED_CASE = MEASURED_CASE | {
     "registered": "<results>/{case}/registration/motion.npz",
 }
 CALIBRATED_CASE = IMAGED_CASE | {
-    "known": noise_training_sequences,
     "beats": calibrated_beats("beat"),
     "motions": calibrated_beats("motion"),
     "fitted": calibrated_beats("fitted"),

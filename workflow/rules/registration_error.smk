@@ -43,7 +43,7 @@ rule learn_noise:
     input:
         registered_sequences("baseline", SEQUENCES["baseline"]),
     output:
-        model=NOISE_MODEL,
+        model=LEARNT_NOISE,
         sensors="<results>/registration_error/sensors.json",
     params:
         protocol=STUDY.protocol(),
@@ -73,7 +73,7 @@ rule tabulate_registration:
 
 rule tabulate_noise:
     input:
-        model=NOISE_MODEL,
+        model=LEARNT_NOISE,
         sensors="<results>/registration_error/sensors.json",
         learnt=registered_sequences("baseline", SEQUENCES["baseline"]),
         fresh=registered_sequences("baseline", VALIDATION_SEQUENCES),

@@ -78,7 +78,7 @@ rule judge_claims:
         ],
         sensitivities=expand("<results>/sensitivity/{setting}/sensitivity.json", setting=PERTURBED_SETTINGS),
         selection=["<results>/tables/selection.csv"] if VIRTUAL else [],
-        registered=registered_sequences("baseline", SEQUENCES["baseline"] if VIRTUAL else ()),
+        noise=[NOISE_MODEL] if VIRTUAL else [],
     output:
         reported_tables("claims"),
     resources:

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from heartfit.io.campaign import read_benchmarks
-from heartfit.io.noise_models import read_comparison
+from heartfit.io.noise_models import read_noise_model
 from heartfit.io.results import read_case, read_sensitivity
 from heartfit.io.run import record
 from heartfit.io.tables import read_published, write_tables
@@ -21,7 +21,7 @@ results = StudyResults(
     costs=read_benchmarks(folder / "benchmarks"),
     sensitivities=dict(zip(params.settings, sensitivities, strict=True)),
     selection=list(map(read_published, map(Path, files.selection))),
-    registered=list(map(read_comparison, map(Path, files.registered))),
+    noise=list(map(read_noise_model, map(Path, files.noise))),
     planted_ratios=params.planted_ratios,
 )
 claims = read_published(Path(files.claims))

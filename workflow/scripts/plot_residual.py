@@ -7,7 +7,7 @@ from heartfit.io.beats import read_fitted_curves
 from heartfit.io.curves import read_curves
 from heartfit.io.figures import write_figure
 from heartfit.io.meshes import read_mesh, read_motion, read_simulated_motion
-from heartfit.io.noise_models import read_comparison, read_noise_model
+from heartfit.io.noise_models import read_noise_model
 from heartfit.io.run import record
 from heartfit.io.tables import write_csv
 from heartfit.observation.residual import case_residual, strain_residual
@@ -17,9 +17,8 @@ record(snakemake.log[0])
 files, names = snakemake.input, snakemake.wildcards
 observed = map(read_fitted_curves, files.beats, files.fitted, repeat(snakemake.params.setting))
 models = list(map(read_noise_model, map(Path, files.get("noise", []))))
-acquisitions = list(map(read_comparison, map(Path, files.get("known", []))))
 registered, simulated = read_motion(Path(files.registered)), read_simulated_motion(Path(files.motions[-1]))
-strain = strain_residual(read_mesh(Path(files.mesh)), registered, simulated, acquisitions)
+strain = strain_residual(read_mesh(Path(files.mesh)), registered, simulated, models)
 beats = dict(zip(LABELS, observed, strict=False))
 residual = case_residual(read_curves(Path(files.measured)), beats, models, strain)
 write_csv(Path(snakemake.output.table), residual_table(residual))

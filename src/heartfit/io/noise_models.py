@@ -10,6 +10,7 @@ from heartfit.io.tables import read_published
 from heartfit.observation.comparison import Comparison
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.observation.scatter import Scatter
+from heartfit.study.study import Study
 
 NOISE_UNITS = {
     "observations": "V_min, P_max: (measured - true) / measured range; rates: ln(measured / true)",
@@ -25,6 +26,17 @@ def write_noise_model(path: Path, model: NoiseModel, fingerprint: str) -> None:
 def read_noise_model(path: Path) -> NoiseModel:
     """Read a noise model; raises InputError for a missing or broken file."""
     return read_record(path, NoiseModel, "noise_model")
+
+
+def stored_noise_model(study: Study) -> str | None:
+    """File of the stored noise model of a study; None if the study learns its own.
+
+    It does to compare methods, and where the protocol of its images is another one.
+    """
+    path = study.registration_error.noise_model
+    if path is None or study.methods or read_noise_model(Path(path)).protocol != study.protocol():
+        return None
+    return path
 
 
 def write_sensors(path: Path, sensors: Scatter, fingerprint: str) -> None:

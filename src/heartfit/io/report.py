@@ -2,7 +2,7 @@
 
 import hashlib
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib import metadata, resources
 from pathlib import Path
 from typing import Any
@@ -17,10 +17,10 @@ from heartfit.io.causes import read_diagnosis
 from heartfit.io.curves import read_curves
 from heartfit.io.discoveries import read_discoveries
 from heartfit.io.meshes import read_mesh, read_motion, read_simulated_motion
-from heartfit.io.noise_models import read_noise_model
 from heartfit.io.results import read_case, read_fingerprint, read_posterior, read_sigma_points, read_truth
 from heartfit.io.walls import read_wall
 from heartfit.observation.beat import beat_curves
+from heartfit.observation.noise_model import NoiseModel
 from heartfit.personalise.setting import Setting
 from heartfit.results.report.page import Assets
 from heartfit.results.report.record import (
@@ -50,11 +50,15 @@ PACKAGES = (
 
 
 def read_study_results(
-    folder: Path, study: Study, cases: Mapping[str, Case], left_out: str = ""
+    folder: Path,
+    study: Study,
+    cases: Mapping[str, Case],
+    noise: Sequence[NoiseModel] = (),
+    left_out: str = "",
 ) -> StudyRecord:
     """Read the results of a study for its report; raises InputError for a missing result."""
     sealed = [name for name, case in cases.items() if case.kind == "sealed"]
-    records = {name: _case(Path(folder), study, case) for name, case in cases.items()}
+    records = {name: _case(Path(folder), study, case, noise) for name, case in cases.items()}
     return StudyRecord(
         records,
         _tables(Path(folder) / "tables"),
@@ -71,9 +75,8 @@ def assets() -> Assets:
     return Assets(get_plotlyjs(), *texts)
 
 
-def _case(results: Path, study: Study, case: Case) -> CaseRecord:
+def _case(results: Path, study: Study, case: Case, noise: Sequence[NoiseModel]) -> CaseRecord:
     folder = results / case.case
-    model = results / "registration_error" / "noise_model.json"
     truth = read_truth(folder / "cohort" / "truth.json") if case.virtual else {}
     settings = {name: study.setting(name, case) for name in study.settings_of(case)}
     return CaseRecord(
@@ -83,7 +86,7 @@ def _case(results: Path, study: Study, case: Case) -> CaseRecord:
         mesh=read_mesh(folder / "geometry" / "mesh.vtu"),
         registered=read_motion(folder / "registration" / "motion.npz"),
         measured=read_curves(folder / "curves" / "measured.csv"),
-        noise=[read_noise_model(model)] if case.virtual else [],
+        noise=noise if case.virtual else (),
         fits={
             name: _fit(folder, name, setting, study.first_step(name), truth)
             for name, setting in settings.items()

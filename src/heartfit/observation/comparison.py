@@ -7,8 +7,8 @@ at the same frames.
 Reference: Marchesseau et al. 2012, section 4.3.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from heartfit.core.errors import InputError
 from heartfit.geometry.carry import count_inverted_elements
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.observation.curve import Curve
+from heartfit.observation.noise_model import NoiseModel, Setting, StrainError
 from heartfit.observation.operator import CurveFeatures, Pair, Reading
 from heartfit.observation.shape import cavity_volumes
 from heartfit.observation.strain import segment_strain
@@ -61,6 +62,13 @@ class Comparison:
     def strain_error_of_beat(self) -> Floats:
         """Root mean square (3, 16) over the phases of registered minus true strain."""
         return np.sqrt(((self.registered_strain - self.true_strain) ** 2).mean(axis=0))
+
+
+def learn_noise(comparisons: Sequence[Comparison], protocol: Mapping[str, Setting]) -> NoiseModel:
+    """Noise model of images of one ``protocol``, from registered sequences of known truth."""
+    model = NoiseModel.from_pairs([comparison.pair for comparison in comparisons], protocol)
+    errors = np.array([comparison.strain_error_at_end_systole() for comparison in comparisons])
+    return replace(model, strain=StrainError(errors.mean(axis=0), errors.std(axis=0, ddof=1)))
 
 
 def compare_motions(

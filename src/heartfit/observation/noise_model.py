@@ -16,6 +16,7 @@ twice as for half the true rate. Bias and covariance of the errors over N >= 20 
 :mod:`heartfit.observation.scatter` gives the distribution of the next sequence.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -39,17 +40,26 @@ Setting = float | int | str | bool
 
 
 @dataclass(frozen=True, eq=False)
+class StrainError:
+    """Mean ``bias`` (3, 16) and deviation ``sd`` (3, 16) of registered less true strain of segments at end systole."""
+
+    bias: Floats
+    sd: Floats
+
+
+@dataclass(frozen=True, eq=False)
 class NoiseModel:
     """Bias and covariance of the errors of one imaging protocol.
 
     protocol: the settings of scanner and registration that the model holds for; observations: scatter of their errors
-    by name; curve: scatter of the error of the volume, one component for each phase, with shrunken correlations. Raises
-    InputError for fewer than MIN_SEQUENCES sequences.
+    by name; curve: scatter of the error of the volume, one component for each phase, with shrunken correlations;
+    strain: of segments, None if it was not compared. Raises InputError for fewer than MIN_SEQUENCES sequences.
     """
 
     protocol: Mapping[str, Setting]
     observations: Scatter
     curve: Scatter
+    strain: StrainError | None = None
 
     def __post_init__(self) -> None:
         _require_sequences(self.sequences)
@@ -76,6 +86,16 @@ class NoiseModel:
     def sequences(self) -> int:
         """Number of sequences from which the model was estimated."""
         return self.observations.count
+
+    def mean_unsigned_error(self, name: str) -> float:
+        r"""Mean of the unsigned error of an observation, which is normal with the bias m and the deviation s.
+
+        .. math:: s \sqrt{2/\pi}\, e^{-m^2/2s^2} + m\, \mathrm{erf}(m / (s \sqrt 2))
+        """
+        place = self.observations.names.index(name)
+        bias, sd = float(self.observations.mean[place]), float(self.observations.sd[place])
+        ratio = bias / (sd * math.sqrt(2.0))
+        return sd * math.sqrt(2.0 / math.pi) * math.exp(-(ratio**2)) + bias * math.erf(ratio)
 
     def require_protocol(self, protocol: Mapping[str, Setting]) -> None:
         """Raise InputError unless images have the protocol of the model."""

@@ -19,7 +19,6 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.observation.beat import PHASES, BeatPhases
-from heartfit.observation.comparison import Comparison
 from heartfit.observation.curve import Curve
 from heartfit.observation.measurement import frame_noise
 from heartfit.observation.noise_model import NoiseModel
@@ -51,23 +50,20 @@ class StrainResidual:
 
 
 def strain_residual(
-    mesh: VentricularMesh, measured: Motion, simulated: Motion | None, validation: Sequence[Comparison]
+    mesh: VentricularMesh, measured: Motion, simulated: Motion | None, models: Sequence[NoiseModel]
 ) -> StrainResidual | None:
     """Strain residual at end systole of the measured left ventricle; both motions at the same frames.
 
-    simulated: None for a failed beat, which has no residual; validation: registrations of known truth, whose mean error
-    corrects the residual and whose scatter is its noise; may be empty.
+    simulated: None for a failed beat, which has no residual; models: noise of the images, or empty; the bias of
+    its strain corrects the residual, and its deviation is the noise.
     """
     if simulated is None:
         return None
     phase = int(cavity_volumes(mesh, measured)["lv_volume"].values.argmin())
     difference = (segment_strain(mesh, simulated) - segment_strain(mesh, measured))[phase]
-    if not validation:
-        return StrainResidual(float(measured.times[phase]), difference, None)
-    errors = np.array([comparison.strain_error_at_end_systole() for comparison in validation])
-    return StrainResidual(
-        float(measured.times[phase]), difference + errors.mean(axis=0), errors.std(axis=0, ddof=1)
-    )
+    for error in (model.strain for model in models if model.strain is not None):
+        return StrainResidual(float(measured.times[phase]), difference + error.bias, error.sd)
+    return StrainResidual(float(measured.times[phase]), difference, None)
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,8 +11,7 @@ import numpy as np
 import pandas as pd
 
 from heartfit.calibration.sensitivity import Sensitivity
-from heartfit.observation.comparison import Comparison
-from heartfit.results.acquisitions import percent_errors
+from heartfit.observation.noise_model import NoiseModel
 from heartfit.results.case import CaseResult, Groups
 from heartfit.results.costs import calibration_time, number_of_updates
 from heartfit.results.errors import PAPER
@@ -41,7 +40,7 @@ class StudyResults:
     """Results that the claims are judged by.
 
     cases: under the settings that serve all hearts; costs: of all jobs; sensitivities: by setting; selection: its
-    table, or empty; registered: images of known motion under the baseline protocol; planted_ratios: the hidden hearts
+    table, or empty; noise: model of the virtual images, or empty; planted_ratios: the hidden hearts
     have the ratios of the paper's Table 2.
     """
 
@@ -50,7 +49,7 @@ class StudyResults:
     costs: Sequence[Cost]
     sensitivities: Mapping[str, Sensitivity]
     selection: Sequence[pd.DataFrame]
-    registered: Sequence[Comparison]
+    noise: Sequence[NoiseModel]
     planted_ratios: bool = True
 
     def under(self, setting: str) -> list[CaseResult]:
@@ -223,13 +222,12 @@ def selected(observed: str) -> Source:
 
 
 def registration_error(*names: str) -> Source:
-    """Return the source of the mean unsigned error [%] of observations after registration of images of known motion."""
+    """Return the source of the mean unsigned error [%] of observations after registration, by the noise model."""
 
     def find(results: StudyResults) -> Iterator[Finding]:
-        if results.registered:
-            errors = percent_errors(results.registered)
-            mean = float(np.mean([np.abs(errors[name]).mean() for name in names]))
-            yield Finding("", f"{len(results.registered)} image sequences", mean)
+        for noise in results.noise:
+            mean = 100.0 * float(np.mean([noise.mean_unsigned_error(name) for name in names]))
+            yield Finding("", f"{noise.sequences} image sequences", mean)
 
     return find
 

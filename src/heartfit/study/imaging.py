@@ -116,6 +116,11 @@ class RegistrationError(Generator):
     varied_sequences: Count = Field(description="hearts imaged by each varied protocol")
     fresh: Count = Field(description="further hearts imaged by the cohort's protocol")
     seed: Seed = Field(description="seed of the first heart")
+    noise_model: str | None = Field(
+        None,
+        min_length=1,
+        description="stored noise model, which serves where its protocol is the study's; without `methods` only",
+    )
     varied: dict[str, tuple[float, ...]] = Field(
         {}, description="alternative values by setting of the scanner"
     )
