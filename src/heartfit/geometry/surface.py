@@ -5,8 +5,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from heartfit.core.arrays import Floats, Integers, Names
 from heartfit.core.errors import InputError
@@ -80,6 +78,9 @@ def orient(triangles: Integers) -> Integers:
 
     A breadth-first walk over the triangles turns each of them to agree with its predecessor.
     """
+    from scipy.sparse import coo_matrix  # only where meshes are made; it takes a tenth of a second
+    from scipy.sparse.csgraph import breadth_first_order, connected_components
+
     pairs = neighbours(triangles)
     k = len(triangles)
     graph = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(k, k)).tocsr()

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 import pymetis
 from numba import njit
-from scipy.sparse import coo_array, csr_array, tril
 
 from heartfit.core.arrays import Integers
 
@@ -38,34 +37,48 @@ class Fronts:
 
 def find_fronts(tets: Integers, nodes: int) -> Fronts:
     """Fronts of a mesh of tetrahedra (m, 4) with the given number of nodes."""
-    graph = _graph(tets, nodes)
-    order = _nested_dissection(graph)
-    lower = csr_array(tril(graph[order][:, order], k=-1))
-    order = order[_postorder(_elimination_tree(lower.indptr, lower.indices))]
-    lower = csr_array(tril(graph[order][:, order], k=-1))
-    parents = _elimination_tree(lower.indptr, lower.indices)
-    counts = _row_counts(lower.indptr, lower.indices, parents)
+    pairs = _neighbours(tets, nodes)
+    order = _nested_dissection(pairs, nodes)
+    later, earlier = _ordered(pairs, order)
+    order = order[_postorder(_elimination_tree(*_lists(later, earlier, nodes)))]
+    later, earlier = _ordered(pairs, order)
+    below = _lists(later, earlier, nodes)
+    parents = _elimination_tree(*below)
+    counts = _row_counts(*below, parents)
     starts = _merge_supernodes(
         _supernodes(parents, counts, LARGEST_FRONT), parents, counts, MERGE_SIZE, MERGE_WASTE, LARGEST_FRONT
     )
-    upper = csr_array(lower.T)
-    rows, row_starts, above = _front_rows(starts, upper.indptr, upper.indices, counts)
+    rows, row_starts, above = _front_rows(starts, *_lists(earlier, later, nodes), counts)
     return Fronts(order, starts, rows, row_starts, above)
 
 
-def _graph(tets: Integers, nodes: int) -> csr_array:
-    first, second = np.repeat(tets, 4, axis=1).ravel(), np.tile(tets, (1, 4)).ravel()
-    distinct = first != second
-    pairs = (first[distinct], second[distinct])
-    return csr_array(
-        coo_array((np.ones(distinct.sum(), dtype=np.int32), pairs), shape=(nodes, nodes)).tocsr()
-    )
+def _neighbours(tets: Integers, nodes: int) -> Integers:
+    """Ordered pairs (2, k) of different nodes that share a tetrahedron."""
+    keys = np.unique(nodes * np.repeat(tets, 4, axis=1).ravel() + np.tile(tets, (1, 4)).ravel())
+    first, second = np.divmod(keys, nodes)
+    return np.stack([first, second])[:, first != second]
 
 
-def _nested_dissection(graph: csr_array) -> Integers:
-    adjacency = pymetis.CSRAdjacency(adj_starts=graph.indptr, adjacent=graph.indices)
+def _nested_dissection(pairs: Integers, nodes: int) -> Integers:
+    starts, adjacent = _lists(pairs[0], pairs[1], nodes)
+    adjacency = pymetis.CSRAdjacency(adj_starts=starts, adjacent=adjacent)
     order, _ = pymetis.nested_dissection(adjacency)
     return np.asarray(order, dtype=np.int64)
+
+
+def _ordered(pairs: Integers, order: Integers) -> Integers:
+    """Positions (2, k / 2) in the ``order`` of the nodes of every pair, the later one first."""
+    position = np.empty_like(order)
+    position[order] = np.arange(len(order))
+    placed = position[pairs]
+    result: Integers = placed[:, placed[0] > placed[1]]
+    return result
+
+
+def _lists(first: Integers, second: Integers, nodes: int) -> tuple[Integers, Integers]:
+    """Starts (n + 1,) of the lists of all second nodes of the first ones, and the lists, which ascend."""
+    keys = np.sort(nodes * first + second)
+    return np.searchsorted(keys, nodes * np.arange(nodes + 1)), keys % nodes
 
 
 @njit(cache=True)

@@ -1,11 +1,12 @@
-"""Multifrontal factorisation of the symmetric tangent.
+"""Multifrontal factorisation of the tangent.
 
-A front holds the dense blocks :math:`F_{11}` of its own unknowns, :math:`F_{21}` and :math:`F_{22}` of the rows it
-touches. Its elimination keeps :math:`S = F_{11}^{-1}` and :math:`G = F_{21} S` and leaves :math:`F_{22} - G F_{21}^T`
-to its parent; a solution needs one product with G in the forward sweep, and one with G and one with S in the backward
-sweep. The dense algebra is in single precision, which suffices for the direction of a Newton step. The matrix is
-symmetric but indefinite: LAPACK pivots within a front; no pivoting takes place between fronts, since the matrix of the
-mixed element is quasi-definite. Source: Duff and Reid, ACM Trans. Math. Softw. 9 (1983) 302.
+A front holds the dense blocks :math:`F_{11}` of its own unknowns, :math:`F_{12}`, :math:`F_{21}` and :math:`F_{22}` of
+the rows it touches. Its elimination keeps :math:`S = F_{11}^{-1}`, :math:`G = F_{21} S` and :math:`H = (S F_{12})^T`,
+which is G where the matrix is symmetric, and leaves :math:`F_{22} - G F_{12}` to its parent; a solution needs one
+product with G in the forward sweep, and one with H and one with S in the backward sweep. The dense algebra is in single
+precision, which suffices for the direction of a Newton step. The tangent of the forces is symmetric but indefinite:
+LAPACK pivots within a front; no pivoting takes place between fronts, since the matrix of the mixed element is
+quasi-definite. Source: Duff and Reid, ACM Trans. Math. Softw. 9 (1983) 302.
 """
 
 from typing import Any
@@ -47,13 +48,14 @@ class Elimination:
         f = self._fronts
         return f.starts, f.rows, f.row_starts, self._inverse_starts, self._coupling_starts
 
-    def factorise(self, elements: Floats, nodes: Floats) -> "Factor":
+    def factorise(self, elements: Floats, nodes: Floats, symmetric: bool = True) -> "Factor":
         """Factorise the sum of element matrices (m, 4 dofs, 4 dofs) and nodal blocks (n, dofs, dofs).
 
         Raises StepFailed if the sum is singular to single precision or not finite.
         """
         inverses = np.empty(self._inverse_starts[-1], dtype=np.float32)
         couplings = np.empty(self._coupling_starts[-1], dtype=np.float32)
+        transposed = couplings if symmetric else np.empty_like(couplings)
         f, matrix = self._fronts, (elements, nodes[self._fronts.order])
         arguments = (
             *matrix,
@@ -65,17 +67,19 @@ class Elimination:
             self._stack,
         )
         try:
-            _eliminate(*arguments, inverses, couplings)  # type: ignore[call-arg]
+            _eliminate(*arguments, symmetric, inverses, couplings, transposed)  # type: ignore[call-arg]
         except (np.linalg.LinAlgError, ZeroDivisionError) as failure:
             raise StepFailed(f"the tangent cannot be factorised: {failure}") from failure
-        return Factor(self, inverses, couplings)
+        return Factor(self, inverses, couplings, transposed)
 
 
 class Factor:
     """Factors of a matrix, as computed by :meth:`Elimination.factorise`."""
 
-    def __init__(self, elimination: Elimination, inverses: Singles, couplings: Singles) -> None:
-        self._elimination, self._inverses, self._couplings = elimination, inverses, couplings
+    def __init__(
+        self, elimination: Elimination, inverses: Singles, couplings: Singles, transposed: Singles
+    ) -> None:
+        self._elimination, self._blocks = elimination, (inverses, couplings, transposed)
 
     def solve(self, right: Floats) -> Floats:
         """Solution (N,) or (N, k), in the numbering of the mesh; not finite where single precision overflows."""
@@ -83,7 +87,7 @@ class Factor:
         solution = np.empty_like(right)
         with np.errstate(over="ignore"):
             y = right[permutation].astype(np.float32)
-        arguments = (y, self._elimination.dofs, *self._elimination.shape, self._inverses, self._couplings)
+        arguments = (y, self._elimination.dofs, *self._elimination.shape, *self._blocks)
         if y.ndim == 1:
             _substitute(*arguments)
         else:
@@ -108,9 +112,13 @@ def _stack_size(touched: Integers, parents: Integers) -> int:
 @njit(cache=True)
 def _eliminate(  # type: ignore[no-untyped-def]
     elements, nodes, tets, chosen, chosen_starts,
-    starts, rows, row_starts, inverse_starts, coupling_starts, parents, stack_size, inverses, couplings,
+    starts, rows, row_starts, inverse_starts, coupling_starts, parents, stack_size,
+    symmetric, inverses, couplings, transposed,
 ):  # fmt: skip
-    """Fill ``inverses`` and ``couplings`` with S and G of every front; ``chosen`` lists the elements by front."""
+    """Fill ``inverses``, ``couplings`` and ``transposed`` with S, G and H of every front.
+
+    ``chosen`` lists the elements by front. The last two are one array for a ``symmetric`` matrix.
+    """
     dofs = nodes.shape[1]
     place, corners = np.empty(len(nodes), dtype=np.int64), np.empty(4, dtype=np.int64)
     stack, filled = np.empty(stack_size, dtype=np.float32), 0
@@ -125,34 +133,41 @@ def _eliminate(  # type: ignore[no-untyped-def]
         front = work[: (c + r) ** 2].reshape(c + r, c + r)
         front[:] = 0.0
         for i in range(starts[s], starts[s + 1]):
-            _extend_add(front, nodes[i], place[i : i + 1], dofs)
+            _extend_add(front, nodes[i], place[i : i + 1], dofs, symmetric)
         for e in chosen[chosen_starts[s] : chosen_starts[s + 1]]:
             for a in range(4):
                 corners[a] = place[tets[e, a]]
-            _extend_add(front, elements[e], corners, dofs)
+            _extend_add(front, elements[e], corners, dofs, symmetric)
         while top > 0 and parents[waiting[top - 1]] == s:
             top -= 1
             left = rows[row_starts[waiting[top]] : row_starts[waiting[top] + 1]]
             size = dofs * len(left)
             filled -= size * size
-            _extend_add(front, stack[filled : filled + size * size].reshape(size, size), place[left], dofs)
-        inverse = _inverse(front[:c, :c])
+            update = stack[filled : filled + size * size].reshape(size, size)
+            _extend_add(front, update, place[left], dofs, symmetric)
+        inverse = _inverse(front[:c, :c], symmetric)
         inverses[inverse_starts[s] : inverse_starts[s + 1]] = inverse.ravel()
         if r:
             below = front[c:, :c].copy()
             coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
+            update = stack[filled : filled + r * r].reshape(r, r)
             np.dot(below, inverse, coupling)
-            _schur_complement(front[c:, c:], coupling, below, stack[filled : filled + r * r].reshape(r, r))
+            if symmetric:
+                _schur_complement(front[c:, c:], coupling, below, update)
+            else:
+                beside = front[:c, c:].copy()
+                transposed[coupling_starts[s] : coupling_starts[s + 1]] = np.dot(inverse, beside).T.ravel()
+                update[:] = front[c:, c:] - np.dot(coupling, beside)
             filled += r * r
             waiting[top] = s
             top += 1
 
 
 @njit(cache=True)
-def _extend_add(front, block, places, dofs):  # type: ignore[no-untyped-def]
-    """Add a symmetric ``block``, whose nodes have the columns ``places``, to the lower triangle of ``front``.
+def _extend_add(front, block, places, dofs, symmetric):  # type: ignore[no-untyped-def]
+    """Add a ``block``, whose nodes have the columns ``places``, to ``front``; only lower triangles if ``symmetric``.
 
-    Only the lower triangle of the block is read if ``places`` ascend.
+    The upper triangle of a symmetric block is read where ``places`` do not ascend.
     """
     n = dofs * len(places)
     columns = np.empty(n, dtype=np.int64)
@@ -163,8 +178,8 @@ def _extend_add(front, block, places, dofs):  # type: ignore[no-untyped-def]
     for i in range(n):
         row, source = columns[i], block[i]
         target = front[row]
-        for j in range(i + 1 if ascend else n):
-            if columns[j] <= row:
+        for j in range(i + 1 if symmetric and ascend else n):
+            if columns[j] <= row or not symmetric:
                 target[columns[j]] += source[j]
 
 
@@ -179,15 +194,15 @@ def _schur_complement(rest, coupling, below, update):  # type: ignore[no-untyped
 
 
 @njit(cache=True)
-def _inverse(lower):  # type: ignore[no-untyped-def]
-    """Inverse of the symmetric matrix with the triangle ``lower``, equilibrated for LAPACK."""
-    n = len(lower)
+def _inverse(block, symmetric):  # type: ignore[no-untyped-def]
+    """Inverse of a ``block``, of which a symmetric one holds its lower triangle, equilibrated for LAPACK."""
+    n = len(block)
     scale, full = np.empty(n, dtype=np.float32), np.empty((n, n), dtype=np.float32)
     for i in range(n):
-        scale[i] = 1.0 / np.sqrt(abs(lower[i, i]))
+        scale[i] = 1.0 / np.sqrt(abs(block[i, i]))
         for j in range(i + 1):
-            full[i, j] = lower[i, j] * scale[i] * scale[j]
-            full[j, i] = full[i, j]
+            full[i, j] = block[i, j] * scale[i] * scale[j]
+            full[j, i] = full[i, j] if symmetric else block[j, i] * scale[i] * scale[j]
     result = np.linalg.inv(full)
     for i in range(n):
         for j in range(n):
@@ -196,7 +211,9 @@ def _inverse(lower):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _substitute(y, dofs, starts, rows, row_starts, inverse_starts, coupling_starts, inverses, couplings):  # type: ignore[no-untyped-def]
+def _substitute(  # type: ignore[no-untyped-def]
+    y, dofs, starts, rows, row_starts, inverse_starts, coupling_starts, inverses, couplings, transposed,
+):  # fmt: skip
     """Solve in place for ``y`` (N,), in the order of elimination: forward sweep, then backward sweep."""
     k = len(starts) - 1
     for s in range(k):
@@ -214,18 +231,18 @@ def _substitute(y, dofs, starts, rows, row_starts, inverse_starts, coupling_star
         inverse = inverses[inverse_starts[s] : inverse_starts[s + 1]].reshape(c, c)
         x = np.dot(inverse, y[a : a + c])
         if r:
-            coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
+            back = transposed[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
             gathered = np.empty(r, dtype=np.float32)
             for i in range(len(touched)):
                 for m in range(dofs):
                     gathered[dofs * i + m] = y[dofs * touched[i] + m]
-            x -= np.dot(gathered, coupling)
+            x -= np.dot(gathered, back)
         y[a : a + c] = x
 
 
 @njit(cache=True)
 def _substitute_columns(  # type: ignore[no-untyped-def]
-    y, dofs, starts, rows, row_starts, inverse_starts, coupling_starts, inverses, couplings,
+    y, dofs, starts, rows, row_starts, inverse_starts, coupling_starts, inverses, couplings, transposed,
 ):  # fmt: skip
     """Solve in place for the columns of ``y`` (N, k): products of matrices load each factor once for all of them."""
     fronts, columns = len(starts) - 1, y.shape[1]
@@ -243,9 +260,9 @@ def _substitute_columns(  # type: ignore[no-untyped-def]
         inverse = inverses[inverse_starts[s] : inverse_starts[s + 1]].reshape(c, c)
         x = np.dot(inverse, y[a : a + c])
         if r:
-            coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
+            back = transposed[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
             gathered = np.empty((r, columns), dtype=np.float32)
             for i in range(len(touched)):
                 gathered[dofs * i : dofs * i + dofs] = y[dofs * touched[i] : dofs * touched[i] + dofs]
-            x -= np.dot(coupling.T, gathered)
+            x -= np.dot(back.T, gathered)
         y[a : a + c] = x

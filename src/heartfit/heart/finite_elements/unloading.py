@@ -23,57 +23,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array, diags_array
-from scipy.sparse.linalg import splu
 
-from heartfit.core.arrays import Floats, Integers
+from heartfit.core.arrays import Floats
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.finite_elements import kinematics
 from heartfit.heart.finite_elements.body import FiniteElementBody, Step, Tissue, mean_dyads
 from heartfit.heart.finite_elements.kinematics import VOIGT, StepFailed
-from heartfit.heart.finite_elements.solver import Elimination
+from heartfit.heart.finite_elements.solver import Elimination, Factor
 from heartfit.heart.time_step import Anderson
-
-
-class GeneralFactor:
-    """Equilibrated single-precision LU factors of the sum of element matrices and nodal blocks.
-
-    ``elements`` (m, 4 d, 4 d) are the matrices of the tetrahedra ``tets`` (m, 4), ``nodes`` (n, d, d) the nodal blocks;
-    ``permutation`` (n d,) is the order in which the unknowns are eliminated. Raises StepFailed if the sum is singular.
-    """
-
-    def __init__(self, tets: Integers, elements: Floats, nodes: Floats, permutation: Integers) -> None:
-        matrix = _assemble(tets, elements, nodes)[permutation][:, permutation]
-        self._permutation = permutation
-        self._scale = 1.0 / np.sqrt(np.abs(matrix.diagonal()))
-        scaling = diags_array(self._scale)
-        single = csc_array(scaling @ matrix @ scaling, dtype=np.float32)
-        try:
-            self._factors = splu(single, permc_spec="NATURAL", diag_pivot_thresh=0.0)
-        except RuntimeError as failure:
-            raise StepFailed(
-                f"the tangent of the unloaded reference cannot be factorised: {failure}"
-            ) from failure
-
-    def solve(self, right: Floats) -> Floats:
-        """Solution (N,); not finite where single precision overflows."""
-        solution = np.empty_like(right)
-        with np.errstate(over="ignore"):
-            permuted = (right[self._permutation] * self._scale).astype(np.float32)
-        solution[self._permutation] = self._factors.solve(permuted) * self._scale
-        return solution
-
-
-def _assemble(tets: Integers, elements: Floats, nodes: Floats) -> csc_array:
-    n, d = nodes.shape[:2]
-    unknowns = (d * tets[:, :, None] + np.arange(d)).reshape(len(tets), -1)
-    blocks = d * np.arange(n)[:, None] + np.arange(d)
-    rows = [np.repeat(indices, indices.shape[1], axis=1).ravel() for indices in (unknowns, blocks)]
-    columns = [np.tile(indices, (1, indices.shape[1])).ravel() for indices in (unknowns, blocks)]
-    values = np.concatenate([elements.ravel(), nodes.ravel()])
-    places = (np.concatenate(rows), np.concatenate(columns))
-    return csc_array(coo_array((values, places), shape=(n * d, n * d)).tocsc())
-
 
 INFLATION_INCREMENTS = 6
 INFLATION_ITERATIONS = 40
@@ -275,7 +232,7 @@ def _failure_message(pressures: Floats) -> str:
     return f"no unloaded reference at {pressures[0]:.0f} / {pressures[1]:.0f} Pa"
 
 
-def _tangent(step: Step, x: Floats) -> GeneralFactor:
+def _tangent(step: Step, x: Floats) -> Factor:
     """Factorised derivative of the forces at fixed loaded positions; see the equation of the module."""
     elements, nodes = step.stiffness(x)
     body, (F, S) = step.body, step.deformation
@@ -285,7 +242,7 @@ def _tangent(step: Step, x: Floats) -> GeneralFactor:
     blocks[:, :, :3, :, :3] += np.einsum("ebi,eaj->eaibj", forces, slopes)
     blocks[:, :, :3, :, :3] -= np.einsum("eai,ebj->eaibj", forces, slopes)
     blocks[..., :3] = np.einsum("eaibk,ekj->eaibj", blocks[..., :3], F)
-    return GeneralFactor(body.tets, elements, nodes, body.elimination.permutation)
+    return body.elimination.factorise(elements, nodes, symmetric=False)
 
 
 def _pull_back(reference: VentricularMesh, loaded: VentricularMesh) -> VentricularMesh:
