@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from difflib import get_close_matches
-from functools import reduce
+from functools import cached_property, reduce
 from typing import Any
 
 from heartfit.core.parameter import parameter_values
@@ -51,6 +51,11 @@ class Heart:
 
     def parameters(self) -> dict[str, float]:
         """Values of all parameters by dotted path; :meth:`with_parameters` explains short names."""
+        return dict(self._parameters)
+
+    @cached_property
+    def _parameters(self) -> dict[str, float]:
+        """The parameters; a search amends one heart thousands of times."""
         return dict(_list_parameters(self))
 
     def with_parameters(self, values: Mapping[str, float]) -> "Heart":
@@ -61,7 +66,7 @@ class Heart:
         right wall gives way to another of its name. Raises ``KeyError`` for an unknown or ambiguous name; the message
         lists the nearest names or the candidate paths.
         """
-        known = self.parameters()
+        known = self._parameters
         changes: dict[str, Any] = {}
         for name, value in values.items():
             *parts, last = _resolve_path(name, known).split(".")
@@ -70,7 +75,7 @@ class Heart:
 
     def parameter_path(self, name: str) -> str:
         """Dotted path of the parameter ``name``; raises ``KeyError`` as :meth:`with_parameters` does."""
-        return _resolve_path(name, self.parameters())
+        return _resolve_path(name, self._parameters)
 
 
 def _resolve_path(name: str, parameters: Mapping[str, float]) -> str:
