@@ -52,7 +52,7 @@ LINTS = (
     ("snakefmt", "--check", "Snakefile", "workflow"),
 )
 # Snakemake selects jobs once a second and looks up the sizes of all inputs of all ready jobs: limit their number
-BRISK = ("--scheduler", "greedy", "--scheduler-subsample", "50")
+BRISK = ("--scheduler", "greedy", "--scheduler-subsample", "10")
 CONDA = "Specify a conda environment or container for each rule."  # the lock file fixes the software
 HASHED = (
     *("--universal", "--python-version", "3.11", "--generate-hashes", "--upgrade", "--quiet"),

@@ -73,6 +73,7 @@ def test_a_beat_imports_no_library_that_it_does_not_use(imports: str) -> None:
         "SimpleITK",
         "urllib.request",
         "scipy.ndimage",
+        "scipy.sparse",
         "scipy.signal",
         "scipy.special",
         "scipy.optimize",

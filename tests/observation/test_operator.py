@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as some
+from scipy.signal import savgol_filter
 
 from heartfit.observation.curve import Curve
 from heartfit.observation.operator import PressureFeatures, VolumeFeatures
@@ -35,6 +36,16 @@ def test_window_three_is_the_raw_central_difference() -> None:
     slope = (np.roll(values, -1) - np.roll(values, 1)) / (2 * PERIOD / 25)
     observations = VolumeFeatures(frames=25)(Curve(times, values, PERIOD))
     assert list(observations.values()) == pytest.approx([values.min(), slope.max(), slope.min()], rel=1e-9)
+
+
+@pytest.mark.parametrize(("window", "order"), [(3, 1), (5, 2), (7, 3), (25, 4), (25, 12)])
+def test_the_filter_is_the_periodic_one_of_scipy(window: int, order: int) -> None:
+    features, curve = VolumeFeatures(25, window, order), cosine(25, phase=0.3)
+    for derivative, filtered in enumerate((features.smooth(curve), features.rate(curve))):
+        expected = savgol_filter(
+            curve.values, window, order, deriv=derivative, delta=PERIOD / 25, mode="wrap"
+        )
+        assert filtered.values == pytest.approx(expected, rel=1e-6, abs=1e-6 * np.ptp(expected))
 
 
 @given(turn=some.integers(0, 24), seed=some.integers(0, 100))

@@ -14,11 +14,25 @@ Reference: Savitzky and Golay 1964, doi:10.1021/ac60214a047; Marchesseau et al. 
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import ClassVar
 
 import numpy as np
 
+from heartfit.core.arrays import Floats
 from heartfit.observation.curve import Curve
+
+
+@cache
+def _filter_weights(window: int, order: int) -> Floats:
+    """Weights (2, window) a and b of a Savitzky-Golay filter: value and slope of the polynomial of best fit.
+
+    They are those of scipy.signal, whose import takes longer than most jobs that filter a curve.
+    """
+    reach = window // 2
+    places = np.arange(-reach, reach + 1.0) / reach
+    value, slope = np.linalg.pinv(places[:, None] ** np.arange(order + 1))[:2]
+    return np.stack([value, slope / reach])
 
 
 @dataclass(frozen=True)
@@ -61,18 +75,10 @@ class CurveFeatures(ABC):
         return self._filter(curve, derivative=1)
 
     def _filter(self, curve: Curve, derivative: int) -> Curve:
-        from scipy.signal import savgol_filter  # the import takes 0.4 s
-
-        frames = curve.resampled(self.frames)
-        values = savgol_filter(
-            frames.values,
-            self.window,
-            self.order,
-            deriv=derivative,
-            delta=curve.period / self.frames,
-            mode="wrap",
-        )
-        return Curve(frames.times, values, curve.period)
+        frames, interval = curve.resampled(self.frames), curve.period / self.frames
+        wrapped = np.pad(frames.values, self.window // 2, mode="wrap")
+        weights = _filter_weights(self.window, self.order)[derivative] / interval**derivative
+        return Curve(frames.times, np.correlate(wrapped, weights, mode="valid"), curve.period)
 
     @abstractmethod
     def extremum(self, values: np.ndarray) -> float:
