@@ -38,7 +38,7 @@ def test_window_three_is_the_raw_central_difference() -> None:
     assert list(observations.values()) == pytest.approx([values.min(), slope.max(), slope.min()], rel=1e-9)
 
 
-@pytest.mark.parametrize(("window", "order"), [(3, 1), (5, 2), (7, 3), (25, 4), (25, 12)])
+@pytest.mark.parametrize(("window", "order"), [(3, 1), (5, 2), (7, 3), (25, 4), (25, 6)])
 def test_the_filter_is_the_periodic_one_of_scipy(window: int, order: int) -> None:
     features, curve = VolumeFeatures(25, window, order), cosine(25, phase=0.3)
     for derivative, filtered in enumerate((features.smooth(curve), features.rate(curve))):
