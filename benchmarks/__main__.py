@@ -1,4 +1,7 @@
-"""Run all benchmarks and write docs/performance.md; `--small` omits the meshes above 10k tetrahedra."""
+"""Run all benchmarks and write docs/performance.md; `--small` omits the meshes above 10k tetrahedra.
+
+`--before COMMIT` measures the engine of an earlier version in the same run.
+"""
 
 import sys
 from collections.abc import Callable
@@ -6,10 +9,11 @@ from typing import TypeVar
 
 from benchmarks import sphere
 from benchmarks.beat import cost
+from benchmarks.engine import costs_of
 from benchmarks.job import job
 from benchmarks.newton import newton_steps
 from benchmarks.page import ELEMENTS, Measured, page
-from benchmarks.process import install_peers
+from benchmarks.process import ask, install_peers
 from benchmarks.targets import figures
 from benchmarks.ventricles import ROOT, mesh_file
 from heartfit.io.configuration import read_study
@@ -39,7 +43,10 @@ def main(arguments: list[str]) -> None:
     one = announced("one job", lambda: job("3k", "physical"))
     spheres = announced("spheres", sphere.costs)
     time_step = read_study([ROOT / "config" / "config.yaml"]).numerics.time_step
-    measured = Measured(beats, steps, one, spheres, time_step)
+    commit = arguments[arguments.index("--before") + 1] if "--before" in arguments else ""
+    before = announced(f"engine of {commit}", lambda: costs_of(commit)) if commit else {}
+    now = announced("engine", lambda: ask("-m", "benchmarks.engine"))
+    measured = Measured(beats, steps, one, spheres, time_step, now, before, commit)
     write_text(ROOT / "docs" / "performance.md", page(measured, figures(measured)))
 
 

@@ -1,13 +1,16 @@
 """Figure of the page of performance with its target."""
 
+import math
 from dataclasses import dataclass
+
+from heartfit.core.pages import table_row
 
 
 @dataclass(frozen=True)
 class Figure:
-    """A measured value with its target: an upper limit, or with ``at_least`` a lower one.
+    """A measured value with its target: an upper limit, or with ``at_least`` a lower one; infinite for none.
 
-    tried: attempts to reach a missed target.
+    tried: attempts to reach a missed target; before: value of an earlier version, measured in the same run.
     """
 
     name: str
@@ -16,6 +19,7 @@ class Figure:
     unit: str
     at_least: bool = False
     tried: str = ""
+    before: float = math.nan
 
     @property
     def met(self) -> bool:
@@ -24,5 +28,8 @@ class Figure:
 
     def row(self) -> str:
         """Return the row of the table."""
+        limited, compared = math.isfinite(self.target), math.isfinite(self.before)
         sign, verdict = "≥" if self.at_least else "≤", "met" if self.met else "**missed**"
-        return f"| {self.name} | {self.measured:.3g} | {sign} {self.target:g} | {self.unit} | {verdict} |\n"
+        target, verdict = (f"{sign} {self.target:g}", verdict) if limited else ("", "")
+        before, ratio = (f"{self.before:.3g}", f"{self.measured / self.before:.2f}") if compared else ("", "")
+        return table_row(self.name, before, f"{self.measured:.3g}", ratio, target, self.unit, verdict)

@@ -18,13 +18,16 @@ Cost = dict[str, float]
 
 @dataclass(frozen=True)
 class Measured:
-    """All measurements of a run: beats by (mesh, setting), Newton steps, a job, spheres."""
+    """All measurements of a run: beats by (mesh, setting), Newton steps, a job, spheres, the engine now and before."""
 
     beats: dict[tuple[str, str], Cost]
     newton: Sequence[Sequence[Newton]]
     job: Job
     spheres: dict[str, tuple[float, float]]
     time_step: float
+    engine: dict[str, float]
+    before: dict[str, float]
+    commit: str = ""
 
 
 def page(measured: Measured, figures: Sequence[Figure]) -> str:
@@ -37,6 +40,7 @@ def page(measured: Measured, figures: Sequence[Figure]) -> str:
     return render_page(
         "performance",
         machine=machine(),
+        commit=measured.commit,
         figures="".join(figure.row() for figure in figures),
         tried=list(dict.fromkeys(figure.tried for figure in figures if figure.tried and not figure.met)),
         step=1e3 * measured.time_step,

@@ -26,9 +26,15 @@ class Run:
     printed: str
 
 
-def run(*command: str | Path) -> Run:
-    """Run a program in the project's folder; raises CalledProcessError if it fails."""
-    environment = os.environ | {f"{library}_NUM_THREADS": "1" for library in THREADS}
+def run(*command: str | Path, library: Path | None = None) -> Run:
+    """Run a program in the project's folder, with compiled sources of this or another ``library``.
+
+    Raises CalledProcessError if it fails.
+    """
+    environment = os.environ | {f"{name}_NUM_THREADS": "1" for name in THREADS}
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)
+    if library is not None:
+        environment["PYTHONPATH"] = str(library)
     before, begin = _children(), time.monotonic()
     process = subprocess.run(
         list(map(str, command)), cwd=ROOT, env=environment, check=True, capture_output=True, text=True
@@ -36,9 +42,11 @@ def run(*command: str | Path) -> Run:
     return Run(_children() - before, time.monotonic() - begin, process.stdout)
 
 
-def ask(*arguments: str | Path, python: Path | str = sys.executable) -> dict[str, Any]:
+def ask(
+    *arguments: str | Path, python: Path | str = sys.executable, library: Path | None = None
+) -> dict[str, Any]:
     """JSON in the last line that a Python program prints."""
-    return json.loads(run(python, *arguments).printed.splitlines()[-1])
+    return json.loads(run(python, *arguments, library=library).printed.splitlines()[-1])
 
 
 def install_peers() -> None:

@@ -1,4 +1,4 @@
-"""Four meshes of the same ventricles, stored on disk."""
+"""Meshes of the same ventricles, stored on disk."""
 
 from pathlib import Path
 
@@ -19,6 +19,7 @@ SIZES = {
     "10k": (5.6e-3, 0.25e-3),
     "30k": (3.5e-3, 0.25e-3),
     "100k": (2.34e-3, 0.25e-3),
+    "400k": (1.44e-3, 0.25e-3),
 }
 """Edge length and tolerance [m] by the approximate number of tetrahedra."""
 

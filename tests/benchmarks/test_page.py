@@ -10,7 +10,7 @@ from benchmarks.growth import growth
 from benchmarks.job import Job
 from benchmarks.newton import Newton
 from benchmarks.page import ELEMENTS, Measured, exponent, page
-from benchmarks.targets import figures
+from benchmarks.targets import ENGINE, figures
 
 SPHERES = {next(iter(sphere.CASES)): (1e-4, 1e-3), sphere.OURS: (1e-3, 0.0), sphere.THEIRS: (5.0, 0.0)}
 SIZES = {"3k": 3000.0, "10k": 10000.0}
@@ -30,7 +30,10 @@ def measured():
     same = {"residual": 0.0, "direction": 0.0}
     steps = [Newton("10k", "mixed", who, 1000, times, same) for who, times in
              (("heartfit", ours), ("NGSolve 6", theirs))]  # fmt: skip
-    return Measured(beats, [steps], Job(1.0, 1.1, 0.5, 0.08), SPHERES, 5e-3)
+    now = dict.fromkeys(ENGINE, 0.4)
+    return Measured(
+        beats, [steps], Job(1.0, 1.1, 0.5, 0.08), SPHERES, 5e-3, now, {"beat, 3k": 0.5}, "1234567"
+    )
 
 
 def test_growth_is_the_exponent_of_a_power():
@@ -51,6 +54,13 @@ def test_the_page_shows_every_figure_and_its_verdict(measured):
     text = page(measured, figures(measured))
     assert text.count("**missed**") == 2, "the growth of both elements"
     assert "| 15.0 x | 3000 x |" in text, "1.5 s over 0.1 s, and over an iteration of 0.2 / 400 s"
-    (faster,) = [line for line in text.splitlines() if "| 5e+03 | ≥ 1000 |" in line]
+    assert "| beat of 3k, `mixed` | 0.5 | 0.4 | 0.80 | ≤ 0.5 | CPU s | met |" in text, (
+        "beside an earlier version"
+    )
+    assert "| three beats of 3k |  | 0.4 |  |  | CPU s |  |" in text, (
+        "without a target, and not measured before"
+    )
+    assert "commit `1234567`" in text
+    (faster,) = [line for line in text.splitlines() if "| 5e+03 |  | ≥ 1000 |" in line]
     assert faster.endswith("| met |"), "PhysioBlocks over ours"
     assert text.count("| 0.100 | 1.00 |") == 1, "a beat of a sphere, and what a call takes"

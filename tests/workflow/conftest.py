@@ -56,6 +56,12 @@ class Workflow:
             file.parent.mkdir(parents=True, exist_ok=True)
             file.touch()
 
+    def keep_cases(self, *names: str) -> None:
+        """Reduce the study to some of its cases, of which none is sealed."""
+        table = self.folder / "config" / "cases.tsv"
+        header, *rows = table.read_text(encoding="utf-8").splitlines(keepends=True)
+        table.write_text(header + "".join(row for row in rows if row.split("\t")[0] in names))
+
     def edit(self, file: str, text: str) -> None:
         """Append to a file."""
         with (self.folder / file).open("a") as opened:

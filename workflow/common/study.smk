@@ -17,6 +17,10 @@ from heartfit.results.case import Groups, Origin
 for library in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
+# with a limit of jobs a second, Snakemake's scheduler looks again and again after every finished job: a tenth of a core
+if workflow.local_exec:
+    workflow.scheduling_settings.max_jobs_per_timespan = None
+
 try:
     read_configuration(map(Path, workflow.configfiles))  # refuses duplicate keys, which Snakemake accepts
     PLAN = plan_study(config, thorough=workflow.is_main_process)

@@ -13,28 +13,13 @@ rule make_tables:
         paper=expand("resources/marchesseau2012/{name}.csv", name=("table1", "table2", "patients")),
     output:
         reported_tables("table1", "table2", "table3", "table3_parameters", "plausibility"),
+        reported_tables("table1_as_printed", "table2_as_printed"),
         numbers="<results>/tables/numbers.csv",
     params:
         origin=ORIGIN,
         stated=configuration_text(ORIGIN),
     script:
         "../scripts/make_tables.py"
-
-
-rule print_tables:
-    input:
-        cases=[f"<results>/{case}/{setting}/verification/errors.json" for case, setting in CALIBRATIONS],
-        paper=expand("resources/marchesseau2012/{name}.csv", name=("table1", "table2")),
-    output:
-        reported_tables("table1_as_printed", "table2_as_printed"),
-    resources:
-        mem_mb=1000,
-        runtime=2,
-    params:
-        groups=GROUPS,
-        stated=configuration_text(GROUPS),
-    script:
-        "../scripts/print_tables.py"
 
 
 rule make_cards:

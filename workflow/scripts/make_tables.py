@@ -1,10 +1,11 @@
-"""Write Tables 1 to 3 beside the paper's, the table of plausibility, and each number with its provenance."""
+"""Write Tables 1 to 3 beside the paper's and in its layout, plausibility, and each number with its provenance."""
 
 from pathlib import Path
 
 from heartfit.io.results import read_case, read_truth
 from heartfit.io.run import record
 from heartfit.io.tables import read_published, write_csv, write_tables
+from heartfit.results.as_printed import printed_tables
 from heartfit.results.errors import error_table, plausibility_table
 from heartfit.results.parameters import parameter_table
 from heartfit.results.patients import patient_errors, patient_parameters
@@ -23,6 +24,7 @@ tables = {
     "table3": patient_errors(cases, patients, groups),
     "table3_parameters": patient_parameters(cases, patients, groups, truths),
 }
+printed = printed_tables(cases, errors, parameters, groups)
 folder = Path(snakemake.output.numbers).parent
-write_tables(folder, render_tables(tables | {"plausibility": plausibility_table(cases)}))
+write_tables(folder, render_tables(tables | printed | {"plausibility": plausibility_table(cases)}))
 write_csv(Path(snakemake.output.numbers), numbers_table(tables, cases, origin))

@@ -27,6 +27,16 @@ STANDS_IN_FOR = {"c_1": "K"}
 Row = dict[str, str]
 
 
+def printed_tables(
+    cases: Sequence[CaseResult], errors: pd.DataFrame, parameters: pd.DataFrame, groups: Groups
+) -> dict[str, pd.DataFrame]:
+    """Return both tables by name, beside the paper's ``errors`` and ``parameters``."""
+    return {
+        "table1_as_printed": printed_errors(cases, errors, groups),
+        "table2_as_printed": printed_parameters(cases, parameters, groups),
+    }
+
+
 def printed_errors(cases: Sequence[CaseResult], paper: pd.DataFrame, groups: Groups) -> pd.DataFrame:
     """Return Table 1 as printed, then the unsigned errors [%] of our healthy hearts, one block a setting.
 

@@ -16,6 +16,7 @@ END_SYSTOLE = 3
 
 
 @pytest.mark.measured
+@pytest.mark.long
 def test_the_left_endocardium_of_the_middle_slices_is_followed_to_a_millimetre(
     measured_heart_folder: Path,
 ) -> None:

@@ -1,0 +1,128 @@
+"""CPU seconds of the engine, of this library or of another commit's: `python -m benchmarks.engine` prints JSON.
+
+It uses only what every version of the library has: a first beat and three beats on each mesh, a stress-free reference,
+a beat of a sphere, the search for the cause in one planted heart. Medians of warm runs.
+"""
+
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+import heartfit
+from benchmarks.job import COMMAND, ONE_BEAT
+from benchmarks.process import ask, run
+from benchmarks.ventricles import FOLDER, ROOT, mesh_file
+from heartfit.discovery.sphere_model.diagnose import diagnose
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart.finite_elements.unloading import unload
+from heartfit.heart.heart import Heart
+from heartfit.heart.simulation import Numerics, simulate
+from heartfit.heart.sphere.body import Sphere
+from heartfit.heart.sphere.simulation import simulate_spheres
+from heartfit.io.configuration import read_study
+from heartfit.io.meshes import read_mesh
+from heartfit.personalise.run import ventricles
+from heartfit.synthetic.campaign import PlantedPlan
+from heartfit.synthetic.case import plant
+
+PERIOD, REPEATS, BEATS = 0.86, 3, 3
+MESHES = ("3k", "10k")
+CONFIGURATION = Path(heartfit.__file__).parents[2] / "config" / "config.yaml"
+PLAN = PlantedPlan(1, "single", ("MitralRegurgitation",), 2.5)
+
+
+def costs() -> dict[str, float]:
+    """CPU seconds by name, of the library that is imported."""
+    found: dict[str, float] = {}
+    for name in MESHES:
+        found |= beats(name, read_mesh(mesh_file(name)))
+    return found | {"job": job() - found[f"beat, {MESHES[0]}"], "sphere": sphere(), "search": search()}
+
+
+def beats(name: str, mesh: VentricularMesh) -> dict[str, float]:
+    """Costs of the reference, of the first beat and of three beats of one mesh under `physical`."""
+    study = read_study([CONFIGURATION])
+    heart, pressures = study.setting("physical").base_heart(PERIOD), study.end_diastolic_pressure
+    loads, numerics = np.array([pressures.lv, pressures.rv]), study.numerics.numerics()
+    free = unload(mesh, heart.tissue, loads)
+
+    def simulated(number: int) -> float:
+        chosen = replace(numerics, max_beats=number, drift=0.0)
+        return median(
+            lambda: simulate(heart, ventricles(free, heart.tissue, np.zeros(2), unloaded=False), chosen)
+        )
+
+    return {
+        f"reference, {name}": median(lambda: unload(mesh, heart.tissue, loads)),
+        f"beat, {name}": simulated(1),
+        f"three beats, {name}": simulated(BEATS),
+    }
+
+
+def sphere() -> float:
+    """Cost of an additional beat of a sphere with one fibre class."""
+    heart, left = Heart().with_parameters({"sigma_0": 150e3}), [Sphere.from_volumes(80e-6, 130e-6)]
+
+    def run(number: int) -> float:
+        numerics = Numerics(max_beats=number, drift=0.0)
+        return median(lambda: simulate_spheres(heart, left, numerics, np.array([0.03])), 100)
+
+    few, many = 5, 25
+    return (run(many) - run(few)) / (many - few)
+
+
+def search() -> float:
+    """Cost of the search for the cause of a planted leak, from a volume and a pressure."""
+    recording = Recording.from_curves(plant(PLAN).curves["rest"])
+    return median(lambda: diagnose(recording), 1)
+
+
+def job() -> float:
+    """Cost of a process that simulates one beat of the smallest mesh from a given reference."""
+    with TemporaryDirectory() as folder:
+        one_beat = Path(folder, "one_beat.yaml")
+        one_beat.write_text(ONE_BEAT)
+        how = (
+            "--setting",
+            "physical",
+            "--period",
+            str(PERIOD),
+            "--unloaded",
+            "--config",
+            CONFIGURATION,
+            one_beat,
+        )
+        command = (sys.executable, "-c", COMMAND, "simulate", mesh_file(MESHES[0]), *how)
+        return float(np.median([run(*command).cpu for _ in range(REPEATS + 1)][1:]))
+
+
+def median(work: Callable[[], Any], repeats: int = REPEATS) -> float:
+    """Median CPU time of a call [s]; the first call, which loads the kernels, does not count."""
+    times = []
+    for _ in range(repeats + 1):
+        begin = time.process_time()
+        work()
+        times.append(time.process_time() - begin)
+    return float(np.median(times[1:]))
+
+
+def costs_of(commit: str) -> dict[str, float]:
+    """Costs of the library at another commit, checked out beside the meshes."""
+    tree = FOLDER / "before"
+    if not tree.exists():
+        subprocess.run(["git", "clone", "--quiet", str(ROOT), str(tree)], check=True)
+    subprocess.run(["git", "checkout", "--quiet", commit], cwd=tree, check=True)
+    return ask("-m", "benchmarks.engine", library=tree / "src")
+
+
+if __name__ == "__main__":
+    print(json.dumps(costs()))
