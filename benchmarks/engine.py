@@ -42,10 +42,10 @@ PLAN = PlantedPlan(1, "single", ("MitralRegurgitation",), 2.5)
 
 def costs() -> dict[str, float]:
     """CPU seconds by name, of the library that is imported."""
-    found: dict[str, float] = {}
+    seconds: dict[str, float] = {}
     for name in MESHES:
-        found |= beats(name, read_mesh(mesh_file(name)))
-    return found | {"job": job() - found[f"beat, {MESHES[0]}"], "sphere": sphere(), "search": search()}
+        seconds |= beats(name, read_mesh(mesh_file(name)))
+    return seconds | {"job": job() - seconds[f"beat, {MESHES[0]}"], "sphere": sphere(), "search": search()}
 
 
 def beats(name: str, mesh: VentricularMesh) -> dict[str, float]:

@@ -17,10 +17,6 @@ from heartfit.results.case import Groups, Origin
 for library in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
-# with a limit of jobs a second, Snakemake's scheduler looks again and again after every finished job: a tenth of a core
-if workflow.local_exec:
-    workflow.scheduling_settings.max_jobs_per_timespan = None
-
 try:
     read_configuration(map(Path, workflow.configfiles))  # refuses duplicate keys, which Snakemake accepts
     PLAN = plan_study(config, thorough=workflow.is_main_process)
@@ -34,6 +30,9 @@ for line in [PLAN.left_out, *(RUN.put_in_order() if RUN else [])]:
 
 onstart:
     keep_sums(PLAN.study.results)
+    # with a limit of jobs a second the scheduler looks again, for ever, for each job that has finished: a tenth of a core
+    if workflow.local_exec:
+        workflow.scheduler.job_rate_limiter = None
 
 
 STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources

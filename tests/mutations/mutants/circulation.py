@@ -14,6 +14,17 @@ CIRCULATION_MUTANTS = (
         ("no inertance", " - Z_c * q_L / (1.0 + theta)", ""),
     ),
     *changes(
+        "heart/circulation/coupling.py",
+        "tests/heart/test_later_beats.py",
+        ("tangents forgotten after a beat", "self._renewed.get(step.start, self._tangent)", "self._tangent"),
+        ("the expected state not used", "coupled.predict(expected)", "coupled.predict()"),
+        (
+            "tangents of other steps",
+            "if tangent and tangent.length == step.effective else",
+            "if tangent else",
+        ),
+    ),
+    *changes(
         "roles/laws.py",
         f"{CIRCULATION}/test_valves.py",
         ("valves open backwards", "way = 0 if drop > 0.0 else 2", "way = 0 if drop < 0.0 else 2"),

@@ -83,11 +83,16 @@ ELEMENT_MUTANTS = (
             "update[start:end, :end] -= np.dot(",
             "update[start:end, :end] += np.dot(",
         ),
-        ("no substitution downwards", "            x -= np.dot(gathered, coupling)\n", ""),
+        ("no substitution downwards", "            x -= np.dot(gathered, back)\n", ""),
         (
             "no substitution downwards for many columns",
-            "            x -= np.dot(coupling.T, gathered)\n",
+            "            x -= np.dot(back.T, gathered)\n",
             "",
+        ),
+        (
+            "a general matrix taken for symmetric",
+            "np.dot(inverse, beside).T.ravel()",
+            "coupling.ravel()",
         ),
         ("scaled once only", "result[i, j] *= scale[i] * scale[j]", "result[i, j] *= scale[i]"),
     ),

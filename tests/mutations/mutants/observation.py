@@ -10,15 +10,11 @@ OBSERVATION_MUTANTS = (
     *changes(
         "observation/operator.py",
         OPERATOR,
-        (
-            "a window longer by one frame",
-            "            self.window,\n            self.order,",
-            "            self.window + 1,\n            self.order,",
-        ),
+        ("the slope over the reach of the window", "slope / reach", "slope"),
         (
             "a window longer by two frames",
-            "            self.window,\n            self.order,",
-            "            self.window + 2,\n            self.order,",
+            "_filter_weights(self.window, self.order)",
+            "_filter_weights(self.window + 2, self.order)",
         ),
         (
             "the sign of a rate",
@@ -30,20 +26,25 @@ OBSERVATION_MUTANTS = (
             "float(rate.max()), float(rate.min()))",
             "float(rate.min()), float(rate.max()))",
         ),
-        ("rates per beat", "delta=curve.period / self.frames", "delta=1.0 / self.frames"),
-        ("a filter that ends with the beat", 'mode="wrap"', 'mode="nearest"'),
+        ("rates per beat", "curve.period / self.frames", "1.0 / self.frames"),
+        ("a filter that ends with the beat", 'mode="wrap"', 'mode="edge"'),
         ("V_min is the last frame", "return float(values.min())", "return float(values[-1])"),
         ("P_max is the mean", "return float(values.max())", "return float(values.mean())"),
         (
             "data and simulation at frames of their own",
-            "frames = curve.resampled(self.frames)",
-            "frames = curve",
+            "curve.resampled(self.frames), curve.period",
+            "curve, curve.period",
         ),
         (
             "the extremum of the curve as it is",
             "self.extremum(self.smooth(curve).values)",
             "self.extremum(curve.values)",
         ),
+    ),
+    *changes(
+        "observation/noise_model.py",
+        "tests/observation/test_noise_model.py",
+        ("a mean unsigned error without bias", "+ bias * math.erf(ratio)", ""),
     ),
     *changes(
         "observation/curve.py",
