@@ -151,9 +151,9 @@ def snakemake(arguments: Sequence[str]) -> int:
 
 
 def duration() -> str:
-    """Return the durations of a study on two processors [min], as the README and docs/study.md print them."""
+    """Return the duration of a study [min], as the README and docs/study.md print it."""
     rows = (line.split("\t") for line in MEASURED.read_text(encoding="utf-8").splitlines())
-    return " to ".join(row[1] for row in rows if row[0] in ("duration", "duration on the slower machine"))
+    return next(row[1] for row in rows if row[0] == "duration")
 
 
 def remaining(line: str, elapsed: float) -> str:
