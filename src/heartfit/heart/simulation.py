@@ -3,6 +3,7 @@
 import time as clock
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -110,15 +111,17 @@ class _Run:
         self._started = clock.process_time()
 
     def to_limit_cycle(self, state: HeartState) -> Beat:
-        before, trees, history = None, self.heart.circulation.trees(), [state]
+        before, trees = None, self.heart.circulation.trees()
+        changes: list[Floats] = []  # of the unknowns, in the steps of the beat before
         while True:
-            last, history = history, [state]
+            history = [state]
             for n in range(self.steps):
-                expected = state.body.x + last[n + 1].body.x - last[n].body.x if self.beats else None
+                expected = state.body.x + changes[n] if changes else None
                 state = self._advance(state, self._step(n, state), self.numerics.cuts, expected)
                 history.append(state)
                 self.progress((self.beats + (n + 1) / self.steps) / self.numerics.max_beats)
             self.beats += 1
+            changes = [end.body.x - start.body.x for start, end in pairwise(history)]
             cycle = self._recurrence(history)
             self.drift = cycle.drift()
             periodic = self.drift < self.numerics.drift or self.beats == self.numerics.max_beats

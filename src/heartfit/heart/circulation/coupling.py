@@ -37,8 +37,8 @@ NEWTON_HALVINGS = 6
 PRESSURE_WEIGHT = 1e-4
 """Weight of a pressure [1/Pa], beside the weights of the body, in the Anderson mixing."""
 
-LARGEST_REUSED = 50_000
-"""Number of unknowns up to which the factors of a beat are kept for the next one; more would take gigabytes."""
+LARGEST_REUSED = 20_000
+"""Number of unknowns up to which the factors of a beat are kept for the next one: twenty factors of 20 MB at most."""
 
 
 class Body(Protocol):
