@@ -60,4 +60,5 @@ def test_a_job_that_was_never_measured_has_no_needs():
 def test_jobs_on_request_are_no_part_of_every_study():
     usual = {key[0] for key, row in rows().items() if row.usual}
     assert "try_mechanism" not in usual
-    assert {"try", "simulate_point", "compile_kernels"} <= usual
+    assert "try" not in usual, "the noise model is stored"
+    assert {"generate_volunteer", "simulate_point", "compile_kernels"} <= usual

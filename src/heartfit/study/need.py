@@ -11,7 +11,7 @@ SHARED = ("sensitivity", "registration_error", "templates", "discovery_benchmark
 
 OPTIONAL_JOBS = re.compile(
     r"^(plant|diagnose|discovery|check|refit|prove|try_mechanism|compare_(alternatives|attempts|elements)|"
-    r"cover_spheres|study_sphere|plot_sobol|tabulate_(discovery|noise|registration))"
+    r"cover_spheres|study_sphere|plot_sobol|draw_volunteer|try$|learn_noise|tabulate_(discovery|noise|registration))"
 )
 """Names of optional jobs, which a study runs only on request."""
 
