@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from benchmarks import sphere
 from benchmarks.beat import cost
-from benchmarks.engine import costs_of
+from benchmarks.engine import costs_in_turn
 from benchmarks.job import job
 from benchmarks.newton import newton_steps
 from benchmarks.page import ELEMENTS, Measured, page
@@ -44,8 +44,11 @@ def main(arguments: list[str]) -> None:
     spheres = announced("spheres", sphere.costs)
     time_step = read_study([ROOT / "config" / "config.yaml"]).numerics.time_step
     commit = arguments[arguments.index("--before") + 1] if "--before" in arguments else ""
-    before = announced(f"engine of {commit}", lambda: costs_of(commit)) if commit else {}
-    now = announced("engine", lambda: ask("-m", "benchmarks.engine"))
+    before, now = (
+        announced(f"engine of {commit} and now", lambda: costs_in_turn(commit))
+        if commit
+        else ({}, announced("engine", lambda: ask("-m", "benchmarks.engine")))
+    )
     measured = Measured(beats, steps, one, spheres, time_step, now, before, commit)
     write_text(ROOT / "docs" / "performance.md", page(measured, figures(measured)))
 

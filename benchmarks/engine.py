@@ -8,7 +8,7 @@ import json
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -34,7 +34,7 @@ from heartfit.personalise.run import ventricles
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import plant
 
-PERIOD, REPEATS, BEATS = 0.86, 3, 3
+PERIOD, REPEATS, BEATS, ROUNDS = 0.86, 3, 3, 5
 MESHES = ("3k", "10k")
 CONFIGURATION = Path(heartfit.__file__).parents[2] / "config" / "config.yaml"
 PLAN = PlantedPlan(1, "single", ("MitralRegurgitation",), 2.5)
@@ -101,7 +101,8 @@ def job() -> float:
             CONFIGURATION,
             one_beat,
         )
-        command = (sys.executable, "-c", COMMAND, "simulate", mesh_file(MESHES[0]), *how)
+        output = ("--output", Path(folder, "beat.json"))
+        command = (sys.executable, "-c", COMMAND, "simulate", mesh_file(MESHES[0]), *how, *output)
         return float(np.median([run(*command).cpu for _ in range(REPEATS + 1)][1:]))
 
 
@@ -113,6 +114,18 @@ def median(work: Callable[[], Any], repeats: int = REPEATS) -> float:
         work()
         times.append(time.process_time() - begin)
     return float(np.median(times[1:]))
+
+
+def costs_in_turn(commit: str) -> tuple[dict[str, float], dict[str, float]]:
+    """Medians of the costs at another commit and of this library, measured in turn: the pace of a machine drifts."""
+    rounds = [(costs_of(commit), ask("-m", "benchmarks.engine")) for _ in range(ROUNDS)]
+    before, now = zip(*rounds, strict=True)
+    return medians(before), medians(now)
+
+
+def medians(rounds: Sequence[dict[str, float]]) -> dict[str, float]:
+    """Median of each cost over the rounds."""
+    return {name: float(np.median([one[name] for one in rounds])) for name in rounds[0]}
 
 
 def costs_of(commit: str) -> dict[str, float]:
