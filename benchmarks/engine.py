@@ -34,7 +34,7 @@ from heartfit.personalise.run import ventricles
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import plant
 
-PERIOD, REPEATS, BEATS, ROUNDS = 0.86, 3, 3, 5
+PERIOD, REPEATS, BEATS, ROUNDS = 0.86, 3, 3, 3
 MESHES = ("3k", "10k")
 CONFIGURATION = Path(heartfit.__file__).parents[2] / "config" / "config.yaml"
 PLAN = PlantedPlan(1, "single", ("MitralRegurgitation",), 2.5)

@@ -19,7 +19,7 @@ from tests.printed import numbers_in, rows_of
 
 ROWS = [
     Need("compile_kernels", "study", "", 1, 1.0, 30.0, 30.0, 300.0),
-    Need("draw_volunteer", "study", "", 4, 4.0, 5.0, 9.0, 300.0),
+    Need("build_template", "study", "", 4, 4.0, 5.0, 9.0, 300.0),
     Need("build_mesh", "case", "measured", 1, 1.0, 28.0, 28.0, 200.0),
     Need("build_mesh", "case", "virtual", 2, 1.0, 2.0, 3.0, 200.0),
     Need("compare_case", "setting", "virtual", 4, 1.0, 1.0, 1.0, 200.0),
