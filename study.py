@@ -51,7 +51,7 @@ LINTS = (
     ("mypy",),
     ("snakefmt", "--check", "Snakefile", "workflow"),
 )
-# Snakemake selects jobs once a second and looks up the sizes of all inputs of all ready jobs: limit their number
+# when a job has finished, Snakemake looks up the sizes of all inputs of all ready jobs: limit their number
 BRISK = ("--scheduler", "greedy", "--scheduler-subsample", "10")
 CONDA = "Specify a conda environment or container for each rule."  # the lock file fixes the software
 HASHED = (

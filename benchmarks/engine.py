@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 import heartfit
+from benchmarks import sphere as spheres
 from benchmarks.job import COMMAND, ONE_BEAT
 from benchmarks.process import ask, run
 from benchmarks.ventricles import FOLDER, ROOT, mesh_file
@@ -24,10 +25,7 @@ from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.finite_elements.unloading import unload
-from heartfit.heart.heart import Heart
-from heartfit.heart.simulation import Numerics, simulate
-from heartfit.heart.sphere.body import Sphere
-from heartfit.heart.sphere.simulation import simulate_spheres
+from heartfit.heart.simulation import simulate
 from heartfit.io.configuration import read_study
 from heartfit.io.meshes import read_mesh
 from heartfit.personalise.run import ventricles
@@ -70,14 +68,9 @@ def beats(name: str, mesh: VentricularMesh) -> dict[str, float]:
 
 def sphere() -> float:
     """Cost of an additional beat of a sphere with one fibre class."""
-    heart, left = Heart().with_parameters({"sigma_0": 150e3}), [Sphere.from_volumes(80e-6, 130e-6)]
-
-    def run(number: int) -> float:
-        numerics = Numerics(max_beats=number, drift=0.0)
-        return median(lambda: simulate_spheres(heart, left, numerics, np.array([0.03])), 100)
-
-    few, many = 5, 25
-    return (run(many) - run(few)) / (many - few)
+    case = next(iter(spheres.CASES.values()))
+    beat, _ = spheres.cost(lambda number: spheres.standard(*case, number))
+    return beat
 
 
 def search() -> float:
