@@ -121,7 +121,6 @@ class _Run:
                 history.append(state)
                 self.progress((self.beats + (n + 1) / self.steps) / self.numerics.max_beats)
             self.beats += 1
-            changes = [end.body.x - start.body.x for start, end in pairwise(history)]
             cycle = self._recurrence(history)
             self.drift = cycle.drift()
             periodic = self.drift < self.numerics.drift or self.beats == self.numerics.max_beats
@@ -132,6 +131,7 @@ class _Run:
                 return self._beat(history)
             state = state.shift_pressures(cycle.shifts(trees, self.heart.period, self.responses))
             before = cycle
+            changes = [end.body.x - start.body.x for start, end in pairwise(history)]
 
     def _recurrence(self, history: list[HeartState]) -> Recurrence:
         volumes = np.array([state.volumes for state in history])
