@@ -6,14 +6,9 @@ import numpy as np
 import pytest
 
 from heartfit.heart.finite_elements.kinematics import StepFailed
-from heartfit.heart.muscle.bcs import (
-    BRIDGE_FLOOR,
-    LARGEST_INCREMENT,
-    BestelClementSorine,
-    Drive,
-    tension,
-)
+from heartfit.heart.muscle.bcs import BestelClementSorine, Drive, tension
 from heartfit.heart.muscle.control import Starling
+from heartfit.heart.muscle.fibre_equation import BRIDGE_FLOOR, LARGEST_INCREMENT, STRAIN_TOLERANCE
 from heartfit.heart.time_step import TimeStep
 from tests.shrinking import assert_derivative
 
@@ -207,6 +202,28 @@ def test_other_tangents_are_derivatives_of_their_stresses(
     smooth = (abs(d) > 2e-4) & (abs(d) < 0.9 * LARGEST_INCREMENT)
     smooth &= away_from_kinks(law, state, law.advance(step, state, np.clip(d, -0.099, 0.099)))
     assert slope[smooth] == pytest.approx(((upper - lower) / (2.0 * h))[smooth], rel=1e-4, abs=1.0)
+
+
+@BOTH
+@RHEOLOGIES
+@pytest.mark.parametrize("seed", [1, 2])
+def test_fibres_that_step_together_are_all_solved(
+    seed: int, law: BestelClementSorine, second_order: bool
+) -> None:
+    """Another Newton step moves none of them, and alone a fibre ends where it ends among others."""
+    step, e_old, e_new, state = random_steps(500, seed, second_order)
+    together = law.begin(e_old, state)
+    law.respond(step, e_old, e_new, state, together)
+    once_more = together.copy()
+    law.correct(step, e_old, e_new, state, once_more)
+    np.testing.assert_allclose(once_more[2], together[2], rtol=0, atol=STRAIN_TOLERANCE)
+    for i in (slice(k, k + 1) for k in range(20)):
+        alone, own = (
+            law.begin(e_old[i], state[:, i]),
+            replace(step, rate=step.rate[i], attach=step.attach[i], n_0=step.n_0[i]),
+        )
+        law.respond(own, e_old[i], e_new[i], state[:, i], alone)
+        np.testing.assert_allclose(alone[2], together[2, i], rtol=0, atol=STRAIN_TOLERANCE)
 
 
 def test_friction_falls_with_the_bridges_to_the_share_of_a_relaxed_sarcomere() -> None:

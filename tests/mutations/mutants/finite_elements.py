@@ -11,7 +11,7 @@ ELEMENT_MUTANTS = (
         "heart/finite_elements/kinematics.py",
         f"{ELEMENTS}/test_kinematics.py {BODY}",
         ("determinant's sign", "- b * (d * i - f * g)", "+ b * (d * i - f * g)"),
-        ("inverse's shear", "out[3] = (C[4] * C[5] - C[3] * C[2])", "out[3] = (C[4] * C[5] + C[3] * C[2])"),
+        ("inverse's shear", "per * (e * f - d * c)", "per * (e * f + d * c)"),
         ("fibre strain without shear", "0.5 * (normal - 1.0) + shear", "0.5 * (normal - 1.0)"),
         (
             "symmetric product not symmetric",
@@ -24,10 +24,10 @@ ELEMENT_MUTANTS = (
         BODY,
         (
             "wall pressure inwards",
-            "S[e, i] += p[e] * J[e] * Ci[i] + viscous",
-            "S[e, i] += -p[e] * J[e] * Ci[i] + viscous",
+            "S[e, i] += volumetric * entry + viscosity",
+            "S[e, i] += -volumetric * entry + viscosity",
         ),
-        ("matrix not viscous", " + viscous + tension[e]", " + tension[e]"),
+        ("matrix not viscous", " + viscosity * (C[e, i] - start) + tension[e]", " + tension[e]"),
         (
             "tangent of the pressure dropped",
             "volumetric = a * Ci[i] * Ci[j] - b * symmetric_product(Ci, i, j)",
@@ -83,7 +83,7 @@ ELEMENT_MUTANTS = (
             "update[start:end, :end] -= np.dot(",
             "update[start:end, :end] += np.dot(",
         ),
-        ("no substitution downwards", "            x -= np.dot(gathered, back)\n", ""),
+        ("no substitution downwards", "            own[:c] -= change[:c]\n", ""),
         (
             "no substitution downwards for many columns",
             "            x -= np.dot(back.T, gathered)\n",

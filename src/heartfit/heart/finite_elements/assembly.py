@@ -4,7 +4,7 @@ import numpy as np
 from numba import njit
 
 from heartfit.core.arrays import Floats, Integers
-from heartfit.heart.finite_elements.kinematics import inverse, symmetric_product
+from heartfit.heart.finite_elements.kinematics import inverse, inverse_entries, symmetric_product
 
 
 @njit(cache=True, error_model="numpy")
@@ -24,13 +24,12 @@ def add_stresses(
 
     The starting value is :math:`C^* = C_{now} + a (C_{now} - C_{before})` with a = ``ahead``.
     """
-    Ci = np.empty(6)
     for e in range(C.shape[0]):
-        inverse(C[e], J[e] * J[e], Ci)
-        for i in range(6):
+        volumetric = p[e] * J[e]
+        xx, yy, zz, xy, xz, yz = inverse_entries(C[e], J[e] * J[e])
+        for i, entry in ((0, xx), (1, yy), (2, zz), (3, xy), (4, xz), (5, yz)):
             start = C_now[e, i] + ahead * (C_now[e, i] - C_before[e, i])
-            viscous = viscosity * (C[e, i] - start)
-            S[e, i] += p[e] * J[e] * Ci[i] + viscous + tension[e] * dyads[e, i]
+            S[e, i] += volumetric * entry + viscosity * (C[e, i] - start) + tension[e] * dyads[e, i]
 
 
 @njit(cache=True, error_model="numpy")

@@ -92,12 +92,16 @@ def _strain_along(C: Floats, dyad: Floats) -> float:
 @njit(cache=True)
 def inverse(C: Floats, determinant: float, out: Floats) -> None:
     """Fill ``out`` (6,) with the inverse of the symmetric tensor ``C`` (6,), whose ``determinant`` is known."""
-    out[0] = (C[1] * C[2] - C[5] * C[5]) / determinant
-    out[1] = (C[0] * C[2] - C[4] * C[4]) / determinant
-    out[2] = (C[0] * C[1] - C[3] * C[3]) / determinant
-    out[3] = (C[4] * C[5] - C[3] * C[2]) / determinant
-    out[4] = (C[3] * C[5] - C[4] * C[1]) / determinant
-    out[5] = (C[3] * C[4] - C[0] * C[5]) / determinant
+    out[0], out[1], out[2], out[3], out[4], out[5] = inverse_entries(C, determinant)
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def inverse_entries(C: Floats, determinant: float) -> tuple[float, float, float, float, float, float]:
+    """Entries of :func:`inverse`; with no array for them, a loop over elements is compiled to take several at once."""
+    a, b, c, d, e, f = C[0], C[1], C[2], C[3], C[4], C[5]
+    per = 1.0 / determinant
+    plane = per * (b * c - f * f), per * (a * c - e * e), per * (a * b - d * d)
+    return (*plane, per * (e * f - d * c), per * (d * f - e * b), per * (d * e - a * f))
 
 
 @njit(cache=True)

@@ -216,28 +216,30 @@ def _substitute(  # type: ignore[no-untyped-def]
 ):  # fmt: skip
     """Solve in place for ``y`` (N,), in the order of elimination: forward sweep, then backward sweep."""
     k = len(starts) - 1
+    largest = dofs * max(np.diff(starts).max(), np.diff(row_starts).max())
+    own, change, outer = np.empty(largest, y.dtype), np.empty(largest, y.dtype), np.empty(largest, y.dtype)
     for s in range(k):
         touched = rows[row_starts[s] : row_starts[s + 1]]
         a, c, r = dofs * starts[s], dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
         if r:
             coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
-            down = np.dot(coupling, y[a : a + c])
+            np.dot(coupling, y[a : a + c], outer[:r])
             for i in range(len(touched)):
                 for m in range(dofs):
-                    y[dofs * touched[i] + m] -= down[dofs * i + m]
+                    y[dofs * touched[i] + m] -= outer[dofs * i + m]
     for s in range(k - 1, -1, -1):
         touched = rows[row_starts[s] : row_starts[s + 1]]
         a, c, r = dofs * starts[s], dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
         inverse = inverses[inverse_starts[s] : inverse_starts[s + 1]].reshape(c, c)
-        x = np.dot(inverse, y[a : a + c])
+        np.dot(inverse, y[a : a + c], own[:c])
         if r:
             back = transposed[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
-            gathered = np.empty(r, dtype=np.float32)
             for i in range(len(touched)):
                 for m in range(dofs):
-                    gathered[dofs * i + m] = y[dofs * touched[i] + m]
-            x -= np.dot(gathered, back)
-        y[a : a + c] = x
+                    outer[dofs * i + m] = y[dofs * touched[i] + m]
+            np.dot(outer[:r], back, change[:c])
+            own[:c] -= change[:c]
+        y[a : a + c] = own[:c]
 
 
 @njit(cache=True)

@@ -18,9 +18,9 @@ This is rheology A. Rheology B adds engineering strains, :math:`\sqrt{1 + 2 e_{1
 :math:`T = E_s e_s = \tau_c + \mu \dot e_c` and :math:`\sigma_{1D} = T / \sqrt{1 + 2 e_{1D}}`.
 
 The update advances :math:`r = \sqrt{k_c}` and :math:`\lambda_c = \tau_c/r` and finds the increment
-:math:`d = e_c^{n+1} - e_c^n` from one scalar equation. The bridge energy is :math:`\lambda_c^2/2`, that of the spring
-:math:`E_s e_s^2/2`; both balance exactly in every step, of any length. In the second-order scheme, destruction acts on
-:math:`\bar r^2`, :math:`\bar r = (r^n + r^{n+1})/2`,
+:math:`d = e_c^{n+1} - e_c^n` from the scalar equation of :mod:`heartfit.heart.muscle.fibre_equation`. The bridge energy
+is :math:`\lambda_c^2/2`, that of the spring :math:`E_s e_s^2/2`; both balance exactly in every step, of any length. In
+the second-order scheme, destruction acts on :math:`\bar r^2`, :math:`\bar r = (r^n + r^{n+1})/2`,
 
 .. math:: (r^{n+1})^2 - (r^n)^2 = -x \bar r^2 + s k_0, \qquad x = \Delta t |u| + \alpha |d|, \quad
           s = \Delta t\, n_0 |u|_+ ,
@@ -40,18 +40,18 @@ from heartfit.core.arrays import Floats
 from heartfit.core.parameter import parameter, require_admissible
 from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.muscle.control import Starling
-from heartfit.heart.muscle.spring import frozen_spring_slope, green_strain, spring_response
+from heartfit.heart.muscle.fibre_equation import (
+    BRIDGE_FLOOR,
+    LARGEST_INCREMENT,
+    bridges,
+    fibre_response,
+    fibre_step,
+)
+from heartfit.heart.muscle.spring import frozen_spring_slope, green_strain
 from heartfit.heart.time_step import TimeStep
 
-BRIDGE_FLOOR = 1.0
-"""Smallest bridge stiffness k_c [Pa]: keeps sqrt(k_c) differentiable in a relaxed muscle."""
-
-LARGEST_INCREMENT = 0.1
-"""Largest change of e_c in a step: beyond it the scalar equation has spurious roots."""
-
-STRAIN_TOLERANCE = 1e-8
-"""Newton step in e_c that ends the iteration; the stress is then corrected to first order, E_s times its square being
-below 1 Pa."""
+JOINT_STEPS = 4
+"""Newton steps that all fibres take together; those that still move are then solved one by one, with a safeguard."""
 
 
 @dataclass(frozen=True)
@@ -170,114 +170,43 @@ def tension(state: Floats) -> Floats:
     return result
 
 
-@njit(cache=True, error_model="numpy", inline="always")
-def _bridge_root(d, rate, attach, n_0, dt, second_order, constants, k):  # type: ignore[no-untyped-def]
-    """k_c at the end of the step, mean of sqrt(k_c) of the scheme, and the derivative of the mean by ``d``."""
-    k_0, alpha = constants[1], constants[2]
-    x, formed = dt * rate + alpha * abs(d), dt * n_0 * k_0 * attach
-    slope = alpha if d >= 0.0 else -alpha
-    if not second_order:
-        new = (k + formed) / (1.0 + x)
-        if new <= BRIDGE_FLOOR:
-            return BRIDGE_FLOOR, np.sqrt(BRIDGE_FLOOR), 0.0
-        root = np.sqrt(new)
-        return new, root, -0.5 * root * slope / (1.0 + x)
-    g, old = 1.0 + 0.25 * x, np.sqrt(k)
-    square = np.sqrt(k + g * formed)
-    root = (square - 0.25 * x * old) / g
-    if root * root <= BRIDGE_FLOOR:
-        return BRIDGE_FLOOR, 0.5 * (old + np.sqrt(BRIDGE_FLOOR)), 0.0
-    change = 0.25 * slope * (0.5 * formed / square - old - root) / g
-    return root * root, 0.5 * (old + root), 0.5 * change
-
-
-@njit(cache=True, error_model="numpy", inline="always")
-def bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam):  # type: ignore[no-untyped-def]
-    """Response of the bridges to the increment ``d`` of e_c.
-
-    Returned are their stiffness at the end of the step, the mean of lambda_c, the stress tau# and its derivative by
-    ``d``, and the mean of sqrt(k_c) and its derivative, on which the friction depends.
-    """
-    sigma_0, k_0, alpha = constants[0], constants[1], constants[2]
-    new, root, droot = _bridge_root(d, rate, attach, n_0, dt, second_order, constants, k)
-    slope = alpha if d >= 0.0 else -alpha
-    formed, inverse = dt * n_0 * attach, 1.0 / root
-    gain, loss = formed * sigma_0 * inverse, 0.25 * formed * k_0 * inverse * inverse
-    shrink = 1.0 / (1.0 + 0.25 * (dt * rate + alpha * abs(d)) + loss)
-    mean = (lam + 0.5 * (root * d + gain)) * shrink
-    dnum = 0.5 * (droot * d + root - gain * inverse * droot)
-    dmean = (dnum - mean * (0.25 * slope - 2.0 * loss * inverse * droot)) * shrink
-    return new, mean, root * mean, droot * mean + root * dmean, root, droot
-
-
-@njit(cache=True, error_model="numpy")
-def friction(constants, root, droot):  # type: ignore[no-untyped-def]
-    """Friction mu(k_c) [Pa s] at the mean ``root`` of sqrt(k_c), and its derivative by d, from that of the mean."""
-    k_0, mu, rest = constants[1], constants[3], constants[6]
-    if rest == 1.0:
-        return mu, 0.0
-    bound = 2.0 * root * root / k_0
-    if bound >= 1.0:
-        return mu, 0.0
-    return mu * (rest + (1.0 - rest) * bound), mu * (1.0 - rest) * 4.0 * root * droot / k_0
-
-
-@njit(cache=True, error_model="numpy", inline="always")
-def _imbalance(d, rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam):  # type: ignore[no-untyped-def]
-    """Left-hand side of the equation of ``d`` and its slope; the stress, its derivatives by e and d, and dc/de."""
-    _, _, tau, tau_d, root, droot = bridges(d, rate, attach, n_0, dt, second_order, constants, k, lam)
-    s, s_e, s_d, c, c_e, c_d = spring_response(d, e_old, e_new, e_c, constants[4], constants[5] > 0.0)
-    mu, mu_d = friction(constants, root, droot)
-    return tau + mu * d / dt - c, tau_d + (mu + mu_d * d) / dt - c_d, s, s_e, s_d, c_e
-
-
-@njit(cache=True, error_model="numpy", inline="always")
-def fibre_response(rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam, d):  # type: ignore[no-untyped-def]
-    """Stress, its slope, increment and its slope, by Newton's method from the guess ``d``, safeguarded by bisection."""
-    low, high = -LARGEST_INCREMENT, LARGEST_INCREMENT
-    d = min(max(d, low), high)
-    for _ in range(60):
-        value, slope, s, s_e, s_d, c_e = _imbalance(
-            d, rate, attach, n_0, dt, second_order, constants, e_old, e_new, e_c, k, lam
-        )
-        if value > 0.0:
-            high = d
-        else:
-            low = d
-        following = d - value / slope if slope > 0.0 else 0.5 * (low + high)
-        if not low <= following <= high:
-            following = 0.5 * (low + high)
-        change = following - d
-        d = following
-        if abs(change) < STRAIN_TOLERANCE:
-            break
-    increment_slope = c_e / slope
-    return s + s_d * change, s_e + s_d * increment_slope, d, increment_slope
-
-
 @njit(cache=True, error_model="numpy")
 def _respond(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, out):  # type: ignore[no-untyped-def]
+    """Take Newton steps of all fibres at once while one needs them, then safeguarded steps of single fibres."""
+    for _ in range(JOINT_STEPS):
+        if _correct(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, out) == 0:
+            return
     for i in range(e_new.size):
-        guess = out[2, i] + out[3, i] * (e_new[i] - out[4, i])
         e_c, k, lam = state[0, i], state[1, i], state[2, i]
         out[0, i], out[1, i], out[2, i], out[3, i] = fibre_response(
-            rate[i], attach[i], n_0[i], dt, second_order, constants, e_old[i], e_new[i], e_c, k, lam, guess
+            rate[i],
+            attach[i],
+            n_0[i],
+            dt,
+            second_order,
+            constants,
+            e_old[i],
+            e_new[i],
+            e_c,
+            k,
+            lam,
+            out[2, i],
         )
-        out[4, i] = e_new[i]
 
 
 @njit(cache=True, error_model="numpy")
 def _correct(rate, attach, n_0, dt, second_order, constants, e_old, e_new, state, out):  # type: ignore[no-untyped-def]
+    """Take one Newton step of every fibre; return the number of those that are not solved."""
+    unsolved = 0
     for i in range(e_new.size):
-        d = out[2, i] + out[3, i] * (e_new[i] - out[4, i])
+        guess = out[2, i] + out[3, i] * (e_new[i] - out[4, i])
         e_c, k, lam = state[0, i], state[1, i], state[2, i]
-        value, slope, s, s_e, s_d, c_e = _imbalance(
-            d, rate[i], attach[i], n_0[i], dt, second_order, constants, e_old[i], e_new[i], e_c, k, lam
+        out[0, i], out[1, i], out[2, i], out[3, i], solved = fibre_step(
+            rate[i], attach[i], n_0[i], dt, second_order, constants, e_old[i], e_new[i], e_c, k, lam, guess
         )
-        change, increment_slope = -value / slope, c_e / slope
-        out[0, i], out[1, i] = s + s_d * change, s_e + s_d * increment_slope
-        out[2, i], out[3, i] = d + change, increment_slope
         out[4, i] = e_new[i]
+        unsolved += not solved
+    return unsolved
 
 
 @njit(cache=True, error_model="numpy")

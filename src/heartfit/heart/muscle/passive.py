@@ -20,7 +20,7 @@ from numba import njit
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.core.parameter import parameter, require_admissible
-from heartfit.heart.finite_elements.kinematics import inverse, symmetric_product
+from heartfit.heart.finite_elements.kinematics import inverse, inverse_entries, symmetric_product
 
 
 class Passive(Protocol):
@@ -92,7 +92,7 @@ class MooneyRivlin:
 
     def stress(self, C: Floats, J: Floats, scale: Floats, dyads: Floats, S: Floats) -> None:  # noqa: ARG002
         """Fill ``S`` (m, 6) with the isochoric stress, ``scale`` (m,) multiplying both moduli."""
-        _stress(C, J, scale, self.c_1, self.c_2, S)
+        _stress(C, J, np.cbrt(J), scale, self.c_1, self.c_2, S)
 
     def tangent(self, C: Floats, J: Floats, scale: Floats, dyads: Floats, D: Floats) -> None:  # noqa: ARG002
         r"""Fill ``D`` (m, 6, 6) with :math:`2\,\partial S/\partial C` of the isochoric stress."""
@@ -111,26 +111,25 @@ class MooneyRivlin:
         return result
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def _invariants(C: Floats) -> tuple[float, float]:
     trace = C[0] + C[1] + C[2]
     squares = C[0] ** 2 + C[1] ** 2 + C[2] ** 2 + 2.0 * (C[3] ** 2 + C[4] ** 2 + C[5] ** 2)
     return trace, 0.5 * (trace * trace - squares)
 
 
-@njit(cache=True)
-def _stress(C: Floats, J: Floats, scale: Floats, c_1: float, c_2: float, S: Floats) -> None:
-    Ci = np.empty(6)
+@njit(cache=True, error_model="numpy")
+def _stress(C: Floats, J: Floats, root: Floats, scale: Floats, c_1: float, c_2: float, S: Floats) -> None:
+    """Fill ``S`` (m, 6), with ``root`` (m,) the cube roots of ``J``."""
     for e in range(C.shape[0]):
         I1, I2 = _invariants(C[e])
-        inverse(C[e], J[e] * J[e], Ci)
-        root = 1.0 / np.cbrt(J[e])
-        a = 2.0 * c_1 * scale[e] * root**2
-        b = 2.0 * c_2 * scale[e] * root**4
-        for i in range(6):
+        power = 1.0 / (root[e] * root[e])
+        a, b = 2.0 * c_1 * scale[e] * power, 2.0 * c_2 * scale[e] * power * power
+        xx, yy, zz, xy, xz, yz = inverse_entries(C[e], J[e] * J[e])
+        for i, entry in ((0, xx), (1, yy), (2, zz), (3, xy), (4, xz), (5, yz)):
             identity = 1.0 if i < 3 else 0.0
-            S[e, i] = a * (identity - I1 / 3.0 * Ci[i])
-            S[e, i] += b * (I1 * identity - C[e, i] - 2.0 / 3.0 * I2 * Ci[i])
+            S[e, i] = a * (identity - I1 / 3.0 * entry)
+            S[e, i] += b * (I1 * identity - C[e, i] - 2.0 / 3.0 * I2 * entry)
 
 
 @njit(cache=True)

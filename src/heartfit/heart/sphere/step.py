@@ -10,8 +10,8 @@ from numba import njit
 from heartfit.heart.circulation.atria import drain_arteries, end_atrium
 from heartfit.heart.circulation.elements import advance_windkessel, affine_coefficients
 from heartfit.heart.circulation.system import CONSTANT, ONE_KILOPASCAL, REFERENCE, STORAGE, WEIGHT
-from heartfit.heart.muscle.bcs import LARGEST_INCREMENT, bridges
 from heartfit.heart.muscle.control import available_fraction
+from heartfit.heart.muscle.fibre_equation import LARGEST_INCREMENT, bridges
 from heartfit.heart.muscle.spring import frozen_spring_slope, green_strain
 from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.wall import CompiledStep, cavity

@@ -16,7 +16,7 @@ import numpy as np
 from numba import njit
 
 from heartfit.core.arrays import Floats
-from heartfit.heart.muscle.bcs import fibre_response
+from heartfit.heart.muscle.fibre_equation import fibre_response
 from heartfit.heart.muscle.passive import Passive, require_isotropic
 from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.body import LARGEST_STRETCH, SMALLEST_STRETCH
