@@ -50,6 +50,8 @@ PAGES = {
 }
 """Templates by name, and what is written from them."""
 STUDY = RESULTS / "study.tsv"
+FULL = "python3 study.py run --configfile config/full.yaml"
+"""Command of the run whose numbers the pages print: the study with its comparisons of methods."""
 PRINTED = {
     "study_table1": "table1_as_printed",
     "study_table2": "table2_as_printed",
@@ -156,7 +158,7 @@ def take(numbers: Path) -> None:
     head, *rows = read_rows(STUDY)
     lines = ["\t".join(row) for row in (head, *renewed(rows, numbers, commit))]
     write_text(STUDY, "\n".join([made_by, *lines]) + "\n")
-    take_tables(numbers, PRINTED, "python3 study.py", commit)
+    take_tables(numbers, PRINTED, FULL, commit)
 
 
 def take_tables(numbers: Path, names: Mapping[str, str], command: str, commit: str) -> None:

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import yaml
 
 from heartfit.calibration.unscented import SigmaPoint, sigma_points
 from heartfit.core.errors import InputError
@@ -10,7 +9,7 @@ from heartfit.heart.beat import Beat
 from heartfit.heart.simulation import Numerics
 from heartfit.heart.sphere.body import Sphere
 from heartfit.heart.sphere.simulation import simulate_spheres
-from heartfit.io.configuration import read_cases, schema
+from heartfit.io.configuration import read_cases, read_configuration, schema
 from heartfit.io.plan import plan_study
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
@@ -36,8 +35,7 @@ TRUTH = {"sigma_0": 165e3, "R_p": 1.15e8, RIGHT[0]: 0.7, RIGHT[1]: 0.035, RIGHT[
 
 @pytest.fixture
 def config() -> dict:
-    content: dict = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
-    return content
+    return read_configuration([ROOT / "config" / name for name in ("config.yaml", "full.yaml")])
 
 
 def beat_of(parameters: dict[str, float]) -> Beat:

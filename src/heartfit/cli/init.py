@@ -25,7 +25,7 @@ results: results/{case}
 cases: config/{case}.tsv # one row: period of the beat; conduction: healthy, or lbbb with the QRS duration
 settings:
   paper: null # removes a setting of the study
-  biventricular: null # or `cases: [{case}]`, which fits the volume of the right ventricle, too
+  # biventricular: that of full.yaml with `cases: [{case}]`, which fits the volume of the right ventricle, too
 sensitivity:
   case: {case}
 discovery:
