@@ -6,20 +6,18 @@ a beat of a sphere, the search for the cause in one planted heart. Medians of wa
 
 import json
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
 import heartfit
 from benchmarks import sphere as spheres
-from benchmarks.job import COMMAND, ONE_BEAT
-from benchmarks.process import ask, run
+from benchmarks.job import processes
+from benchmarks.process import ask
 from benchmarks.ventricles import FOLDER, ROOT, mesh_file
 from heartfit.discovery.sphere_model.diagnose import diagnose
 from heartfit.discovery.sphere_model.recording import Recording
@@ -81,22 +79,7 @@ def search() -> float:
 
 def job() -> float:
     """Cost of a process that simulates one beat of the smallest mesh from a given reference."""
-    with TemporaryDirectory() as folder:
-        one_beat = Path(folder, "one_beat.yaml")
-        one_beat.write_text(ONE_BEAT)
-        how = (
-            "--setting",
-            "physical",
-            "--period",
-            str(PERIOD),
-            "--unloaded",
-            "--config",
-            CONFIGURATION,
-            one_beat,
-        )
-        output = ("--output", Path(folder, "beat.json"))
-        command = (sys.executable, "-c", COMMAND, "simulate", mesh_file(MESHES[0]), *how, *output)
-        return float(np.median([run(*command).cpu for _ in range(REPEATS + 1)][1:]))
+    return float(np.median([process.cpu for process in processes(MESHES[0], "physical", CONFIGURATION)]))
 
 
 def median(work: Callable[[], Any], repeats: int = REPEATS) -> float:

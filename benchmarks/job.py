@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from benchmarks.beat import PERIOD, cost
-from benchmarks.process import run
+from benchmarks.process import Run, run
 from benchmarks.ventricles import ROOT, mesh_file
 
 REPEATS = 5
@@ -34,17 +34,22 @@ class Job:
 
 def job(name: str, setting: str) -> Job:
     """Cost of one beat on a stress-free mesh, with compiled kernels."""
-    with TemporaryDirectory() as folder:
-        one_beat = Path(folder, "one_beat.yaml")
-        one_beat.write_text(ONE_BEAT)
-        files = ("--config", ROOT / "config/config.yaml", one_beat, "--output", Path(folder, "beat.json"))
-        how = ("--setting", setting, "--period", str(PERIOD), "--unloaded")
-        command = (sys.executable, "-c", COMMAND, "simulate", mesh_file(name), *how, *files)
-        runs = [run(*command) for _ in range(REPEATS + 1)][1:]
+    runs = processes(name, setting, ROOT / "config" / "config.yaml")
     cpu, wall = (
         float(np.median([getattr(measured_run, what) for measured_run in runs])) for what in ("cpu", "wall")
     )
     return Job(cpu, wall, cost(name, setting, "as it is")["cpu_s"], _snakemake_preamble())
+
+
+def processes(name: str, setting: str, configuration: Path) -> list[Run]:
+    """Runs of the whole process under a configuration; the first, which may compile, does not count."""
+    with TemporaryDirectory() as folder:
+        one_beat = Path(folder, "one_beat.yaml")
+        one_beat.write_text(ONE_BEAT)
+        files = ("--config", configuration, one_beat, "--output", Path(folder, "beat.json"))
+        how = ("--setting", setting, "--period", str(PERIOD), "--unloaded")
+        command = (sys.executable, "-c", COMMAND, "simulate", mesh_file(name), *how, *files)
+        return [run(*command) for _ in range(REPEATS + 1)][1:]
 
 
 def _snakemake_preamble() -> float:

@@ -88,9 +88,10 @@ def _rounded(svg: bytes) -> bytes:
 
 def fix_layout(figure: Figure) -> None:
     """Lay the figure out once and round the layout: the last digits of the solver change between calls."""
-    if figure.get_layout_engine() is None:
+    engine = figure.get_layout_engine()
+    if engine is None:
         return
-    figure.draw_without_rendering()
+    engine.execute(figure)
     figure.set_layout_engine("none")
     for part in figure.subfigs:
         part.bbox_relative.set_points(np.round(part.bbox_relative.get_points(), PLACE_DIGITS))

@@ -139,7 +139,7 @@ def _nodes(mesh: VentricularMesh, names: tuple[str, ...]) -> Integers:
 
 def pack(numbers: np.ndarray) -> str:
     """Return 32-bit little-endian integers, deflated, in base 64."""
-    return base64.b64encode(zlib.compress(numbers.astype("<i4").tobytes(), 9)).decode("ascii")
+    return base64.b64encode(zlib.compress(numbers.astype("<i4").tobytes())).decode("ascii")
 
 
 def unpack(text: str) -> np.ndarray:
