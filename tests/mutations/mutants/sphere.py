@@ -20,6 +20,15 @@ SPHERE_MUTANTS = (
         ("nothing presses on spheres", "p[v] += pressure", "p[v] += 0.0 * pressure"),
     ),
     *changes(
+        "heart/sphere/simulation.py",
+        COMPILED,
+        (
+            "the next beat overwrites the one before",
+            "len(self.heart.spheres)].copy()",
+            "len(self.heart.spheres)]",
+        ),
+    ),
+    *changes(
         "heart/sphere/step.py",
         COMPILED,
         (

@@ -85,7 +85,8 @@ class _SphereRun:
     def _recurrence(
         self, curves: Floats, first: list[WindkesselState], last: list[WindkesselState]
     ) -> Recurrence:
-        volumes, atria = curves[:, : len(self.heart.spheres)], list(self._chambers(curves).values())
+        volumes = curves[:, : len(self.heart.spheres)].copy()  # the next beat overwrites the curves
+        atria = list(self._chambers(curves).values())
         closed = bool(sides_filling_veins(self.heart.atria))
         return Recurrence(volumes, first, last, np.array(atria).reshape(-1, len(curves)).T, closed)
 
