@@ -23,9 +23,9 @@ GROWTH = 1.3
 FASTER = {"scikit-fem": 20.0, "NGSolve": 10.0}
 
 BEAT = (
-    "A beat: at 10k a quarter is residuals, a quarter solutions with kept factors, a quarter new factors; at 3k a good "
-    "part is Python between the kernels. What brought it down from 6.7 s is in decision 6, what was tried since, with "
-    "steps of varying length, in decision 48."
+    "A beat: at 10k a quarter is residuals, a quarter solutions with kept factors, a fifth new factors; at 3k a good "
+    "part is Python between the kernels. What brought it down from 6.7 s is in decision 6, what was done and tried "
+    "since, with steps of varying length, in decision 48."
 )
 SHARE = (
     "A Newton step: ours is mostly its factors, which the engine renews a few times in a beat; in use it is faster "
@@ -38,8 +38,8 @@ START = (
     "kernels that load without numba."
 )
 SEARCH = (
-    "A search: 21000 beats of spheres in 4400 hearts take half of it, amended hearts and limit cycles in Python the "
-    "rest. Looser limit cycles save a tenth and spoil the slopes; see decision 48."
+    "A search: 33000 beats of spheres in 7400 hearts take half of it, amended hearts and limit cycles in Python the "
+    "rest. Looser limit cycles spoil the slopes, nearer starts take more beats; see decision 48."
 )
 TRIED = {"job": START, "search": SEARCH}
 
