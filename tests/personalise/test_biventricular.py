@@ -135,6 +135,14 @@ def test_the_study_fits_both_ventricles_of_the_measured_heart_alone(config: dict
     assert "observe" in str(schema())
 
 
+def test_settings_of_some_cases_come_last_in_whichever_order_files_state_them(config: dict) -> None:
+    """Snakemake puts those of a file given with --configfile first."""
+    config["settings"] = dict(reversed(config["settings"].items()))
+    study = Study.model_validate(config)
+    assert [study.settings[name].cases is None for name in study.settings] == [True, True, False, False]
+    assert study.perturbed_as("paper_twice") == "paper"
+
+
 def test_a_right_volume_of_virtual_images_is_refused(config: dict, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its errors are in no noise model."""
     monkeypatch.chdir(ROOT)

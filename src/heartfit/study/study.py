@@ -77,7 +77,9 @@ class Study(Strict):
             return settings
         removed = {name for name, setting in settings.items() if setting is None}
         kept = {name: setting for name, setting in settings.items() if name not in removed}
-        return {name: _completed(name, kept) for name in kept if _like(kept[name]) not in removed}
+        completed = {name: _completed(name, kept) for name in kept if _like(kept[name]) not in removed}
+        # those for all cases first, in whichever order files state them: others share what the first has perturbed
+        return dict(sorted(completed.items(), key=lambda item: _stated(item[1], "cases") is not None))
 
     @model_validator(mode="after")
     def _names_are_known(self) -> Self:
@@ -281,8 +283,12 @@ class Study(Strict):
         }
 
 
+def _stated(setting: Any, field: str) -> Any:
+    return setting.get(field) if isinstance(setting, Mapping) else None
+
+
 def _like(setting: Any) -> Any:
-    return setting.get("like") if isinstance(setting, Mapping) else None
+    return _stated(setting, "like")
 
 
 def _completed(name: str, settings: Mapping[str, Any]) -> Any:
