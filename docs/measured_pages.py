@@ -50,8 +50,8 @@ PAGES = {
 }
 """Templates by name, and what is written from them."""
 STUDY = RESULTS / "study.tsv"
-FULL = "python3 study.py run --configfile config/full.yaml"
-"""Command of the run whose numbers the pages print: the study with its comparisons of methods."""
+FULL = "python3 study.py run --configfile config/full.yaml, with methods: false"
+"""Command of the run whose numbers the pages print: all settings, and the stored noise model."""
 PRINTED = {
     "study_table1": "table1_as_printed",
     "study_table2": "table2_as_printed",
