@@ -77,7 +77,8 @@ class Study(Strict):
             return settings
         removed = {name for name, setting in settings.items() if setting is None}
         kept = {name: setting for name, setting in settings.items() if name not in removed}
-        completed = {name: _completed(name, kept) for name in kept if _like(kept[name]) not in removed}
+        models = {name: _stated(setting, "like") for name, setting in kept.items()}
+        completed = {name: _completed(name, kept) for name in kept if models[name] not in removed}
         # those for all cases first, in whichever order files state them: others share what the first has perturbed
         return dict(sorted(completed.items(), key=lambda item: _stated(item[1], "cases") is not None))
 
@@ -90,26 +91,22 @@ class Study(Strict):
             setting.with_lv_pressure().with_prior(self.prior)
         for name in self.settings:
             self.perturbation_setting(name)
-        for name in self.settings:
             self.first_step(name)
         if all(setting.cases is not None for setting in self.settings.values()):
             raise ValueError("settings: each names its cases; expected one for all cases: omit its `cases`")
+        known = ", ".join(self.settings)
         for name in self.discovery.settings:
             if name not in self.settings:
-                raise ValueError(
-                    f"discovery.settings: no setting {name!r}; known settings are {', '.join(self.settings)}"
-                )
+                raise ValueError(f"discovery.settings: no setting {name!r}; known settings are {known}")
             if self.settings[name].cases is not None:
                 raise ValueError(f"discovery.settings: {name!r} is not for all cases; name one that is")
         stated = "element" in self.discovery.model_fields_set
         if stated and self.discovery.element.setting not in self.settings:
-            known = ", ".join(self.settings)
             raise ValueError(
                 f"discovery.element: no setting {self.discovery.element.setting!r}; known settings are {known}"
             )
         nominal = self.discovery_benchmark.ventricles.setting
         if nominal not in self.settings:
-            known = ", ".join(self.settings)
             raise ValueError(
                 f"discovery_benchmark.ventricles: no setting {nominal!r}; known settings are {known}"
             )
@@ -287,17 +284,13 @@ def _stated(setting: Any, field: str) -> Any:
     return setting.get(field) if isinstance(setting, Mapping) else None
 
 
-def _like(setting: Any) -> Any:
-    return _stated(setting, "like")
-
-
 def _completed(name: str, settings: Mapping[str, Any]) -> Any:
     """Return a stated setting with the fields of the one that it is like; that one is like no other."""
-    setting, like = settings[name], _like(settings[name])
+    setting, like = settings[name], _stated(settings[name], "like")
     if like is None:
         return setting
     model = settings.get(like) if isinstance(like, str) else None
-    if not isinstance(model, Mapping) or _like(model) is not None:
+    if not isinstance(model, Mapping) or _stated(model, "like") is not None:
         known = ", ".join(other for other in settings if other != name)
         raise ValueError(
             f"settings.{name}.like: {like!r}; expected a setting that is like no other, among {known}"
