@@ -108,14 +108,15 @@ def _list_parameters(part: Any, prefix: str = "") -> list[tuple[str, float]]:
 
 def _with_changes(part: Any, changes: Mapping[str, Any]) -> Any:
     """Copy of ``part`` with new values, or nested changes, by name; other names are classes of its mechanisms."""
-    own = {name: change for name, change in changes.items() if hasattr(part, name)}
-    new = {
-        name: _with_changes(getattr(part, name), change) if isinstance(change, dict) else change
-        for name, change in own.items()
-    }
-    if len(own) < len(changes):
-        kinds = {name: change for name, change in changes.items() if name not in own}
-        new["mechanisms"] = tuple(
+    own: dict[str, Any] = {}
+    kinds: dict[str, Any] = {}
+    for name, change in changes.items():
+        if hasattr(part, name):
+            own[name] = _with_changes(getattr(part, name), change) if isinstance(change, dict) else change
+        else:
+            kinds[name] = change
+    if kinds:
+        own["mechanisms"] = tuple(
             _with_changes(mechanism, kinds.get(type(mechanism).__name__, {})) for mechanism in part.mechanisms
         )
-    return replace(part, **new)
+    return replace(part, **own)

@@ -11,7 +11,12 @@ SEARCH_MUTANTS = (
     *changes(
         "discovery/inference/data.py",
         f"{INFERENCE}/test_whitening.py",
-        ("levels of the noise add up", "logsumexp(level) - np.log(level.size)", "logsumexp(level)"),
+        ("levels of the noise add up", "_log_sum(level) - np.log(level.size)", "_log_sum(level)"),
+    ),
+    *changes(
+        "discovery/inference/hypothesis.py",
+        "tests/discovery/sphere_model/test_forward_model.py",
+        ("slopes from two limit cycles", "[(near, centre), *models]", "[(near, predicted), *models]"),
     ),
     *changes(
         "discovery/inference/evidence.py",

@@ -5,6 +5,7 @@ from tests.mutations.mutant import changes
 CIRCULATION = "tests/heart/circulation"
 SPHERE = "tests/heart/sphere/test_sphere.py"
 COMPILED = "tests/heart/sphere/test_simulation.py"
+NEIGHBOURS = "tests/heart/sphere/test_neighbours.py"
 
 SPHERE_MUTANTS = (
     *changes(
@@ -27,6 +28,22 @@ SPHERE_MUTANTS = (
             "len(self.heart.spheres)].copy()",
             "len(self.heart.spheres)]",
         ),
+    ),
+    *changes(
+        "heart/sphere/guess.py",
+        NEIGHBOURS,
+        ("changes are not carried on", " + 2.0 * changes[0, i] - changes[1, i]", ""),
+    ),
+    *changes(
+        "heart/sphere/neighbours.py",
+        NEIGHBOURS,
+        ("pressures settle in one beat", "np.eye(len(sizes)) - matrix", "np.eye(len(sizes))"),
+        ("far hearts are neighbours", "if run.drift < FARTHEST else None", ""),
+    ),
+    *changes(
+        "heart/sphere/heart.py",
+        NEIGHBOURS,
+        ("a neighbour keeps the bridges", "fibres[rows.KEPT] = self._bridges\n        branches", "branches"),
     ),
     *changes(
         "heart/sphere/step.py",

@@ -1,6 +1,6 @@
 """Hypotheses of missing effects and their forward models."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,17 +24,24 @@ class Coordinate:
     amplitude: bool = False
 
 
+def _forward_itself(x: Floats) -> None:
+    """No other forward model near x (d,)."""
+
+
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
     """A model with the named effects, all its coordinates free.
 
     The base coordinates come first and are the same in all hypotheses; each effect adds one amplitude, in the order of
     ``effects``, and its other unknowns. With all amplitudes 0 the forward model is the baseline's.
+
+    near: the forward model for points near x (d,), from whose differences slopes follow; None for ``forward`` itself.
     """
 
     effects: tuple[str, ...]
     coordinates: tuple[Coordinate, ...]
     forward: Forward
+    near: Callable[[Floats], Forward | None] = _forward_itself
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -76,8 +83,7 @@ class CountedHypothesis:
         self.hypothesis, self.runs = hypothesis, 0
 
     def __call__(self, x: Floats) -> Floats | None:
-        self.runs += 1
-        return self.hypothesis.forward(x)
+        return self._run(self.hypothesis.forward, x)
 
     def simulate_start(self, start: Floats) -> tuple[Floats, Floats] | None:
         """The start (d,), or the first shortened one whose simulation is completed, and its prediction (n,)."""
@@ -88,14 +94,28 @@ class CountedHypothesis:
         return None
 
     def jacobian(self, x: Floats, predicted: Floats, first: int = 0, step: float = DIFFERENCE_STEP) -> Floats:
-        """Columns ``first`` and on of (n, d); a column is zero where the simulation fails in both directions."""
-        return np.column_stack([self._column(x, predicted, index, step) for index in range(first, x.size)])
+        """Columns ``first`` and on of (n, d); a column is zero where the simulation fails in both directions.
 
-    def _column(self, x: Floats, predicted: Floats, index: int, step: float) -> Floats:
-        for difference in (step, -step):
-            shifted = x.copy()
-            shifted[index] += difference
-            prediction = self(shifted) if (shifted >= self.hypothesis.lower).all() else None
-            if prediction is not None:
-                return (prediction - predicted) / difference
-        return np.zeros_like(predicted)
+        The differences are those of the forward model near x, or of the other one where that one fails.
+        """
+        models = [(self.hypothesis.forward, predicted)]
+        near = self.hypothesis.near(x)
+        centre = None if near is None else self._run(near, x)
+        if near is not None and centre is not None:
+            models = [(near, centre), *models]
+        return np.column_stack([self._column(models, x, index, step) for index in range(first, x.size)])
+
+    def _column(self, models: Sequence[tuple[Forward, Floats]], x: Floats, index: int, step: float) -> Floats:
+        for forward, centre in models:
+            for difference in (step, -step):
+                shifted = x.copy()
+                shifted[index] += difference
+                within = (shifted >= self.hypothesis.lower).all()
+                prediction = self._run(forward, shifted) if within else None
+                if prediction is not None:
+                    return (prediction - centre) / difference
+        return np.zeros_like(models[0][1])
+
+    def _run(self, forward: Forward, x: Floats) -> Floats | None:
+        self.runs += 1
+        return forward(x)

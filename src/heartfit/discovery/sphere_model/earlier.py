@@ -31,12 +31,17 @@ from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.data import Block, Data, Whitening
 from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.inference.hypothesis import Coordinate, CountedHypothesis, Hypothesis
-from heartfit.discovery.sphere_model.forward_model import BASE_COORDINATES, SphereForwardModel
+from heartfit.discovery.sphere_model.forward_model import (
+    BASE_COORDINATES,
+    SphereForwardModel,
+    model_hypothesis,
+)
 from heartfit.discovery.sphere_model.nominal_heart import PEOPLE, NominalHeart, perturb
 from heartfit.discovery.sphere_model.problem import NO_BEAT, SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.heart import Heart
 from heartfit.places import COEFFICIENTS, EARLIER_PLACES, FunctionOfTime, PeriodicFunction
+from heartfit.roles import Mechanism
 
 CHANGE_SCALES = (0.05, 0.1, 0.2)
 """s: standard deviations of a change of the functions over those of the functions, equally likely."""
@@ -145,10 +150,10 @@ def _hypothesis(model: SphereForwardModel) -> Hypothesis:
         Coordinate(f"{place.__name__}.{index}") for place in EARLIER_PLACES for index in range(COEFFICIENTS)
     )
 
-    def forward(x: Floats) -> Floats | None:
-        return model.predict(x[:BASE], _standardised_places(x[BASE:], period))
+    def split(x: Floats) -> tuple[Floats, Sequence[Mechanism]]:
+        return x[:BASE], _standardised_places(x[BASE:], period)
 
-    return Hypothesis((), BASE_COORDINATES + functions, forward)
+    return model_hypothesis(model, (), functions, split)
 
 
 def _with_places(nominal: NominalHeart, z: Floats) -> Heart:

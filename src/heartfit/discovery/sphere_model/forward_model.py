@@ -1,24 +1,26 @@
 """The sphere forward model, and every mechanism as a hypothesis about it."""
 
-from collections import OrderedDict
+from collections import Counter, OrderedDict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, reduce
+from functools import cached_property, lru_cache, reduce
 from operator import add
 from typing import Protocol
 
 import numpy as np
 
-from heartfit.core.arrays import Floats
+from heartfit.core.arrays import Floats, Integers
 from heartfit.core.parameter import Parameter, parameters_of
 from heartfit.discovery.inference.data import Block
-from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
+from heartfit.discovery.inference.hypothesis import Coordinate, Forward, Hypothesis
 from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS, TIME_SHIFT_INDEX
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart, perturb
 from heartfit.discovery.sphere_model.recording import BALANCE
 from heartfit.heart.beat import Beat
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics
+from heartfit.heart.sphere.neighbours import Neighbours
+from heartfit.heart.sphere.simulation import LimitCycle
 from heartfit.roles import Mechanism, Sensor, registered
 from heartfit.roles.sides import acts_within, right_excess
 
@@ -26,21 +28,22 @@ NUMERICS = Numerics(time_step=5e-3, max_beats=30, drift=1e-5)
 """Finite differences need a limit cycle: at a drift of 1 % beats differ by 1 mL and 0.3 kPa from it, here by 0.1 mL and
 0.02 kPa at most."""
 
-CACHED_BEATS = 256
-"""Number of beats kept for hypotheses that differ by an instrument only, which does not change the beat."""
+KEPT_CYCLES = 256
+"""Number of limit cycles kept for hypotheses that differ by an instrument only, which does not change the beat."""
 
 
 @dataclass(eq=False)
 class SphereForwardModel:
     """Predictions of curves at their ``times`` [s after the trigger], by name.
 
-    simulations: number of beats that were run; an instrument costs none.
+    neighbours: hearts whose beats are simulated from that of their centre; None where every beat starts relaxed.
     """
 
     nominal: NominalHeart
     times: Mapping[str, Floats]
-    simulations: int = 0
-    _beats: "OrderedDict[bytes, Beat]" = field(default_factory=OrderedDict)
+    neighbours: Neighbours | None = None
+    _cycles: "OrderedDict[bytes, LimitCycle | None]" = field(default_factory=OrderedDict)
+    _counts: Counter[str] = field(default_factory=Counter)
 
     @classmethod
     def at_samples(cls, nominal: NominalHeart, blocks: Iterable[Block]) -> "SphereForwardModel":
@@ -51,6 +54,11 @@ class SphereForwardModel:
     def base(self) -> tuple[Coordinate, ...]:
         """Coordinates of the free parameters, which come first in every hypothesis."""
         return tuple(Coordinate(parameter.name) for parameter in self.nominal.free)
+
+    @property
+    def simulations(self) -> int:
+        """Number of beats that were run; an instrument costs none."""
+        return self._counts["beats"]
 
     def predict(self, x: Floats, effects: Sequence[Mechanism]) -> Floats | None:
         """The curves (n,) [SI], one after the other, at the coordinates x (b,); None where the simulation fails."""
@@ -63,24 +71,43 @@ class SphereForwardModel:
     def simulate(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Heart, Beat] | None:
         """The heart at the coordinates x (b,) and its beat; None where the simulation fails."""
         try:
-            nominal = perturb(self.nominal, x)
-            heart = reduce(add, effects, nominal.heart)
-            beat = self._beat(replace(nominal, heart=heart), x, effects)
+            nominal = _amend(self.nominal, x, effects)
+            cycle = self._limit_cycle(nominal, x, effects)
         except ValueError:  # coordinates outside the range of a parameter
             return None
-        return (heart, beat) if beat.completed and beat.volume["lv"].min() > 0.0 else None
+        if cycle is None or cycle.beat.volume["lv"].min() <= 0.0:
+            return None
+        return nominal.heart, cycle.beat
 
-    def _beat(self, nominal: NominalHeart, x: Floats, effects: Sequence[Mechanism]) -> Beat:
+    def near(self, x: Floats, effects: Sequence[Mechanism]) -> "SphereForwardModel | None":
+        """The forward model for hearts near the one at x (b,), whose beats start from that one's limit cycle.
+
+        None where that heart has no limit cycle, or one that its neighbours do not start from.
+        """
+        cycle = self._limit_cycle(_amend(self.nominal, x, effects), x, effects)
+        if cycle is None or cycle.heart.atria is not None:
+            return None
+        return replace(self, neighbours=Neighbours(cycle, NUMERICS), _cycles=OrderedDict())
+
+    def _limit_cycle(
+        self, nominal: NominalHeart, x: Floats, effects: Sequence[Mechanism]
+    ) -> LimitCycle | None:
         physical = [effect for effect in effects if not isinstance(effect, Sensor)]
         key = np.delete(x[: len(self.base)], TIME_SHIFT_INDEX).tobytes() + repr(physical).encode()
-        beat = self._beats.pop(key, None)
-        if beat is None:
-            self.simulations += 1
-            beat = nominal.beat(NUMERICS)
-        self._beats[key] = beat
-        if len(self._beats) > CACHED_BEATS:
-            self._beats.popitem(last=False)
-        return beat
+        if key in self._cycles:
+            self._cycles.move_to_end(key)
+            return self._cycles[key]
+        self._counts["beats"] += 1
+        self._cycles[key] = nominal.limit_cycle(NUMERICS, self.neighbours)
+        if len(self._cycles) > KEPT_CYCLES:
+            self._cycles.popitem(last=False)
+        return self._cycles[key]
+
+
+def _amend(nominal: NominalHeart, x: Floats, effects: Sequence[Mechanism]) -> NominalHeart:
+    """The nominal heart at the coordinates x (b,), with these effects."""
+    perturbed = perturb(nominal, x)
+    return replace(perturbed, heart=reduce(add, effects, perturbed.heart))
 
 
 def observe_curve(beat: Beat, heart: Heart, name: str, times: Floats) -> Floats:
@@ -103,13 +130,20 @@ def interpolate(phases: Floats, values: Floats) -> Floats:
     Cubic with the slopes of central differences: with straight lines the derivative by a delay would jump at every
     sample.
     """
-    count = values.size
-    index = np.floor(phases * count).astype(np.int64)
-    u = phases * count - index
-    left, right = values[index % count], values[(index + 1) % count]
-    before, after = values[(index - 1) % count], values[(index + 2) % count]
-    bend = u * (2.0 * before - 5.0 * left + 4.0 * right - after + u * (3.0 * (left - right) + after - before))
-    return left + 0.5 * u * (right - before + bend)
+    index, weight = _interpolation(phases.tobytes(), values.size)
+    interpolated: Floats = np.einsum("ck,ck->k", weight, values[index])
+    return interpolated
+
+
+@lru_cache(maxsize=64)
+def _interpolation(phases: bytes, count: int) -> tuple[Integers, Floats]:
+    """Indices and weights (4, k) of the samples around each phase; kept, since hearts of a search share the phases."""
+    place = np.frombuffer(phases) * count
+    left = np.floor(place).astype(np.int64)
+    u = place - left
+    before, after = 0.5 * u * (u * (2.0 - u) - 1.0), 0.5 * u * u * (u - 1.0)
+    own, right = 1.0 + 0.5 * u * u * (3.0 * u - 5.0), 0.5 * u * (1.0 + u * (4.0 - 3.0 * u))
+    return (left + np.arange(-1, 3)[:, None]) % count, np.array([before, own, right, after])
 
 
 BASE_COORDINATES = tuple(Coordinate(parameter.name) for parameter in FREE_PARAMETERS)
@@ -178,29 +212,51 @@ def _is_observable(kind: type[Mechanism], recorded: set[str]) -> bool:
 
 
 class ForwardModel(Protocol):
-    """A model of a heart: base, the coordinates that every hypothesis shares, and predictions with effects."""
+    """A model of a heart: base, the coordinates that every hypothesis shares, and predictions with effects.
+
+    near: the model for hearts near one, from whose differences slopes follow; None where it is this model.
+    """
 
     @property
     def base(self) -> tuple[Coordinate, ...]: ...
     def predict(self, x: Floats, effects: Sequence[Mechanism]) -> Floats | None: ...
+    def near(self, x: Floats, effects: Sequence[Mechanism]) -> "ForwardModel | None": ...
+
+
+Split = Callable[[Floats], tuple[Floats, Sequence[Mechanism]]]
+"""The base coordinates (b,) and the effects at coordinates (d,); raises ValueError outside the range of a parameter."""
 
 
 def hypothesis(model: ForwardModel, effects: Sequence[Candidate] = ()) -> Hypothesis:
     """The hypothesis of a heart with these mechanisms, all their unknowns free."""
     added = tuple(coordinate for effect in effects for coordinate in effect.coordinates())
     names = tuple(effect.name for effect in effects)
-    return Hypothesis(names, model.base + added, _forward(model, effects))
-
-
-def _forward(model: ForwardModel, effects: Sequence[Candidate]) -> Callable[[Floats], Floats | None]:
     ends = np.cumsum([len(model.base), *(len(effect.unknowns) for effect in effects)])
 
+    def split(x: Floats) -> tuple[Floats, Sequence[Mechanism]]:
+        base, *parts = np.split(x, ends[:-1])
+        return base, [effect.at(part) for effect, part in zip(effects, parts, strict=True)]
+
+    return model_hypothesis(model, names, added, split)
+
+
+def model_hypothesis(
+    model: ForwardModel, effects: tuple[str, ...], added: tuple[Coordinate, ...], split: Split
+) -> Hypothesis:
+    """The hypothesis that ``model`` predicts the data, with coordinates ``added`` to its own."""
+
+    def near(x: Floats) -> Forward | None:
+        neighbours = model.near(*split(x))
+        return None if neighbours is None else _forward(neighbours, split)
+
+    return Hypothesis(effects, model.base + added, _forward(model, split), near)
+
+
+def _forward(model: ForwardModel, split: Split) -> Forward:
     def forward(x: Floats) -> Floats | None:
-        parts = np.split(x, ends[:-1])[1:]
         try:
-            mechanisms = [effect.at(part) for effect, part in zip(effects, parts, strict=True)]
+            return model.predict(*split(x))
         except ValueError:
             return None
-        return model.predict(x, mechanisms)
 
     return forward

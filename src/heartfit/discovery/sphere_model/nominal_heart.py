@@ -30,11 +30,13 @@ from heartfit.discovery.sphere_model.free_parameters import (
 )
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.beat import Beat
+from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics
 from heartfit.heart.sphere.body import HEALTHY_ACTIVATION, Sphere
-from heartfit.heart.sphere.heart import Inertia
-from heartfit.heart.sphere.simulation import simulate_spheres
+from heartfit.heart.sphere.heart import Inertia, SphericalHeart
+from heartfit.heart.sphere.neighbours import Neighbours
+from heartfit.heart.sphere.simulation import LimitCycle, SphereRun, simulate_spherical
 from heartfit.roles import Sensor
 
 INVERSE_TO_SIZE = (
@@ -105,11 +107,25 @@ class NominalHeart:
 
     def beat(self, numerics: Numerics) -> Beat:
         """Simulate the beat of the sphere, or of both."""
+        return simulate_spherical(self._spherical(numerics), numerics)
+
+    def limit_cycle(self, numerics: Numerics, near: Neighbours | None = None) -> LimitCycle | None:
+        """Simulate the limit cycle, from relaxed ventricles or as one of the neighbours; None where there is none."""
+        heart = self._spherical(numerics)
+        if near is not None:
+            return near.limit_cycle(heart)
+        try:
+            return SphereRun(heart, numerics).to_limit_cycle()
+        except StepFailed:
+            return None
+
+    def _spherical(self, numerics: Numerics) -> SphericalHeart:
         volumes = [(self.cavity, self.wall)]
         if self.right is not None:
             volumes.append((self.right.cavity, self.right.wall))
         spheres = [Sphere.from_volumes(cavity, wall) for cavity, wall in volumes]
-        return simulate_spheres(self.heart, spheres, numerics, self.spread * HEALTHY_ACTIVATION, self.inertia)
+        activation = self.spread * HEALTHY_ACTIVATION
+        return SphericalHeart(self.heart, spheres, activation, self.inertia, numerics.second_order)
 
     def scaled_to(self, recording: Recording) -> "NominalHeart":
         """Scale the heart to the size and rate of a recorded one.

@@ -22,8 +22,9 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.evidence import Explanation, Fit, posterior
 from heartfit.discovery.inference.hypothesis import Coordinate, CountedHypothesis, Hypothesis
-from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
+from heartfit.discovery.sphere_model.forward_model import SphereForwardModel, model_hypothesis
 from heartfit.places import PLACES, Place, Region
+from heartfit.roles import Mechanism
 
 FEWEST_FITTED, MOST_FITTED = 3, 7
 """Numbers of places that are fitted in every search, and at most, where the linear model predicts a gain."""
@@ -80,10 +81,10 @@ def place_hypothesis(model: SphereForwardModel, kind: type[Place]) -> Hypothesis
     period, base = model.nominal.heart.period, len(model.base)
     own = tuple(Coordinate(f"{kind.__name__}.{index}", kind.one_sided) for index in range(kind.size))
 
-    def forward(x: Floats) -> Floats | None:
-        return model.predict(x[:base], (kind.from_standardised(x[base:], period),))
+    def split(x: Floats) -> tuple[Floats, Sequence[Mechanism]]:
+        return x[:base], (kind.from_standardised(x[base:], period),)
 
-    return Hypothesis((kind.__name__,), model.base + own, forward)
+    return model_hypothesis(model, (kind.__name__,), own, split)
 
 
 @dataclass(frozen=True, eq=False)

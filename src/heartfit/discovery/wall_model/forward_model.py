@@ -123,6 +123,9 @@ class WallForwardModel:
             return None
         return self.observe(beat, placed.heart) if beat.completed else None
 
+    def near(self, x: Floats, effects: Sequence[Mechanism] = ()) -> None:
+        """No other model: its slopes are those of tangent beats, or differences of its predictions."""
+
     def observe(self, beat: Beat, heart: Heart) -> Floats:
         """The curves (n,) [SI] of a beat that kept its nodes, through the sensors of the heart."""
         regional = self._regional_curves(beat, heart) if self.regional else {}

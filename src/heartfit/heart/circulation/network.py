@@ -119,7 +119,7 @@ class Network:
     """
 
     def __init__(self, circulation: Circulation, mechanisms: Sequence[Mechanism], sides: int = 2) -> None:
-        self.circulation, self.mechanisms = circulation, tuple(mechanisms)
+        self.circulation, self.mechanisms, self.sides = circulation, tuple(mechanisms), sides
         present = compartments_of(sides)
         valves = {
             name: getattr(circulation, name).law() for name, ends in VALVES.items() if present >= {*ends}

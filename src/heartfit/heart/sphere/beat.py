@@ -9,7 +9,7 @@ from heartfit.core.arrays import Floats, Integers
 from heartfit.heart.circulation.atria import begin_atria, descend_planes
 from heartfit.heart.circulation.circuit import solve_circuit
 from heartfit.heart.circulation.system import CONSTANT, ONE_MILLILITRE, REFERENCE, STORAGE, WEIGHT
-from heartfit.heart.sphere import rows
+from heartfit.heart.sphere import guess, rows
 from heartfit.heart.sphere import step as steps
 from heartfit.heart.sphere.body import LARGEST_STRETCH, SMALLEST_STRETCH
 from heartfit.heart.sphere.wall import cavity, cavity_pressure
@@ -128,19 +128,26 @@ def move_walls(stiffer, sides, p):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy", inline="always")
-def record_curves(sides, branches, chambers, curves, n):  # type: ignore[no-untyped-def]
-    """Fill row n of the curves: volumes, pressures of ventricles and arteries, flows, and those of the atria."""
-    count, first = sides.shape[1], 3 * sides.shape[1] + branches.shape[1]
+def record_curves(sides, fibres, branches, chambers, curves, n, changes):  # type: ignore[no-untyped-def]
+    """Fill row n of the curves, and store by how much the unknowns of a step differ from the beat before."""
+    count, width = sides.shape[1], curves.shape[1]
+    first = 3 * count + branches.shape[1]
     if chambers is not None:
         for v in range(count):
-            curves[n, first + v], curves[n, first + count + v] = chambers[VOLUME, v], chambers[PRESSURE, v]
+            curves[n, first + v] = chambers[VOLUME, v]
+            guess.store(curves, n, first + count + v, changes, 2 * count + v, chambers[PRESSURE, v])
     for v in range(count):
-        curves[n, v] = cavity(sides[rows.RADIUS, v], sides[rows.RATIO, v], sides[rows.NOW + rows.STRETCH, v])[
-            0
-        ]
-        curves[n, count + v], curves[n, 2 * count + v] = sides[rows.P, v], sides[rows.NOW + rows.ARTERY, v]
+        stretch = sides[rows.NOW + rows.STRETCH, v]
+        curves[n, v] = cavity(sides[rows.RADIUS, v], sides[rows.RATIO, v], stretch)[0]
+        curves[n, count + v] = sides[rows.P, v]
+        guess.store(curves, n, 2 * count + v, changes, count + v, sides[rows.NOW + rows.ARTERY, v])
+        guess.store(curves, n, width - count + v, changes, v, stretch)
     for k in range(branches.shape[1]):
         curves[n, 3 * count + k] = branches[rows.FLOW, k]
+    own = changes.shape[1] - fibres.shape[1]
+    increments = width - count - fibres.shape[1]
+    for i in range(fibres.shape[1]):
+        guess.store(curves, n, increments + i, changes, own + i, fibres[rows.INCREMENT, i])
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)  # type: ignore[call-overload]
@@ -149,9 +156,10 @@ def _advance(tissue, inputs, state, chambers, reservoirs, curves, first, workspa
     passive, active, starling, eta, density = tissue
     length, second_order, rate, attach, atria, walls, waves, loads, laws, ends = inputs
     sides, fibres, branches, last = state
-    branch_states, p, system, work, jacobian = workspace
+    branch_states, p, system, work, jacobian, changes = workspace
     total = 0
-    record_curves(sides, branches, chambers, curves, first)
+    record_curves(sides, fibres, branches, chambers, curves, first, changes)
+    guess.keep_changes(changes)
     for n in range(first, rate.shape[0]):
         step = steps.next_step(length, second_order, last[0])
         steps.begin_sides(step, sides)
@@ -162,7 +170,7 @@ def _advance(tissue, inputs, state, chambers, reservoirs, curves, first, workspa
         if chambers is not None:
             begin_atria(chambers, step.effective, atria, n, system)
         steps.begin_fibres(active, starling, step, rate, attach, n, sides, fibres)
-        steps.predict(step, last, sides, chambers, p)
+        guess.predict(step, last, curves, n + 1, changes, sides, fibres, chambers, p)
         outcome = rows.UNBALANCED
         for _ in range(NEWTON_ITERATIONS):
             total += 1
@@ -190,7 +198,7 @@ def _advance(tissue, inputs, state, chambers, reservoirs, curves, first, workspa
         steps.commit_branches(branches)
         steps.commit_fibres(active, step, sides, fibres)
         last[1], last[0] = last[0], length
-        record_curves(sides, branches, chambers, curves, n + 1)
+        record_curves(sides, fibres, branches, chambers, curves, n + 1, changes)
     return rate.shape[0], rows.SOLVED, total
 
 
@@ -198,12 +206,20 @@ def _advance(tissue, inputs, state, chambers, reservoirs, curves, first, workspa
 def advance(tissue, inputs, state, curves, first):  # type: ignore[no-untyped-def]
     """Take the steps from ``first`` on; return the index of the first failed step, its outcome and the iterations.
 
-    Without a failure the index is n and the outcome SOLVED. The rows of ``curves`` (n + 1, 3 v + k + 2 c) are filled
-    with volumes, pressures of ventricles and arteries, flows, and volumes and pressures of c = v atria, before the
-    first and after every step. A failed step leaves the state as it was at its start.
+    Without a failure the index is n and the outcome SOLVED. The rows of ``curves`` (n + 1, 4 v + k + 2 c) are filled
+    with volumes, pressures of ventricles and arteries, flows, volumes and pressures of c = v atria, and stretches,
+    before the first and after every step. Each row holds those of the beat before, or NaN: from them, with the changes
+    that the steps before have shown, the unknowns of a step start. A failed step leaves the state as it was at its
+    start.
     """
     n = _unknowns(state.sides, state.chambers)
-    equations = np.empty(n), np.zeros((n, 3 + n)), np.empty((3, n)), np.empty((n, n))
+    equations = (
+        np.empty(n),
+        np.zeros((n, 3 + n)),
+        np.empty((3, n)),
+        np.empty((n, n)),
+        np.empty((2, n + state.fibres.shape[1])),
+    )
     workspace = (state.branches[rows.STEP_STATES :], *equations)
     tables = state.sides, state.fibres, state.branches, state.last
     return _advance(tissue, inputs, tables, state.chambers, state.reservoirs, curves, first, workspace)

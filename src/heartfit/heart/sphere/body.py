@@ -14,6 +14,7 @@ Source: Caruel et al., BMMB 13 (2014) 897, with version A of the fibre law.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.optimize import brentq
@@ -40,8 +41,9 @@ class Sphere:
     thickness: float
 
     @classmethod
+    @lru_cache(maxsize=64)
     def from_volumes(cls, cavity: float, wall: float) -> "Sphere":
-        """Sphere with the volumes ``cavity`` and ``wall`` [m^3]."""
+        """Sphere with the volumes ``cavity`` and ``wall`` [m^3]; kept, since many hearts of a search share it."""
         radius = brentq(lambda r: _cavity_volume(r, wall / (4.0 * np.pi * r * r), 1.0) - cavity, 1e-3, 1.0)
         return cls(radius, wall / (4.0 * np.pi * radius**2))
 

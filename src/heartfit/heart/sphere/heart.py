@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from scipy.optimize import brentq
@@ -9,16 +10,27 @@ from scipy.optimize import brentq
 from heartfit.core.arrays import Floats
 from heartfit.heart.circulation.atria import fill_atria, sides_filling_veins
 from heartfit.heart.circulation.enclosure import VENTRICLES, load_table
-from heartfit.heart.circulation.network import ARTERIES, Network, atrial_walls, mechanism_pressures
+from heartfit.heart.circulation.network import (
+    ARTERIES,
+    Circulation,
+    Network,
+    atrial_walls,
+    mechanism_pressures,
+)
 from heartfit.heart.circulation.network_step import net_outflow
 from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.heart import Heart
+from heartfit.heart.muscle.control import Control
 from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.beat import SphereTissue, State, StepInputs
 from heartfit.heart.sphere.body import LARGEST_STRETCH, Sphere, fibre_activation, wall_stiffenings
 from heartfit.heart.sphere.wall import cavity, passive_stress, tabulate
+from heartfit.roles import Mechanism
 from heartfit.roles.chamber import ACTIVE, VEIN_END, VOLUME
 from heartfit.roles.laws import FLOW, STATE_ROWS
+
+START = np.zeros(1).tobytes()
+"""The start of a beat [s], as a key."""
 
 SMALLEST_FILLING_STRETCH = 0.8
 """Lower bound of the stretch of a filled sphere; no atrial pressure reaches it."""
@@ -35,6 +47,30 @@ class Inertia:
     density: float = 0.0
     valves: tuple[tuple[str, float], ...] = ()
     arteries: float = 0.0
+
+
+@lru_cache(maxsize=64)
+def _drive(
+    control: Control, start: bytes, length: float, activation: bytes, period: float
+) -> tuple[Floats, Floats]:
+    """Means (n, k) of the drive over steps, see :meth:`Control.mean`; kept, since many hearts of a search share it."""
+    return control.mean(np.frombuffer(start)[:, None], length, np.frombuffer(activation), period)
+
+
+@lru_cache(maxsize=64)
+def _network(circulation: Circulation, mechanisms: tuple[Mechanism, ...], sides: int) -> Network:
+    """The network; kept like the drive."""
+    return Network(circulation, mechanisms, sides)
+
+
+@lru_cache(maxsize=64)
+def _prescribe(network: Network, time: bytes, period: float) -> tuple[Floats, Floats, Floats, Floats]:
+    """Pressures (n, v) of atria and waves [Pa], and tables of loads and branches at n times; kept like the drive."""
+    at, mechanisms, sides = np.frombuffer(time), network.mechanisms, network.sides
+    atria = network.circulation.atrial(at, period, mechanisms, sides)
+    waves = mechanism_pressures(ARTERIES[:sides], at, period, mechanisms)
+    loads = load_table(mechanisms, VENTRICLES[:sides], at, period)
+    return np.ascontiguousarray(atria.T), np.ascontiguousarray(waves.T), loads, network.laws(at)
 
 
 class SphericalHeart:
@@ -58,24 +94,24 @@ class SphericalHeart:
         self.tissue = SphereTissue(
             tables, active.constants(), active.starling.constants(), passive.eta, inertia.density
         )
-        self._network = Network(heart.circulation, heart.mechanisms, len(spheres))
+        self._network = _network(heart.circulation, heart.mechanisms, len(spheres))
         self.branches = self._network.names
         self.atria = self._network.atria
         self._leaflets, inertances = self._network.leaflets.copy(), dict(inertia.valves)
         self._leaflets[:, 0] += [inertances.get(name, 0.0) for name in self.branches]
 
+    @property
+    def fibres(self) -> int:
+        """Number of fibres of all spheres."""
+        return len(self._activation)
+
     def inputs(self, start: Floats, length: float) -> StepInputs:
         """Inputs of steps of ``length`` [s] that begin at ``start`` (n,) [s]."""
-        heart, control, end = self.heart, self.muscle.control, start + length
-        rate, attach = control.mean(start[:, None], length, self._activation, heart.period)
-        atria = np.ascontiguousarray(self.prescribed(end).T)
-        waves = mechanism_pressures(ARTERIES[: len(self.spheres)], end, heart.period, heart.mechanisms)
-        waves = np.ascontiguousarray(waves.T)
-        loads = load_table(heart.mechanisms, VENTRICLES[: len(self.spheres)], end, heart.period)
-        laws, walls = self._network.laws(end), self._walls(end)
-        return StepInputs(
-            length, self._second_order, rate, attach, atria, walls, waves, loads, laws, self._network.ends
-        )
+        control, end = self.muscle.control, start + length
+        rate, attach = _drive(control, start.tobytes(), length, self._activation.tobytes(), self.heart.period)
+        atria, waves, loads, laws = _prescribe(self._network, end.tobytes(), self.heart.period)
+        walls, ends = self._walls(end), self._network.ends
+        return StepInputs(length, self._second_order, rate, attach, atria, walls, waves, loads, laws, ends)
 
     def _walls(self, time: Floats) -> Floats:
         """Active elastances [Pa/m^3] and outside pressures [Pa] (t, 2, v) of atria with a volume."""
@@ -85,19 +121,14 @@ class SphericalHeart:
         contraction, outside = atrial_walls(time, heart.period, heart.mechanisms, sides)
         return np.stack([contraction[:, None] * self.atria[ACTIVE], outside.T], axis=1)
 
-    def prescribed(self, time: Floats) -> Floats:
-        """Pressures (v, t) of atria without a volume [Pa] at ``time`` (t,) [s]."""
-        heart = self.heart
-        return heart.circulation.atrial(time, heart.period, heart.mechanisms, len(self.spheres))
+    def atria_at_start(self) -> Floats:
+        """Pressures (1, v) of atria without a volume as a beat starts [Pa]."""
+        return _prescribe(self._network, START, self.heart.period)[0]
 
     def flows(self, p: Floats, inert: Floats) -> Floats:
         """Flows (k,) [m^3/s] as a beat starts at the pressures p (n,) [Pa]; ``inert`` in branches with a state."""
-        moving, work, zero = (
-            np.zeros((STATE_ROWS, len(self.branches))),
-            np.empty((len(p), len(p))),
-            np.zeros(1),
-        )
-        laws, atria = self._network.laws(zero), np.ascontiguousarray(self.prescribed(zero).T)
+        moving, work = np.zeros((STATE_ROWS, len(self.branches))), np.empty((len(p), len(p)))
+        atria, _, _, laws = _prescribe(self._network, START, self.heart.period)
         net_outflow(self._network.ends, laws, moving, atria, 0, p, np.empty((1, len(p))), work)
         return np.where(self._leaflets.any(axis=1), inert, moving[FLOW])
 
@@ -106,17 +137,8 @@ class SphericalHeart:
         pressures = self.heart.circulation.atrial(self.heart.period, self.heart.period, ())
         sides = np.zeros((rows.SIDE_ROWS, len(self.spheres)))
         windkessels = self.heart.circulation.start(self.heart.period)
-        filling = sides_filling_veins(self.atria)
-        for v, (sphere, tree) in enumerate(zip(self.spheres, self.trees, strict=True)):
-            sides[[rows.RADIUS, rows.RATIO, rows.WALL], v] = (
-                sphere.radius,
-                0.5 * sphere.thickness / sphere.radius,
-                sphere.wall,
-            )
-            sides[rows.R_P : rows.R_P + 5, v], sides[rows.OWN_COMPLIANCE, v] = (
-                replace(tree, P_ve=0.0).constants() if v in filling else tree.constants(),
-                self.inertia.arteries,
-            )
+        self._set_constants(sides)
+        for v in range(len(self.spheres)):
             memory = np.zeros(rows.REMEMBERED)
             memory[rows.STRETCH] = self._filling_stretch(v, pressures[v])
             memory[[rows.ARTERY, rows.P_C]] = windkessels[v].P_c
@@ -125,6 +147,26 @@ class SphericalHeart:
         sides[rows.P] = pressures[: len(self.spheres)]
         fibres, branches = self._relaxed_fibres(sides[rows.NOW + rows.STRETCH]), self._resting_branches()
         return State(sides, fibres, branches, np.zeros(2), *self._filled_atria(sides, pressures))
+
+    def take_over(self, state: State) -> State:
+        """State of this heart where a heart with the same branches is in ``state``; no atrium may have a volume."""
+        sides, fibres, branches, last = (table.copy() for table in state[:4])
+        self._set_constants(sides)
+        fibres[rows.KEPT] = self._bridges
+        branches[rows.INERTANCE : rows.CLOSES + 1] = self._leaflets.T
+        return State(sides, fibres, branches, last, None, None)
+
+    def _set_constants(self, sides: Floats) -> None:
+        """Fill the constants of the spheres and of their arteries."""
+        filling = sides_filling_veins(self.atria)
+        for v, (sphere, tree) in enumerate(zip(self.spheres, self.trees, strict=True)):
+            ratio = 0.5 * sphere.thickness / sphere.radius
+            sides[[rows.RADIUS, rows.RATIO, rows.WALL], v] = sphere.radius, ratio, sphere.wall
+            constants = (replace(tree, P_ve=0.0) if v in filling else tree).constants()
+            sides[rows.R_P : rows.R_P + 5, v], sides[rows.OWN_COMPLIANCE, v] = (
+                constants,
+                self.inertia.arteries,
+            )
 
     def _filled_atria(self, sides: Floats, pressures: Floats) -> tuple[Floats | None, Floats | None]:
         """Table of the relaxed atria, and their volumes and veins now and one step before."""

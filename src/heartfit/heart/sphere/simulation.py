@@ -2,6 +2,7 @@
 
 import time as clock
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -48,39 +49,69 @@ def simulate_spheres(
     solved to 1e-5 mL and 0.01 Pa.
     """
     numerics = numerics or Numerics()
-    run = _SphereRun(
-        SphericalHeart(heart, spheres, activation, inertia or Inertia(), numerics.second_order), numerics
+    inertia = inertia or Inertia()
+    return simulate_spherical(
+        SphericalHeart(heart, spheres, activation, inertia, numerics.second_order), numerics
     )
+
+
+def simulate_spherical(heart: SphericalHeart, numerics: Numerics) -> Beat:
+    """Beat of a heart of spheres on its limit cycle."""
+    run, whole = SphereRun(heart, numerics), heart.heart
     try:
-        return run.to_limit_cycle()
+        return run.to_limit_cycle().beat
     except StepFailed as failure:
-        return failed_beat(f"beat {run.beats + 1}: {failure}", heart.period, heart.trigger, run.diagnostics())
+        return failed_beat(f"beat {run.beats + 1}: {failure}", whole.period, whole.trigger, run.diagnostics())
 
 
-class _SphereRun:
+@dataclass(frozen=True, eq=False)
+class LimitCycle:
+    """The last beat of a heart, its curves as those of :func:`advance`, and the state at its end."""
+
+    heart: SphericalHeart
+    state: State
+    curves: Floats
+    beat: Beat
+
+
+class SphereRun:
+    """Beats of one heart of spheres, one after the other."""
+
     def __init__(self, heart: SphericalHeart, numerics: Numerics) -> None:
         self._started = clock.thread_time()
         self.heart, self.numerics, self.period = heart, numerics, heart.heart.period
         self.steps = round(self.period / numerics.time_step)
         self.beats = self.cuts = self.iterations = self.outcome = 0
         self.drift = np.inf
+        length = self.period / self.steps
+        self._inputs = heart.inputs(length * np.arange(float(self.steps)), length)
 
-    def to_limit_cycle(self) -> Beat:
-        state, length = self.heart.start(), self.period / self.steps
-        before: Recurrence | None = None
-        inputs = self.heart.inputs(length * np.arange(float(self.steps)), length)
-        curves = np.empty((self.steps + 1, self._columns))
+    def to_limit_cycle(self) -> LimitCycle:
+        """The first beat below the drift, from relaxed ventricles; raises StepFailed where a step has no solution."""
+        state, before = self.heart.start(), None
+        curves = np.full((self.steps + 1, self._columns), np.nan)
         while True:
             first = _windkessels(state)
-            self._run_beat(inputs, state, curves)
-            self.beats += 1
+            self.run_beat(state, curves)
             cycle = self._recurrence(curves, first, _windkessels(state))
             self.drift = cycle.drift()
             if self.drift < self.numerics.drift or self.beats == self.numerics.max_beats:
-                return self._beat(curves)
+                return self.limit_cycle(state, curves)
             responses = cycle.responses(self.heart.trees, self.period, before)
-            _shift_pressures(state, cycle.shifts(self.heart.trees, self.period, responses))
+            shift_pressures(state, cycle.shifts(self.heart.trees, self.period, responses))
             before = cycle
+
+    def run_beat(self, state: State, curves: Floats) -> None:
+        """Advance the state by one beat, and replace the curves of the beat before, from which its steps start.
+
+        The curves are NaN where there was none. Raises StepFailed where a step has no solution.
+        """
+        completed = self._steps(self._inputs, state, curves, 0)
+        while completed < self.steps:
+            length = self._inputs.length
+            self._take_in_halves(state, length * completed, length, self.numerics.cuts)
+            completed = self._steps(self._inputs, state, curves, completed + 1)
+        self.beats += 1
 
     def _recurrence(
         self, curves: Floats, first: list[WindkesselState], last: list[WindkesselState]
@@ -92,7 +123,8 @@ class _SphereRun:
 
     @property
     def _columns(self) -> int:
-        return 3 * len(self.heart.spheres) + len(self.heart.branches) + 2 * self._atria
+        own = 4 * len(self.heart.spheres) + self.heart.fibres
+        return own + len(self.heart.branches) + 2 * self._atria
 
     @property
     def _atria(self) -> int:
@@ -104,12 +136,6 @@ class _SphereRun:
         first = 3 * len(self.heart.spheres) + len(self.heart.branches)
         return {ATRIA[s]: curves[:, first + s] for s in sides_with_volume(self.heart.atria)}
 
-    def _run_beat(self, inputs: StepInputs, state: State, curves: Floats) -> None:
-        completed = self._steps(inputs, state, curves, 0)
-        while completed < self.steps:
-            self._take_in_halves(state, inputs.length * completed, inputs.length, self.numerics.cuts)
-            completed = self._steps(inputs, state, curves, completed + 1)
-
     def _steps(self, inputs: StepInputs, state: State, curves: Floats, first: int) -> int:
         completed, self.outcome, iterations = advance(self.heart.tissue, inputs, state, curves, first)
         self.iterations += iterations
@@ -120,24 +146,34 @@ class _SphereRun:
         if cuts == 0:
             raise StepFailed(f"at {start:.4f} s, step {length:.2g} s: {FAILURE_REASONS[self.outcome]}")
         self.cuts, half = self.cuts + 1, 0.5 * length
-        scratch = np.empty((2, self._columns))
+        scratch = np.full((2, self._columns), np.nan)
         state.last[1] = 0.0
         for begin in (start, start + half):
             if not self._steps(self.heart.inputs(np.array([begin]), half), state, scratch, 0):
                 self._take_in_halves(state, begin, half, cuts - 1)
         state.last[1] = 0.0
 
-    def _beat(self, curves: Floats) -> Beat:
-        heart, v = self.heart.heart, len(self.heart.spheres)
-        time = np.linspace(0.0, self.period, self.steps + 1)
+    def limit_cycle(self, state: State, curves: Floats) -> LimitCycle:
+        """The limit cycle of this state and these curves, to whose first row the flows are added."""
+        v, atria = len(self.heart.spheres), self._atrial_pressures(curves)
         flows = slice(3 * v, 3 * v + len(self.heart.branches))
-        atria = curves[:, -v:].T if self._atria else self.heart.prescribed(time)
         unknown = np.concatenate([curves[0, v : 3 * v], atria[: self._atria, 0]])
         curves[0, flows] = self.heart.flows(unknown, curves[0, flows])
+        return LimitCycle(self.heart, state, curves, self._beat(curves, flows, atria))
+
+    def _atrial_pressures(self, curves: Floats) -> Floats:
+        """Pressures (v, t) of the atria [Pa]."""
+        if self._atria:
+            last = curves.shape[1] - self.heart.fibres - len(self.heart.spheres)
+            return curves[:, last - self._atria : last].T
+        return np.concatenate([self.heart.atria_at_start(), self._inputs.atria]).T
+
+    def _beat(self, curves: Floats, flows: slice, atria: Floats) -> Beat:
+        heart, v = self.heart.heart, len(self.heart.spheres)
         signals = [*curves[:, v : 3 * v].T, *atria]
         names = [name for side in range(3) for name in COMPARTMENTS[2 * side : 2 * side + v]]
         return Beat(
-            time=time,
+            time=np.linspace(0.0, self.period, self.steps + 1),
             volume=dict(zip(COMPARTMENTS, curves[:, :v].T, strict=False)) | self._chambers(curves),
             pressure=dict(zip(names, signals, strict=True)),
             flow=dict(zip(self.heart.branches, curves[:, flows].T, strict=True)),
@@ -163,6 +199,6 @@ def _windkessels(state: State) -> list[WindkesselState]:
     ]
 
 
-def _shift_pressures(state: State, shifts: Sequence[float]) -> None:
+def shift_pressures(state: State, shifts: Sequence[float] | Floats) -> None:
     """Shift the pressures of the arteries and of their Windkessels (v,) [Pa], at all stored times."""
     state.sides[SHIFTED_ROWS] += shifts

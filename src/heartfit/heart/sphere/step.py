@@ -17,7 +17,6 @@ from heartfit.heart.sphere import rows
 from heartfit.heart.sphere.wall import CompiledStep, cavity
 from heartfit.roles.chamber import (
     OUTSIDE,
-    PRESSURE,
     START_VEIN,
     START_VOLUME,
     STIFFENING,
@@ -140,33 +139,6 @@ def begin_fibres(active, starling, step, rate, attach, n, sides, fibres):  # typ
         fibres[rows.N_0, i] = fibres[rows.KEPT, i] * available_fraction(length, starling)
         fibres[rows.INCREMENT, i] = 0.0
         fibres[rows.INCREMENT_SLOPE, i] = frozen_spring_slope(additive, 0.5 * (stretch * stretch - 1.0), e_c)
-
-
-@njit(cache=True, error_model="numpy", inline="always")
-def extrapolate(step, last, sides, row, v):  # type: ignore[no-untyped-def]
-    """Extrapolate a stored quantity from up to three times, ``last`` (2,) being the lengths of the last steps [s]."""
-    x, y, z = sides[rows.NOW + row, v], sides[rows.BEFORE + row, v], sides[rows.OLDER + row, v]
-    if last[0] == 0.0:
-        return x
-    rate = (x - y) / last[0]
-    if last[1] == 0.0:
-        return x + step.length * rate
-    return x + step.length * (2.0 * rate - (y - z) / last[1])
-
-
-@njit(cache=True, error_model="numpy", inline="always")
-def predict(step, last, sides, chambers, p):  # type: ignore[no-untyped-def]
-    """Set the initial guess of the stretches and of the pressures of arteries and atria."""
-    count = sides.shape[1]
-    if chambers is not None:
-        for v in range(count):
-            p[2 * count + v] = chambers[PRESSURE, v]
-    for v in range(count):
-        sides[rows.X, v], sides[rows.X_BEFORE, v] = (
-            extrapolate(step, last, sides, rows.STRETCH, v),
-            sides[rows.NOW + rows.STRETCH, v],
-        )
-        p[count + v] = extrapolate(step, last, sides, rows.ARTERY, v)
 
 
 @njit(cache=True, error_model="numpy", inline="always")
