@@ -1,6 +1,7 @@
 """Console command heartfit, for use without Snakemake."""
 
 import sys
+from argparse import Action, ArgumentParser
 from collections.abc import Sequence
 
 from heartfit.cli import campaign, check, diagnose, init, pages, simulate, wall
@@ -21,12 +22,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
 
 
+class _PrintVersions(Action):
+    """Reads the versions only when they are asked for."""
+
+    def __call__(self, parser: ArgumentParser, *_: object) -> None:
+        parser.exit(message=f"{made_by()}\n")
+
+
 def _parser() -> Parser:
     parser = Parser(prog="heartfit", description=__doc__)
     parser.add_argument(
         "--version",
-        action="version",
-        version=made_by(),
+        action=_PrintVersions,
+        nargs=0,
         help="print the versions of all software that a result depends on",
     )
     commands = parser.add_subparsers(required=True, metavar="command")

@@ -10,11 +10,9 @@ from collections.abc import Iterator
 from hashlib import blake2s
 from pathlib import Path
 
-IMPORTS_NUMBA = re.compile(rb"^\s*(?:from\s+numba\b|import\s.*\bnumba\b)", re.MULTILINE)
-IMPORT = re.compile(rb"^[ \t]*(?:from\s+(\S+)\s+import\s+(\([^)]*\)|.*)|import\s+(.*))", re.MULTILINE)
-"""An import statement: the module and the names taken from it, or modules."""
+from heartfit.core.imports import imported_names
 
-CONTINUED_OR_COMMENT = re.compile(rb"\\\n|#.*")
+IMPORTS_NUMBA = re.compile(rb"^\s*(?:from\s+numba\b|import\s.*\bnumba\b)", re.MULTILINE)
 
 
 def kernel_folder(package: Path) -> Path:
@@ -36,23 +34,12 @@ def kernel_sources(package: Path) -> list[Path]:
     sources = set(queue)
     while queue:
         modules = {
-            file for name in _imported_names(texts[queue.pop()]) for file in _module_files(package, name)
+            file for name in imported_names(texts[queue.pop()]) for file in _module_files(package, name)
         }
         new = (modules & texts.keys()) - sources
         sources |= new
         queue += new
     return sorted(sources)
-
-
-def _imported_names(text: bytes) -> Iterator[str]:
-    """Yield the dotted names of imported modules and of the names taken from them, which may be modules too."""
-    for module, names, modules in IMPORT.findall(CONTINUED_OR_COMMENT.sub(b" ", text)):
-        parent = [module.decode()] if module else []
-        yield from parent
-        for name in (names or modules).strip(b"()").split(b","):
-            words = name.split()
-            if words:
-                yield ".".join([*parent, words[0].decode()])
 
 
 def _module_files(package: Path, name: str) -> Iterator[Path]:

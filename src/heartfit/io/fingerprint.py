@@ -6,12 +6,13 @@ are loaded by name at run time, such as the mechanisms of the registry, are not 
 own fingerprint.
 """
 
-import ast
 import platform
 from functools import cache
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+
+from heartfit.core.imports import imported_names
 
 PACKAGE = Path(__file__).resolve().parents[1]
 
@@ -37,13 +38,7 @@ def modules_below(script: Path) -> set[Path]:
 
 @cache
 def _imported(file: Path) -> frozenset[Path]:
-    names: set[str] = set()
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
-            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
-        elif isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-    return frozenset(path for name in names for path in _files(name))
+    return frozenset(path for name in imported_names(file.read_bytes()) for path in _files(name))
 
 
 def _files(name: str) -> list[Path]:
