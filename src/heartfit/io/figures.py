@@ -6,6 +6,7 @@ from pathlib import Path
 from matplotlib.animation import FuncAnimation
 from matplotlib.figure import Figure
 
+from heartfit.core.layout import lay_out
 from heartfit.io.files import replacing
 
 
@@ -19,12 +20,12 @@ def write_figures(folder: Path, figures: Mapping[str, Figure]) -> None:
 def write_figure(path: Path, figure: Figure) -> None:
     """Write in the format of the suffix (png, pdf, svg), without a date, so that equal figures have equal bytes.
 
-    The layout that the first format computes is kept for the next one.
+    The figure keeps the layout of the first format for the next one.
     """
+    lay_out(figure)
     date = {"png": "Software", "pdf": "CreationDate", "svg": "Date"}.get(Path(path).suffix[1:])
     with replacing(path) as draft:
         figure.savefig(draft, dpi=200, metadata={date: None} if date else None)
-    figure.set_layout_engine("none")
 
 
 ANIMATION_SUFFIXES = (".gif", ".png")

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from heartfit.core.arrays import Floats
+from heartfit.core.layout import lay_out
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.imaging.sampling import View
 from heartfit.imaging.sequence import ImageSequence
@@ -83,8 +84,7 @@ def animate_contours(
     dots = _curves(right, overlay)
     draw_key(figure, dict(OUTLINES.values()))
     figure.suptitle(title, fontsize=10)
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")  # keep the axes fixed
+    lay_out(figure)
 
     def show(phase: int) -> Iterable[Artist]:
         for panel in panels:

@@ -1,5 +1,6 @@
 """The search on a wall in closed form: scars and late walls are named and placed, sound walls are not."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -39,6 +40,9 @@ class EvenWall:
     longer: float = 0.02
     times: dict[str, Floats] = field(default_factory=dict)
     base = COORDINATES
+
+    def near(self, x: Floats, effects: Sequence[Mechanism] = ()) -> None:
+        """No other model."""
 
     def predict(self, x: Floats, effects: tuple[Mechanism, ...] | list[Mechanism] = ()) -> Floats | None:
         self.simulations += 1

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from heartfit.core.arrays import Floats
+from heartfit.core.layout import lay_out
 
 WIDTH, LEGEND = 11.0, 0.5
 """Width of the page, and height of the legend above the panels [inch]."""
@@ -88,11 +89,9 @@ def _rounded(svg: bytes) -> bytes:
 
 def fix_layout(figure: Figure) -> None:
     """Lay the figure out once and round the layout: the last digits of the solver change between calls."""
-    engine = figure.get_layout_engine()
-    if engine is None:
+    if figure.get_layout_engine() is None:
         return
-    engine.execute(figure)
-    figure.set_layout_engine("none")
+    lay_out(figure)
     for part in figure.subfigs:
         part.bbox_relative.set_points(np.round(part.bbox_relative.get_points(), PLACE_DIGITS))
     for axes in figure.axes:
