@@ -1,49 +1,52 @@
 """A copy of the workflow that tests may edit, with a library of its own where they edit that, too."""
 
-import os
 import shutil
-import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
+from tests.workflow.fork_server import ForkServer
 
 ROOT = Path(__file__).parents[2]
 PARTS = ("Snakefile", "workflow", "config", "resources", "profiles", "docs/templates")
 
 
+def copied(folder: Path, *parts: str) -> Path:
+    """Copy parts of the project into a new folder; kernels of a copied library would be compiled again."""
+    folder.mkdir()
+    for part in parts:
+        source = ROOT / part
+        if source.is_dir():
+            ignore = shutil.ignore_patterns("__pycache__", "bivme_patient1", "*.nbc", "*.nbi")
+            shutil.copytree(source, folder / part, ignore=ignore)
+        else:
+            shutil.copy(source, folder / part)
+    return folder
+
+
+@dataclass(frozen=True)
+class Run:
+    """Exit code of Snakemake, and its output and errors in one."""
+
+    returncode: int
+    stdout: str
+
+
+@dataclass(frozen=True)
 class Workflow:
-    """A project in its own folder, without any measured heart unless one is linked.
+    """A project in its own folder, without any measured heart unless one is linked, and what runs Snakemake."""
 
-    It has a library of its own if that is to be edited; kernels of a copied library would be compiled again.
-    """
+    folder: Path
+    server: ForkServer
 
-    def __init__(self, folder: Path, own_library: bool = False) -> None:
-        self.folder = folder
-        self.library = (folder if own_library else ROOT) / "src"
-        folder.mkdir()
-        for part in (*PARTS, *(["src"] if own_library else [])):
-            source = ROOT / part
-            if source.is_dir():
-                ignore = shutil.ignore_patterns("__pycache__", "bivme_patient1", "*.nbc", "*.nbi")
-                shutil.copytree(source, folder / part, ignore=ignore)
-            else:
-                shutil.copy(source, folder / part)
-
-    def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Run Snakemake with the project's library; output and errors in one."""
-        command = [sys.executable, "-m", "snakemake", "--workflow-profile", "none", *arguments]
-        environment = os.environ | {"PYTHONPATH": str(self.library)}
-        return subprocess.run(
-            command,
-            cwd=self.folder,
-            env=environment,
-            text=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-        )
+    def snakemake(self, *arguments: str) -> Run:
+        """Run Snakemake."""
+        printed = self.folder.with_suffix(".log")
+        code = self.server.snakemake(self.folder, printed, ("--workflow-profile", "none", *arguments))
+        return Run(code, printed.read_text(encoding="utf-8"))
 
     def link_measured_heart(self, folder: Path) -> None:
         """Link the measured heart."""
@@ -78,21 +81,30 @@ class Workflow:
             (self.folder / file).write_text(before, encoding="utf-8")
 
 
+@pytest.fixture(scope="session")
+def server():
+    """Runs Snakemake with the library of the project."""
+    with ForkServer(ROOT / "src") as server:
+        yield server
+
+
 @pytest.fixture
-def workflow(tmp_path):
-    return Workflow(tmp_path / "project")
+def workflow(tmp_path, server):
+    return Workflow(copied(tmp_path / "project", *PARTS), server)
 
 
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory):
-    """Workflow after drawing the sigma points of one case, and these points."""
-    workflow = Workflow(tmp_path_factory.mktemp("drawn") / "project", own_library=True)
-    points = "results/volunteer1/physical/calibration/points.json"
-    assert workflow.snakemake("--cores", "1", points).returncode == 0
-    return workflow, points
+    """Workflow with an own library after drawing the sigma points of one case, and these points."""
+    folder = copied(tmp_path_factory.mktemp("drawn") / "project", *PARTS, "src")
+    with ForkServer(folder / "src") as server:
+        workflow = Workflow(folder, server)
+        points = "results/volunteer1/physical/calibration/points.json"
+        assert workflow.snakemake("--cores", "1", points).returncode == 0
+        yield workflow, points
 
 
 @pytest.fixture(scope="module")
-def planned(tmp_path_factory):
+def planned(tmp_path_factory, server):
     """A dry run of the study as it is, without a measured heart."""
-    return Workflow(tmp_path_factory.mktemp("planned") / "project").snakemake("-n")
+    return Workflow(copied(tmp_path_factory.mktemp("planned") / "project", *PARTS), server).snakemake("-n")

@@ -130,6 +130,26 @@ def test_the_full_study_adds_comparisons_of_methods_and_changes_no_other_job(wor
     assert not default.keys() - full.keys()
 
 
+def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_reports_it(planned):
+    assert planned.returncode == 0, planned.stdout
+    assert "build_measured_mesh" not in job_counts(planned.stdout)
+    assert job_counts(planned.stdout)["simulate_point"] == POINTS_OF_COHORT
+    lines = [line for line in planned.stdout.splitlines() if "left out" in line]
+    assert len(lines) == 1
+    assert "fetch_measured_heart" in lines[0]
+
+
+def test_numbers_are_checked_on_request(workflow, planned):
+    assert "check_numbers" not in job_counts(planned.stdout)
+    run = workflow.snakemake("-n", "check_numbers", "--configfile", "config/smoke.yaml")
+    assert job_counts(run.stdout)["check_numbers"] == job_counts(run.stdout)["make_tables"] == 1
+    job = dict(jobs(run.stdout))["check_numbers"]
+    read = inputs(job)
+    tables = [f"results/smoke/tables/{name}.md" for name in ("table1", "claims", "discovery", "selection")]
+    assert [table for table in tables if table not in read] == []
+    assert any(text.startswith("resources/reference/smoke/") for text in read)
+
+
 @pytest.mark.measured
 def test_the_measured_heart_is_one_more_case(workflow, measured_heart_folder):
     workflow.link_measured_heart(measured_heart_folder)
@@ -153,15 +173,6 @@ def test_a_spoilt_measured_heart_is_refused_in_one_line_before_anything_runs(wor
     assert len([line for line in run.stdout.splitlines() if "bivme_patient1" in line]) == 1
     assert "Traceback" not in run.stdout
     assert not (workflow.folder / "results").exists()
-
-
-def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_reports_it(planned):
-    assert planned.returncode == 0, planned.stdout
-    assert "build_measured_mesh" not in job_counts(planned.stdout)
-    assert job_counts(planned.stdout)["simulate_point"] == POINTS_OF_COHORT
-    lines = [line for line in planned.stdout.splitlines() if "left out" in line]
-    assert len(lines) == 1
-    assert "fetch_measured_heart" in lines[0]
 
 
 def test_an_edit_of_the_library_repeats_only_the_jobs_that_import_it(drawn):
@@ -238,17 +249,6 @@ def test_bad_input_is_refused_in_one_line_before_anything_runs(workflow, file, t
     assert len([line for line in run.stdout.splitlines() if expected in line]) == 1
     assert "Traceback" not in run.stdout
     assert not (workflow.folder / "results").exists()
-
-
-def test_numbers_are_checked_on_request(workflow, planned):
-    assert "check_numbers" not in job_counts(planned.stdout)
-    run = workflow.snakemake("-n", "check_numbers", "--configfile", "config/smoke.yaml")
-    assert job_counts(run.stdout)["check_numbers"] == job_counts(run.stdout)["make_tables"] == 1
-    job = dict(jobs(run.stdout))["check_numbers"]
-    read = inputs(job)
-    tables = [f"results/smoke/tables/{name}.md" for name in ("table1", "claims", "discovery", "selection")]
-    assert [table for table in tables if table not in read] == []
-    assert any(text.startswith("resources/reference/smoke/") for text in read)
 
 
 def test_a_proof_reads_the_search_and_none_of_its_beats(workflow):
