@@ -3,8 +3,9 @@
 import ast
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
-PACKAGE = ROOT / "src" / "heartfit"
+import pytest
+
+from tests.sources import PACKAGE, trees_below
 
 ROOMS = (
     "core",
@@ -41,10 +42,11 @@ ALLOWED_CALLS = {
 CATCH_ALLS = {"utils", "helpers", "common", "misc"}
 LONGEST_FILE, LONGEST_FUNCTION = 300, 50
 
-TREES = {
-    file.relative_to(PACKAGE).as_posix(): ast.parse(file.read_text())
-    for file in sorted(PACKAGE.rglob("*.py"))
-}
+
+@pytest.fixture(scope="module")
+def trees() -> dict[str, ast.Module]:
+    """Syntax trees of the package by file."""
+    return trees_below(PACKAGE)
 
 
 def room_of(file: str) -> str:
@@ -72,24 +74,24 @@ def names_called(tree: ast.AST) -> set[str]:
     return {call.attr if isinstance(call, ast.Attribute) else getattr(call, "id", "") for call in calls}
 
 
-def test_every_room_has_its_place():
-    assert {room_of(file) for file in TREES} - {"__init__"} == set(ROOMS)
+def test_every_room_has_its_place(trees):
+    assert {room_of(file) for file in trees} - {"__init__"} == set(ROOMS)
 
 
-def test_imports_point_to_lower_rooms():
+def test_imports_point_to_lower_rooms(trees):
     upward = [
         (file, room)
-        for file, tree in TREES.items()
+        for file, tree in trees.items()
         for room in imported_rooms(tree) - {room_of(file)}
         if file != "__init__.py" and ROOMS.index(room) >= ROOMS.index(room_of(file))
     ]
     assert not upward
 
 
-def test_rooms_of_vectors_never_import_a_heart():
+def test_rooms_of_vectors_never_import_a_heart(trees):
     others = [
         (file, module)
-        for file, tree in TREES.items()
+        for file, tree in trees.items()
         if file.startswith(VECTORS)
         for module in imported_modules(tree)
         if module.startswith("heartfit.")
@@ -98,10 +100,10 @@ def test_rooms_of_vectors_never_import_a_heart():
     assert not others
 
 
-def test_physics_knows_no_file_and_no_workflow():
+def test_physics_knows_no_file_and_no_workflow(trees):
     offenders = [
         (file, module)
-        for file, tree in TREES.items()
+        for file, tree in trees.items()
         if room_of(file) in PHYSICS
         for module in imported_modules(tree)
         if module.split(".")[0] in FILE_LIBRARIES
@@ -109,20 +111,20 @@ def test_physics_knows_no_file_and_no_workflow():
     assert not offenders
 
 
-def test_only_io_and_the_command_line_open_files():
+def test_only_io_and_the_command_line_open_files(trees):
     offenders = {
         (file, name)
-        for file, tree in TREES.items()
+        for file, tree in trees.items()
         if room_of(file) not in {"io", "cli"}
         for name in names_called(tree) & FILE_CALLS
     }
     assert offenders == ALLOWED_CALLS
 
 
-def test_io_imports_records_of_results_and_no_function():
+def test_io_imports_records_of_results_and_no_function(trees):
     functions = {
         (file, alias.name)
-        for file, tree in TREES.items()
+        for file, tree in trees.items()
         if room_of(file) == "io"
         for node in ast.walk(tree)
         if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("heartfit.results")
@@ -132,24 +134,24 @@ def test_io_imports_records_of_results_and_no_function():
     assert not functions
 
 
-def test_files_and_functions_are_short():
-    long_files = [file for file in TREES if (PACKAGE / file).read_text().count("\n") > LONGEST_FILE]
+def test_files_and_functions_are_short(trees):
+    long_files = [file for file in trees if (PACKAGE / file).read_text().count("\n") > LONGEST_FILE]
     long_functions = [
         (file, node.name)
-        for file, tree in TREES.items()
+        for file, tree in trees.items()
         for node in ast.walk(tree)
         if isinstance(node, ast.FunctionDef) and node.end_lineno - node.lineno > LONGEST_FUNCTION
     ]
     assert not long_files + long_functions
 
 
-def test_no_file_is_a_catch_all():
-    assert not [file for file in TREES if Path(file).stem in CATCH_ALLS]
+def test_no_file_is_a_catch_all(trees):
+    assert not [file for file in trees if Path(file).stem in CATCH_ALLS]
 
 
-def test_no_class_name_stands_for_two_concepts():
+def test_no_class_name_stands_for_two_concepts(trees):
     places: dict[str, list[str]] = {}
-    for file, tree in TREES.items():
+    for file, tree in trees.items():
         for node in ast.walk(tree):
             if isinstance(node, ast.ClassDef):
                 places.setdefault(node.name, []).append(file)

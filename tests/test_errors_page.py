@@ -4,7 +4,8 @@ import ast
 import re
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+from tests.sources import PACKAGE, ROOT, trees_below
+
 PAGE = (ROOT / "docs" / "errors.md").read_text(encoding="utf-8")
 GAP = "…"
 PHRASES = [
@@ -12,14 +13,7 @@ PHRASES = [
     for row in re.findall(r"^\| (`.*?) \| ", PAGE, re.MULTILINE)
     for phrase in re.findall(r"`(.*?)`", row)
 ]
-TREES = [
-    ast.parse(file.read_text(encoding="utf-8")) for file in sorted((ROOT / "src" / "heartfit").rglob("*.py"))
-]
-CONFIGURATION = [
-    ast.parse(file.read_text(encoding="utf-8"))
-    for room in ("study", "personalise")
-    for file in sorted((ROOT / "src" / "heartfit" / room).rglob("*.py"))
-]
+CONFIGURATION = ("study", "personalise")
 """The rooms whose pydantic validators raise ValueError, which the user reads as InputError."""
 
 
@@ -32,9 +26,14 @@ def written(node: ast.AST) -> str:
     return GAP
 
 
-def messages(trees: list[ast.Module], error: str) -> set[str]:
-    """Messages of an error, without texts that are passed on."""
-    calls = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Call) and node.args]
+def messages(folder: Path, error: str) -> set[str]:
+    """Messages of an error in a folder, without texts that are passed on."""
+    calls = [
+        node
+        for tree in trees_below(folder).values()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and node.args
+    ]
     raised = {
         written(call.args[0]) for call in calls if isinstance(call.func, ast.Name) and call.func.id == error
     }
@@ -46,7 +45,8 @@ def matches(phrase: str, text: str) -> bool:
 
 
 def test_every_message_of_the_code_is_on_the_page():
-    texts = messages(TREES, "InputError") | messages(CONFIGURATION, "ValueError")
+    texts = messages(PACKAGE, "InputError")
+    texts |= {text for room in CONFIGURATION for text in messages(PACKAGE / room, "ValueError")}
     untold = [text for text in sorted(texts) if not any(matches(phrase, text) for phrase in PHRASES)]
     assert len(texts) > 200
     assert not untold, "explain them in docs/errors.md"
@@ -55,7 +55,7 @@ def test_every_message_of_the_code_is_on_the_page():
 def test_the_page_lists_no_message_that_the_code_lacks():
     texts = {
         written(node)
-        for tree in TREES
+        for tree in trees_below(PACKAGE).values()
         for node in ast.walk(tree)
         if isinstance(node, ast.JoinedStr | ast.Constant)
     }

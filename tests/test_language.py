@@ -3,12 +3,11 @@
 import ast
 import re
 from collections.abc import Iterator
-from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+from tests.sources import ROOT, tree_of
+
 FOLDERS = ("src/heartfit", "verification", "workflow", "benchmarks", "tests")
 FILES = [ROOT / "study.py", *(file for folder in FOLDERS for file in sorted((ROOT / folder).rglob("*.py")))]
-TREES = {file.relative_to(ROOT).as_posix(): ast.parse(file.read_text()) for file in FILES}
 
 RIDDLE = re.compile(r"(What|How|Where|When|Which|Whether|Who|Whose|Why|Of|That|As)\b")
 
@@ -45,8 +44,8 @@ def definitions(tree: ast.Module) -> Iterator[tuple[int, str]]:
 def test_docstrings_open_with_their_subject():
     riddles = [
         f"{file}:{line}: {text.splitlines()[0]}"
-        for file, tree in TREES.items()
-        for line, text in docstrings(tree)
+        for file in FILES
+        for line, text in docstrings(tree_of(file))
         if RIDDLE.match(text)
     ]
     assert not riddles
@@ -55,8 +54,8 @@ def test_docstrings_open_with_their_subject():
 def test_identifiers_name_an_element_a_value_or_a_role():
     vague = [
         f"{file}:{line}: {name}"
-        for file, tree in TREES.items()
-        for line, name in definitions(tree)
-        if name in VAGUE and (file, name) not in FROZEN
+        for file in FILES
+        for line, name in definitions(tree_of(file))
+        if name in VAGUE and (file.relative_to(ROOT).as_posix(), name) not in FROZEN
     ]
     assert not vague

@@ -6,7 +6,8 @@ import re
 import pytest
 
 from tests.documentation.blocks import ROOT
-from tests.test_architecture import ROOMS, TREES, imported_rooms, room_of
+from tests.sources import PACKAGE, trees_below
+from tests.test_architecture import ROOMS, imported_rooms, room_of
 
 PAGE = ROOT / "docs" / "architecture.md"
 TEXT = PAGE.read_text(encoding="utf-8")
@@ -36,7 +37,7 @@ def drawn_arrows(text):
 def arrows_of_the_sources():
     return {
         (room_of(file), lower)
-        for file, tree in TREES.items()
+        for file, tree in trees_below(PACKAGE).items()
         for lower in imported_rooms(tree) - {room_of(file)}
         if file != "__init__.py"
     }
