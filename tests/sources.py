@@ -17,3 +17,9 @@ def tree_of(file: Path) -> ast.Module:
 def trees_below(folder: Path) -> dict[str, ast.Module]:
     """Syntax trees by path relative to the folder."""
     return {file.relative_to(folder).as_posix(): tree_of(file) for file in sorted(folder.rglob("*.py"))}
+
+
+@cache
+def nodes(tree: ast.AST) -> tuple[ast.AST, ...]:
+    """All nodes of a syntax tree."""
+    return tuple(ast.walk(tree))

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.sources import PACKAGE, trees_below
+from tests.sources import PACKAGE, nodes, trees_below
 
 ROOMS = (
     "core",
@@ -56,7 +56,7 @@ def room_of(file: str) -> str:
 def imported_modules(tree: ast.AST) -> set[str]:
     """Dotted names of all modules that a source imports, wherever the statement stands."""
     modules = set()
-    for node in ast.walk(tree):
+    for node in nodes(tree):
         if isinstance(node, ast.Import):
             modules |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -70,7 +70,7 @@ def imported_rooms(tree: ast.AST) -> set[str]:
 
 
 def names_called(tree: ast.AST) -> set[str]:
-    calls = [node.func for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    calls = [node.func for node in nodes(tree) if isinstance(node, ast.Call)]
     return {call.attr if isinstance(call, ast.Attribute) else getattr(call, "id", "") for call in calls}
 
 
@@ -126,7 +126,7 @@ def test_io_imports_records_of_results_and_no_function(trees):
         (file, alias.name)
         for file, tree in trees.items()
         if room_of(file) == "io"
-        for node in ast.walk(tree)
+        for node in nodes(tree)
         if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("heartfit.results")
         for alias in node.names
         if not alias.name[0].isupper()
@@ -139,7 +139,7 @@ def test_files_and_functions_are_short(trees):
     long_functions = [
         (file, node.name)
         for file, tree in trees.items()
-        for node in ast.walk(tree)
+        for node in nodes(tree)
         if isinstance(node, ast.FunctionDef) and node.end_lineno - node.lineno > LONGEST_FUNCTION
     ]
     assert not long_files + long_functions
@@ -152,7 +152,7 @@ def test_no_file_is_a_catch_all(trees):
 def test_no_class_name_stands_for_two_concepts(trees):
     places: dict[str, list[str]] = {}
     for file, tree in trees.items():
-        for node in ast.walk(tree):
+        for node in nodes(tree):
             if isinstance(node, ast.ClassDef):
                 places.setdefault(node.name, []).append(file)
     assert not {name: files for name, files in places.items() if len(files) > 1}

@@ -2,9 +2,10 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
-from tests.sources import PACKAGE, ROOT, trees_below
+from tests.sources import PACKAGE, ROOT, nodes, trees_below
 
 PAGE = (ROOT / "docs" / "errors.md").read_text(encoding="utf-8")
 GAP = "…"
@@ -31,7 +32,7 @@ def messages(folder: Path, error: str) -> set[str]:
     calls = [
         node
         for tree in trees_below(folder).values()
-        for node in ast.walk(tree)
+        for node in nodes(tree)
         if isinstance(node, ast.Call) and node.args
     ]
     raised = {
@@ -40,8 +41,13 @@ def messages(folder: Path, error: str) -> set[str]:
     return {text for text in raised if re.search(r"\w", text.replace("expected", ""))}
 
 
+@cache
+def pattern(phrase: str) -> re.Pattern[str]:
+    return re.compile(".*".join(map(re.escape, phrase.split(GAP))))
+
+
 def matches(phrase: str, text: str) -> bool:
-    return re.search(".*".join(map(re.escape, phrase.split(GAP))), text) is not None
+    return pattern(phrase).search(text) is not None
 
 
 def test_every_message_of_the_code_is_on_the_page():
@@ -56,7 +62,7 @@ def test_the_page_lists_no_message_that_the_code_lacks():
     texts = {
         written(node)
         for tree in trees_below(PACKAGE).values()
-        for node in ast.walk(tree)
+        for node in nodes(tree)
         if isinstance(node, ast.JoinedStr | ast.Constant)
     }
     assert not [phrase for phrase in PHRASES if not any(matches(phrase, text) for text in texts)]

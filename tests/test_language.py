@@ -4,7 +4,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from tests.sources import ROOT, tree_of
+from tests.sources import ROOT, nodes, tree_of
 
 FOLDERS = ("src/heartfit", "verification", "workflow", "benchmarks", "tests")
 FILES = [ROOT / "study.py", *(file for folder in FOLDERS for file in sorted((ROOT / folder).rglob("*.py")))]
@@ -25,7 +25,7 @@ FROZEN = {
 
 def docstrings(tree: ast.Module) -> Iterator[tuple[int, str]]:
     """Line and text of all docstrings: of modules, classes, functions and, after an assignment, attributes."""
-    for node in ast.walk(tree):
+    for node in nodes(tree):
         match node:
             case ast.Expr(value=ast.Constant(value=str(text))):
                 yield node.lineno, text.strip()
@@ -33,7 +33,7 @@ def docstrings(tree: ast.Module) -> Iterator[tuple[int, str]]:
 
 def definitions(tree: ast.Module) -> Iterator[tuple[int, str]]:
     """Line and name of all functions, classes, arguments, variables and attributes that a source defines."""
-    for node in ast.walk(tree):
+    for node in nodes(tree):
         match node:
             case ast.FunctionDef(name=name) | ast.ClassDef(name=name) | ast.arg(arg=name):
                 yield node.lineno, name

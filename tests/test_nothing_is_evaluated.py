@@ -3,7 +3,7 @@
 import ast
 from collections.abc import Iterator
 
-from tests.sources import ROOT, tree_of
+from tests.sources import ROOT, nodes, tree_of
 
 FILES = [*sorted((ROOT / "src").rglob("*.py")), *sorted((ROOT / "workflow").rglob("*.py")), ROOT / "study.py"]
 
@@ -72,7 +72,7 @@ def is_dangerous(call: ast.Call, file: str) -> bool:
 
 def dangers(tree: ast.Module, file: str) -> Iterator[str]:
     """Dangerous calls and imports of a file, with their lines."""
-    for node in ast.walk(tree):
+    for node in nodes(tree):
         yield from (f"line {node.lineno}: imports {name}" for name in imported(node) if name in MODULES)
         if isinstance(node, ast.Call) and is_dangerous(node, file):
             yield f"line {node.lineno}: {name_of(node)}"
