@@ -1,5 +1,6 @@
 """Fixtures and markers that tests of several folders share."""
 
+import gc
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -104,6 +105,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         items[:] = [item for item in items if item not in needing]
         config.hook.pytest_deselected(items=needing)
         config.stash[DESELECTED][marker] = len(needing)
+
+
+def pytest_collection_finish() -> None:
+    """Leave the tests and all that they import out of later garbage collections, of which pytest ends with five."""
+    gc.freeze()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
