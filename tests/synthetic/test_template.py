@@ -9,6 +9,7 @@ from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh, smallest_dihedral_angles
 from heartfit.geometry.parametric import ParametricVentricles
 from heartfit.synthetic.volunteer import AVERAGE, Template, draw_anatomy
+from tests.synthetic.conftest import built
 
 DILATED = ParametricVentricles(200e-6, 9e-3, 1.7, 170e-6, 3.6e-3)
 SHAPES = {"small": draw_anatomy(1010).shape, "dilated": DILATED}
@@ -18,21 +19,9 @@ def cavities(mesh: VentricularMesh) -> list[float]:
     return [Cavity.from_endocardium(mesh, name).volume(mesh.points) for name in ("lv_endo", "rv_endo")]
 
 
-def built(*size: float) -> Template:
-    """A coarse template, which loses less on the way to these shapes than the study's to its own."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("heartfit.synthetic.volunteer.TEMPLATE_ANGLE", np.deg2rad(9.0))
-        return Template.build(*size)
-
-
-@pytest.fixture(scope="module")
-def template() -> Template:
-    return built(0.02, 1.4e-3)
-
-
 @pytest.fixture(scope="module")
 def other() -> Template:
-    return built(0.02, 1.3e-3)
+    return built(0.025, 1.8e-3)
 
 
 def test_the_template_of_the_average_wall_does_not_move(template: Template) -> None:
@@ -73,7 +62,7 @@ def test_a_wall_spoilt_by_morphing_is_remeshed(template: Template) -> None:
     points, tets = template.mesh.points.copy(), template.mesh.tets
     top, *foot = tets[smallest_dihedral_angles(points, tets).argmin()]
     points[top] = 0.01 * points[top] + 0.99 * points[foot].mean(axis=0)
-    spoilt = replace(template, mesh=template.mesh.with_points(points))
+    spoilt = replace(template, edge_length=0.025, tolerance=1.8e-3, mesh=template.mesh.with_points(points))
     with pytest.warns(UserWarning, match=r"smallest dihedral angle"):
         mesh = spoilt.deformed_to(DILATED)
     assert np.rad2deg(smallest_dihedral_angles(mesh.points, mesh.tets).min()) >= 8.0

@@ -17,7 +17,7 @@ from heartfit.synthetic import ventricles
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.scanner import Scanner
 from heartfit.synthetic.ventricles import LEFT_ATRIUM, RIGHT_ATRIUM, Imaging, Ventricles
-from heartfit.synthetic.volunteer import Template, generate
+from heartfit.synthetic.volunteer import VolunteerError, generate
 
 CONFIG = Path(__file__).parents[2] / "config"
 COARSE = Numerics(time_step=0.02, max_beats=1, drift=1.0)
@@ -30,8 +30,7 @@ REGISTRATION = FreeForm(knots=16e-3, levels=((1, 3),))
 
 
 @pytest.fixture(scope="module")
-def hidden():
-    template = Template.build(0.02, 0.0014)
+def hidden(template):
     observed_by = Imaging(SCANNER, REGISTRATION, template, template.mesh)
     return Ventricles(template, {"sigma_0": 257e3}, Protocol(COARSE, (1300.0, 520.0)), observed_by)
 
@@ -54,8 +53,9 @@ def test_a_leak_is_planted_in_the_heart_of_the_seed(hidden, sound):
     assert set(leaking.curves["rest"]) == {"lv_volume", "lv_pressure"}
 
 
-def simulated(hidden, plan, monkeypatch):
-    """Hearts that a balanced planter simulates, in their order, and what the right side of each pumps more [m^3]."""
+@pytest.fixture(scope="module")
+def balanced(hidden):
+    """Hearts that a planter of a leak balances, in their order, and what the right side of each pumps more [m^3]."""
     hearts = []
 
     def observed(*arguments):
@@ -64,23 +64,30 @@ def simulated(hidden, plan, monkeypatch):
         hearts.append((heart, right_excess(volunteer.beat.flow, heart.mechanisms) * heart.period))
         return volunteer
 
-    monkeypatch.setattr(ventricles, "generate", observed)
-    replace(hidden, balanced=True).plant(plan)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ventricles, "generate", observed)
+        replace(hidden, balanced=True).plant(replace(LEAK, scales=1.0))
     return hearts
 
 
-def test_both_sides_of_a_balanced_heart_pump_the_same_volume(hidden, monkeypatch):
-    (_, before), *_, (_, after) = simulated(hidden, SOUND, monkeypatch)
+@pytest.fixture(scope="module")
+def balanced_without_leak(balanced):
+    """Those without the leak, which are balanced first."""
+    fewest = min(len(heart.mechanisms) for heart, _ in balanced)
+    return [(heart, excess) for heart, excess in balanced if len(heart.mechanisms) == fewest]
+
+
+def test_both_sides_of_a_balanced_heart_pump_the_same_volume(balanced_without_leak):
+    (_, before), *_, (_, after) = balanced_without_leak
     assert abs(before) > 2e-6
     assert abs(after) < 0.5e-6
 
 
-def test_blood_that_a_leak_keeps_from_the_body_fills_the_left_atrium(hidden, monkeypatch):
-    hearts = simulated(hidden, replace(LEAK, scales=1.0), monkeypatch)
-    fewest = min(len(heart.mechanisms) for heart, _ in hearts)
-    *_, sound = [heart.parameters() for heart, _ in hearts if len(heart.mechanisms) == fewest]
-    leaking, excess = hearts[-1]
-    left, right = (leaking.parameters()[name] / sound[name] for name in (LEFT_ATRIUM, RIGHT_ATRIUM))
+def test_blood_that_a_leak_keeps_from_the_body_fills_the_left_atrium(balanced, balanced_without_leak):
+    (sound, _), (leaking, excess) = balanced_without_leak[-1], balanced[-1]
+    left, right = (
+        leaking.parameters()[name] / sound.parameters()[name] for name in (LEFT_ATRIUM, RIGHT_ATRIUM)
+    )
     assert abs(excess) < 0.5e-6
     assert left > 1.1
     assert right == pytest.approx(1.0 / left, rel=0.1)
@@ -96,36 +103,28 @@ def test_the_volume_is_that_of_the_mesh_that_followed_the_images(sound):
     assert 0.0 < case.answer.volume_noise < 0.05
 
 
-def test_hearts_that_cannot_be_registered_are_counted_and_redrawn(hidden, monkeypatch):
-    calls, follow = [], ventricles.track
-
-    def folding_once(*arguments):
-        calls.append(arguments)
-        if len(calls) == 1:
-            raise InputError("registration: frames [3] fold the wall")
-        return follow(*arguments)
-
-    monkeypatch.setattr(ventricles, "track", folding_once)
-    _, case = hidden.plant(SOUND)
-    assert case.answer.rejected == {"not followed by registration": 1}
-
-
 def test_a_seed_gives_one_case(hidden, sound):
     assert np.array_equal(volumes(hidden.plant(SOUND)[1]), volumes(sound[1]))
 
 
-def test_hearts_that_do_not_beat_are_counted_and_redrawn(hidden, monkeypatch):
-    beat, calls = ventricles.generate, []
+def failing_once(function, failure):
+    """The function, whose first call fails."""
+    failures = [failure]
 
-    def failing_once(*arguments):
-        calls.append(arguments)
-        if len(calls) == 1:
-            raise ventricles.VolunteerError("no beat")
-        return beat(*arguments)
+    def called(*arguments):
+        if failures:
+            raise failures.pop()
+        return function(*arguments)
 
-    monkeypatch.setattr(ventricles, "generate", failing_once)
+    return called
+
+
+def test_hearts_that_do_not_beat_or_cannot_be_registered_are_counted_and_redrawn(hidden, monkeypatch):
+    still, folding = VolunteerError("no beat"), InputError("registration: frames [3] fold the wall")
+    monkeypatch.setattr(ventricles, "generate", failing_once(ventricles.generate, still))
+    monkeypatch.setattr(ventricles, "track", failing_once(ventricles.track, folding))
     _, case = hidden.plant(SOUND)
-    assert case.answer.rejected == {"no beat": 1}
+    assert case.answer.rejected == {"no beat": 1, "not followed by registration": 1}
 
 
 def test_the_study_plants_enough_cases_of_every_kind():
