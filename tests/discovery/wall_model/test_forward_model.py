@@ -1,6 +1,8 @@
 """Predictions of a measured wall: their slopes, their samples and the unknowns that move the reference."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -55,6 +57,19 @@ def centre(model: WallForwardModel) -> tuple[Floats, Floats]:
     return slopes
 
 
+@pytest.fixture(scope="module")
+def alone(model: WallForwardModel) -> Callable[..., Floats]:
+    """Prediction of effects by a model that has predicted nothing before, made once."""
+
+    @cache
+    def predict(*effects: Mechanism) -> Floats:
+        predicted = replace(model).predict(np.zeros(len(NAMES)), effects)
+        assert predicted is not None
+        return predicted
+
+    return predict
+
+
 def part(values: Floats, name: str) -> Floats:
     ends = np.cumsum([0, *(times.size for times in CURVES.values())])
     place = list(CURVES).index(name)
@@ -85,21 +100,14 @@ def test_slopes_are_those_of_beats_nearby(
         assert error < 0.05 * max(np.sqrt(np.mean(part(expected, curve) ** 2)), floor), curve
 
 
-def test_a_scar_takes_the_strain_of_its_segment(model: WallForwardModel) -> None:
-    sound, scarred = (
-        model.predict(np.zeros(len(NAMES)), effects) for effects in ([], [Scar(extent=0.25, angle=0.0)])
-    )
-    assert sound is not None
-    assert scarred is not None
+def test_a_scar_takes_the_strain_of_its_segment(alone: Callable[..., Floats]) -> None:
+    sound, scarred = alone(), alone(Scar(extent=0.25, angle=0.0))
     assert part(sound, STRAIN).min() < -0.08
     assert part(scarred, STRAIN).min() > 0.6 * part(sound, STRAIN).min()
 
 
-def test_late_images_delay_strain_as_they_delay_the_volume(model: WallForwardModel) -> None:
-    x, frame = np.zeros(len(NAMES)), FRAMES[1]
-    true, late = model.predict(x), model.predict(x, [ImageTriggerDelay(delay=frame)])
-    assert true is not None
-    assert late is not None
+def test_late_images_delay_strain_as_they_delay_the_volume(alone: Callable[..., Floats]) -> None:
+    true, late = alone(), alone(ImageTriggerDelay(delay=FRAMES[1]))
     for name in ("lv_volume", STRAIN):
         before, after = part(true, name), part(late, name)
         if name == STRAIN:  # the late first frame is the reference
@@ -119,17 +127,18 @@ def test_late_images_delay_strain_as_they_delay_the_volume(model: WallForwardMod
     ids=["sound", "leak after", "leak before and after", "atrium after"],
 )
 def test_a_prediction_does_not_depend_on_the_heart_before(
-    model: WallForwardModel, before: list[Mechanism], effect: list[Mechanism]
+    model: WallForwardModel,
+    alone: Callable[..., Floats],
+    before: list[Mechanism],
+    effect: list[Mechanism],
 ) -> None:
     x, following = np.zeros(len(NAMES)), replace(model)
-    alone = replace(model).predict(x, effect)
     assert following.predict(0.3 + x, before) is not None
     predicted = following.predict(x, effect)
-    assert alone is not None
     assert predicted is not None
     errors = {"lv_volume": 0.2e-6, "rv_volume": 0.2e-6, "lv_pressure": 60.0, STRAIN: 1e-3}
     for curve, error in errors.items():
-        assert part(predicted, curve) == pytest.approx(part(alone, curve), abs=error), curve
+        assert part(predicted, curve) == pytest.approx(part(alone(*effect), curve), abs=error), curve
 
 
 def test_the_beats_of_a_similar_heart_start_with_the_measured_responses(
