@@ -5,6 +5,8 @@ import re
 from dataclasses import replace
 from html.parser import HTMLParser
 
+import pytest
+
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.results.cause_card import verdict_sentence
 from heartfit.results.report.cases import facts, status
@@ -114,25 +116,29 @@ def test_a_case_shows_its_kind_its_conduction_and_its_curves(page: str, ventricl
     assert len(captions[1]) > len(captions[0]), "pressures of the second are predictions"
 
 
-def test_a_setting_of_one_case_leaves_the_others_unfitted(ventricle: VentricularMesh) -> None:
+@pytest.fixture(scope="module")
+def own_setting(ventricle: VentricularMesh) -> str:
+    """Page of a study without findings, whose first case alone is fitted under a second setting."""
     whole = study(ventricle)
     first = next(iter(whole.cases.values()))
     fit = replace(first.fits[SETTING], searched=None, proved=None)
     own = replace(first, fits={SETTING: fit, "own": fit})
-    page = render(replace(whole, cases={**whole.cases, first.name: own}), ASSETS)
-    assert page.count("not fitted") == len(whole.cases) - 1
-    assert page.count("Setting own.") == 1
+    return render(replace(whole, cases={**whole.cases, first.name: own}, discoveries=()), ASSETS)
 
 
-def test_the_findings_stand_beside_what_the_sealed_heart_hides(page: str, ventricle: VentricularMesh) -> None:
+def test_a_setting_of_one_case_leaves_the_others_unfitted(own_setting: str) -> None:
+    assert own_setting.count("not fitted") == 1, "the other one of two cases"
+    assert own_setting.count("Setting own.") == 1
+
+
+def test_the_findings_stand_beside_what_the_sealed_heart_hides(page: str, own_setting: str) -> None:
     section = page[page.index('<section id="discovery">') :]
     section = section[: section.index("</section>")]
     for expected in ("heart1, physical", "mitral regurgitation, 0.35 cm² (2.8 scales)", "0.3 (0.2 to 0.4)"):
         assert expected in section
     assert '<a href="#discovery">' in page
-    without = render(replace(study(ventricle), discoveries=()), ASSETS)
-    assert 'id="discovery"' not in without
-    assert 'href="#discovery"' not in without
+    assert 'id="discovery"' not in own_setting, "it has no findings"
+    assert 'href="#discovery"' not in own_setting
 
 
 def test_the_search_of_a_wall_states_its_segments_and_what_it_would_show(page: str) -> None:
