@@ -43,7 +43,7 @@ def test_each_surface_is_where_it_was_to_less_than_a_pixel(
     surface: LabelledSurface, ventricles: LabelledSurface
 ) -> None:
     for name in ("lv_endo", "rv_endo", "epi"):
-        away = distances(surface.points[np.unique(surface.surfaces[name])], ventricles, name)
+        away = distances(surface.points[np.unique(surface.surfaces[name])[::4]], ventricles, name)
         assert away.mean() < 0.5 * PIXEL
         assert np.quantile(away, 0.95) < PIXEL
 
@@ -59,7 +59,7 @@ def test_a_wall_that_is_not_segmented_has_the_stated_thickness(segmentation: Seg
     parts = {name: mask for name, mask in segmentation.parts.items() if name != "rv_wall"}
     for thickness in (3e-3, 4.5e-3):
         surface = wall_surface(Segmentation(segmentation.grid, parts), Shaping(right_wall=thickness))
-        free = surface.points[np.unique(surface.surfaces["epi"])[::3]]
+        free = surface.points[np.unique(surface.surfaces["epi"])[::12]]
         to_left, to_right = (distances(free, surface, name) for name in ("lv_endo", "rv_endo"))
         over_right = to_right < 0.7 * to_left
         assert np.median(to_right[over_right]) == pytest.approx(thickness, abs=0.3e-3)
