@@ -29,14 +29,14 @@ def pebble() -> LabelledSurface:
 
 @pytest.fixture(scope="module")
 def meshed(pebble: LabelledSurface) -> tuple[Floats, Integers]:
-    return tetrahedralise(pebble, 1.5, 0.3, 0)
+    return tetrahedralise(pebble, 1.5, 0.5, 0)
 
 
 @pytest.mark.skipif(not SEEDABLE, reason="the random device can be set on Linux with x86-64 only")
 def test_the_same_seed_gives_the_same_mesh_and_another_one_another(
     pebble: LabelledSurface, meshed: tuple[Floats, Integers], capfd: pytest.CaptureFixture[str]
 ) -> None:
-    one, again, other = meshed, *(tetrahedralise(pebble, 1.5, 0.3, seed) for seed in (0, 1))
+    one, again, other = meshed, *(tetrahedralise(pebble, 1.5, 0.5, seed) for seed in (0, 1))
     for array, repeated in zip(one, again, strict=True):
         np.testing.assert_array_equal(array, repeated)
     assert one[0].shape != other[0].shape or not np.array_equal(one[0], other[0])
@@ -48,7 +48,7 @@ def test_round_off_of_another_processor_leaves_the_mesh_unchanged(
     pebble: LabelledSurface, meshed: tuple[Floats, Integers]
 ) -> None:
     nudged = LabelledSurface(np.nextafter(pebble.points, 9.0), pebble.triangles, pebble.labels)
-    other = tetrahedralise(nudged, 1.5, 0.3, 0)
+    other = tetrahedralise(nudged, 1.5, 0.5, 0)
     for array, repeated in zip(meshed, other, strict=True):
         np.testing.assert_array_equal(array, repeated)
 
@@ -58,7 +58,7 @@ def test_a_crash_of_the_mesher_is_reported_with_its_log(
 ) -> None:
     monkeypatch.setattr(tetrahedra, "MODULE", "heartfit.no_such_module")
     with pytest.raises(ChildProcessError, match=r"\b1\b.*no_such_module"):
-        tetrahedralise(pebble, 1.5, 0.3, 0)
+        tetrahedralise(pebble, 1.5, 0.5, 0)
 
 
 def test_a_random_device_that_cannot_be_set_is_unchanged_and_reported(

@@ -25,7 +25,7 @@ from tests.conftest import END_DIASTOLIC_PRESSURE
 NUMERICS = Numerics(time_step=10e-3, max_beats=20, drift=1e-3)
 CONVERGED = replace(
     NUMERICS,
-    drift=1e-5,
+    drift=1e-4,
     keep_positions=True,
     tolerances=Tolerances(force=1e-3, volume=1e-12, pressure=1e-2, iterations=60),
 )
