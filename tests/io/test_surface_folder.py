@@ -1,6 +1,7 @@
 """Folders of surface meshes: the same heart from closed and open surfaces; one line for each fault."""
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -56,10 +57,17 @@ def write_open(folder: Path, surface: LabelledSurface, suffix: str, files: dict[
     write_notes(folder)
 
 
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory, ventricles: LabelledSurface) -> Path:
+    """A folder of closed surfaces that no test changes."""
+    folder = tmp_path_factory.mktemp("closed") / "mine"
+    write_closed(folder, ventricles)
+    return folder
+
+
 @pytest.fixture
-def closed(tmp_path: Path, ventricles: LabelledSurface) -> Path:
-    write_closed(tmp_path / "mine", ventricles)
-    return tmp_path / "mine"
+def closed(tmp_path: Path, written: Path) -> Path:
+    return shutil.copytree(written, tmp_path / "mine")
 
 
 def test_a_closed_surface_is_read_as_it_was(closed: Path, ventricles: LabelledSurface) -> None:
