@@ -2,7 +2,6 @@
 
 import gc
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -59,31 +58,16 @@ def spheres(spherical_heart: Heart) -> SphericalBody:
     return SphericalBody(left, right, spherical_heart.tissue)
 
 
-@contextmanager
-def searching_at(time_step: float) -> Iterator[None]:
-    """The search simulates beats at this time step [s] and to ten times its drift."""
-    from heartfit.discovery.sphere_model import forward_model
-
-    numerics = replace(forward_model.NUMERICS, time_step=time_step, drift=1e-4)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(forward_model, "NUMERICS", numerics)
-        yield
-
-
 @pytest.fixture(scope="module")
 def coarse_search() -> Iterator[None]:
-    """The search simulates beats at twice its time step, in half of the time.
+    """The search simulates beats at twice its time step and to ten times its drift, in half of the time.
 
     For a test about what a search concludes, of which a heart and its recording leave no doubt.
     """
-    with searching_at(1e-2):
-        yield
+    from heartfit.discovery.sphere_model import forward_model
 
-
-@pytest.fixture(scope="module")
-def coarsest_search() -> Iterator[None]:
-    """The same at four times its time step, for a conclusion that does not depend on a fit in detail."""
-    with searching_at(2e-2):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(forward_model, "NUMERICS", replace(forward_model.NUMERICS, time_step=1e-2, drift=1e-4))
         yield
 
 

@@ -15,7 +15,7 @@ from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import plant
 from heartfit.synthetic.trial import ScoredDiagnosis, diagnose_recording
 
-pytestmark = pytest.mark.usefixtures("coarsest_search")
+pytestmark = pytest.mark.usefixtures("coarse_search")
 CASE = plant(PlantedPlan(11, "single", ("CatheterOffset",), 2.5))
 WATCHED = []
 

@@ -9,7 +9,7 @@ from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.trial import CONDITION, VOLUME, diagnose_by_data
 from tests.discovery.sphere_model.hearts import recorded
 
-pytestmark = pytest.mark.usefixtures("coarsest_search")
+pytestmark = pytest.mark.usefixtures("coarse_search")
 OFFSET = PlantedPlan(11, "single", ("CatheterOffset",), 2.5)
 
 

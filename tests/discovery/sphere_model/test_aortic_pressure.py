@@ -48,7 +48,7 @@ def test_the_catheter_in_the_ventricle_does_not_act_on_it():
     assert change == pytest.approx(np.repeat([500.0, 0.0], 20))
 
 
-@pytest.mark.usefixtures("coarsest_search")
+@pytest.mark.usefixtures("coarse_search")
 def test_aortic_pressure_raises_the_evidence_of_a_stenosis(stenosed, monkeypatch):
     monkeypatch.setattr(searching, "candidates", one)
     ventricle = {name: curve for name, curve in stenosed.curves.items() if name != "aorta_pressure"}

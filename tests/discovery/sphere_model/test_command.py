@@ -13,7 +13,7 @@ from heartfit.roles import registered
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import plant
 
-pytestmark = pytest.mark.usefixtures("coarsest_search")
+pytestmark = pytest.mark.usefixtures("coarse_search")
 OFFSET = PlantedPlan(11, "single", ("CatheterOffset",), 2.5, reloaded=True)
 
 

@@ -15,7 +15,7 @@ def competing_candidates(model: SphereForwardModel) -> dict[str, library.Candida
     return {"SlowRelaxation": library.candidates(model)["SlowRelaxation"]}
 
 
-@pytest.mark.usefixtures("coarsest_search")
+@pytest.mark.usefixtures("coarse_search")
 def test_a_late_activation_is_not_named_slow_relaxation(monkeypatch):
     assert "spread" in {parameter.name for parameter in SPHERE_PARAMETERS}
     monkeypatch.setattr(searching, "candidates", competing_candidates)

@@ -11,11 +11,11 @@ from heartfit.results.cause_figure import render_cause
 from heartfit.synthetic.case import plant
 from tests.discovery.sphere_model.hearts import LEAK, healthy, recorded
 
-pytestmark = pytest.mark.usefixtures("few_mechanisms", "coarsest_search")
+pytestmark = pytest.mark.usefixtures("few_mechanisms", "coarse_search")
 
 
 @pytest.fixture(scope="module")
-def diagnosis(few_mechanisms, coarsest_search):
+def diagnosis(few_mechanisms, coarse_search):
     return diagnose(recorded(LEAK), {"legs raised": recorded(LEAK, "legs_raised")})
 
 

@@ -22,7 +22,7 @@ from tests.discovery.sphere_model.hearts import LEAK, recorded
 
 BANK = Path(__file__).parents[3] / "resources" / "other_worlds"
 AT_MEAN = np.zeros(BASE)
-pytestmark = pytest.mark.usefixtures("coarsest_search")
+pytestmark = pytest.mark.usefixtures("coarse_search")
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +39,7 @@ def before(hearts: tuple[OtherHeart, OtherHeart]) -> Recording:
 
 
 @pytest.fixture(scope="module")
-def earlier(before: Recording, coarsest_search: None) -> EarlierHeart:
+def earlier(before: Recording, coarse_search: None) -> EarlierHeart:
     return EarlierHeart.from_recording(before)
 
 

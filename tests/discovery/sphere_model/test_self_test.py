@@ -11,7 +11,7 @@ from heartfit.discovery.sphere_model.recording import Recording, search_data
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve
 
-pytestmark = pytest.mark.usefixtures("coarsest_search")
+pytestmark = pytest.mark.usefixtures("coarse_search")
 POINTS = np.random.default_rng(0).normal(0.0, 0.7, (3, len(BASE_COORDINATES)))
 NAMES = ("CatheterDelay", "CatheterOffset", "ImageTriggerDelay")
 
