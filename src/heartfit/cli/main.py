@@ -26,7 +26,8 @@ class _PrintVersions(Action):
     """Reads the versions only when they are asked for."""
 
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
-        parser.exit(message=f"{made_by()}\n")
+        print(made_by())
+        parser.exit()
 
 
 def _parser() -> Parser:

@@ -83,7 +83,7 @@ def test_beats_of_slopes_take_few_iterations():
     near = model.near(CENTRE, ())
     shifted = CENTRE + 0.02 * (np.arange(len(CENTRE)) == 5)
     costs = [m.simulate(shifted)[1].diagnostics["iterations"] for m in (near, model)]
-    assert costs[0] < 0.3 * costs[1]
+    assert costs[0] < 0.5 * costs[1]
     assert model.simulations == near.simulations == 3
 
 

@@ -39,9 +39,6 @@ LEAKING = PlantedPlan(520, "outside", ("SeptalDefect",), 3.0)
 SOUND = PlantedPlan(604, "none", (), 0.0)
 
 
-pytestmark = pytest.mark.usefixtures("coarse_search")
-
-
 def searched(plan: PlantedPlan) -> tuple[PlaceSearch, RankedPlaces]:
     recording, _ = Recording.from_curves(plant(plan).curves[REST]).halves()
     problem = SphereProblem.from_recording(recording)
@@ -50,7 +47,7 @@ def searched(plan: PlantedPlan) -> tuple[PlaceSearch, RankedPlaces]:
 
 
 @pytest.fixture(scope="module")
-def leaking(coarse_search: None) -> tuple[PlaceSearch, RankedPlaces]:
+def leaking() -> tuple[PlaceSearch, RankedPlaces]:
     return searched(LEAKING)
 
 

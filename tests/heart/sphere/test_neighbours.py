@@ -1,4 +1,4 @@
-"""Two beats from the limit cycle of a near heart give the limit cycle that a run from relaxed ventricles ends on."""
+"""A few beats from the limit cycle of a near heart give the limit cycle that a run from relaxed ventricles ends on."""
 
 from dataclasses import replace
 
@@ -57,11 +57,11 @@ def test_a_neighbour_is_on_its_limit_cycle(spherical_heart: Heart, name: str, sh
     assert np.abs(neighbour - expected).max() < 0.003 * change + 1e-7
 
 
-def test_a_neighbour_takes_two_beats_of_one_iteration_a_step(spherical_heart: Heart):
+def test_a_neighbour_takes_few_beats_of_one_iteration_a_step(spherical_heart: Heart):
     near = Neighbours(limit_cycle(spheres(spherical_heart), SEARCHED), SEARCHED)
     diagnostics = near.limit_cycle(spheres(changed(spherical_heart, "R_p", 1.0005))).beat.diagnostics
-    steps = 2 * round(spherical_heart.period / SEARCHED.time_step)
-    assert diagnostics["beats"] == 2
+    steps = diagnostics["beats"] * round(spherical_heart.period / SEARCHED.time_step)
+    assert diagnostics["beats"] <= 3
     assert steps <= diagnostics["iterations"] < 1.3 * steps
 
 

@@ -38,7 +38,7 @@ SPHERE_MUTANTS = (
         "heart/sphere/neighbours.py",
         NEIGHBOURS,
         ("pressures settle in one beat", "np.eye(len(sizes)) - matrix", "np.eye(len(sizes))"),
-        ("far hearts are neighbours", "if run.drift < FARTHEST else None", ""),
+        ("the first beat is the limit cycle", "while run.drift > CONVERGED:", "while run.beats < 1:"),
     ),
     *changes(
         "heart/sphere/heart.py",
