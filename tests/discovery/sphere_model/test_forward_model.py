@@ -59,13 +59,15 @@ def test_the_trigger_moves_the_recording_and_not_the_heart():
     assert model.simulations == 1
 
 
-@pytest.mark.parametrize("effects", [(), ("MitralRegurgitation",), ("Scar",)], ids=str)
+@pytest.mark.parametrize("effects", [(), ("MitralRegurgitation",)], ids=str)
 def test_slopes_are_those_of_the_limit_cycle_to_a_hundredth_of_the_noise(monkeypatch, effects):
     noise = np.repeat([1e-6, 133.0], [26, 86])
     library = candidates(SphereForwardModel(ADULT, TIMES))
     added = [library[name] for name in effects]
-    count = len(FREE_PARAMETERS) + sum(len(candidate.unknowns) for candidate in added)
-    x = 0.7 * np.abs(np.random.default_rng(3).standard_normal(count))
+    rng = np.random.default_rng(3)
+    x = 0.7 * rng.standard_normal(len(FREE_PARAMETERS))
+    own = 0.7 * np.abs(rng.standard_normal(sum(len(candidate.unknowns) for candidate in added)))
+    x = np.concatenate([x, own])
 
     def slopes(relaxed: bool):
         tried = hypothesis(SphereForwardModel(ADULT, TIMES), added)

@@ -33,9 +33,9 @@ def carry(curves, n, column, changes, i):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, error_model="numpy", inline="always")
 def predict(step, last, curves, n, changes, sides, fibres, chambers, p):  # type: ignore[no-untyped-def]
-    """Set the initial guess of the stretches and of the pressures of arteries and atria.
+    """Set the initial guess of all unknowns: those of the beat before in row n of the ``curves`` with their changes.
 
-    They are those of the beat before in row n of the ``curves`` with their changes, or extrapolated where it is NaN.
+    Where the row is NaN, stretches and pressures of arteries are extrapolated from the steps before.
     """
     if np.isnan(curves[n, 0]):
         predict_from_steps(step, last, sides, chambers, p)
