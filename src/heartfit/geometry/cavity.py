@@ -70,7 +70,9 @@ def _with_lid_apices(x: Floats, rim: Integers, start: Integers) -> Floats:
     """Return the nodes, then the lids' apices from the last opening to the first: index -1 - o is opening o."""
     n, openings = len(x), len(start) - 1
     corners = np.zeros((n + openings, 3))
-    corners[:n] = x
+    for i in range(n):
+        for axis in range(3):
+            corners[i, axis] = x[i, axis]
     for opening in range(openings):
         size = start[opening + 1] - start[opening]
         for i in range(start[opening], start[opening + 1]):

@@ -80,10 +80,10 @@ ELEMENT_MUTANTS = (
         f"{ELEMENTS}/test_solver.py",
         (
             "children are forgotten",
-            "update[start:end, :end] -= np.dot(",
-            "update[start:end, :end] += np.dot(",
+            "rest[start:end, :end] - np.dot(",
+            "rest[start:end, :end] + np.dot(",
         ),
-        ("no substitution downwards", "            own[:c] -= change[:c]\n", ""),
+        ("no substitution downwards", "own[i] -= change[i]", "pass"),
         (
             "no substitution downwards for many columns",
             "            x -= np.dot(back.T, gathered)\n",
@@ -91,8 +91,8 @@ ELEMENT_MUTANTS = (
         ),
         (
             "a general matrix taken for symmetric",
-            "np.dot(inverse, beside).T.ravel()",
-            "coupling.ravel()",
+            "np.dot(inverse, beside).T",
+            "coupling",
         ),
         ("scaled once only", "result[i, j] *= scale[i] * scale[j]", "result[i, j] *= scale[i]"),
     ),

@@ -164,7 +164,10 @@ def _through_face(gram: Floats, times: Floats, corners: Integers, i: int, j: int
     t = np.array([times[corners[i]], times[corners[j]]])
     if np.isfinite(t[0] + t[1]):
         a, b, c = gram[i, i], gram[i, j], gram[j, j]
-        inverse = np.array([[c, -b], [-b, a]], np.float64) / (a * c - b * b)
+        determinant = a * c - b * b
+        inverse = np.empty((2, 2))
+        inverse[0, 0], inverse[0, 1] = c / determinant, -b / determinant
+        inverse[1, 0], inverse[1, 1] = inverse[0, 1], a / determinant
         arrival = _plane_wave(inverse, t)
         if np.isfinite(arrival):
             return arrival
@@ -174,12 +177,22 @@ def _through_face(gram: Floats, times: Floats, corners: Integers, i: int, j: int
 @njit(cache=True)
 def _plane_wave(inverse: np.ndarray, t: Floats) -> float:
     """Later root tau of (tau 1 - t)' G^-1 (tau 1 - t) = 1; infinite where the ray comes from outside the element."""
-    row = inverse.sum(axis=1)
-    a, b, c = row.sum(), (row * t).sum(), (t * (inverse * t).sum(axis=1)).sum() - 1.0
-    discriminant = b * b - a * c
+    n = len(t)
+    a = b = c = 0.0
+    for i in range(n):
+        row, weighted = 0.0, 0.0
+        for j in range(n):
+            row += inverse[i, j]
+            weighted += inverse[i, j] * t[j]
+        a, b, c = a + row, b + row * t[i], c + t[i] * weighted
+    discriminant = b * b - a * (c - 1.0)
     if discriminant < 0.0:
         return np.inf
     arrival = (b + np.sqrt(discriminant)) / a
-    if ((inverse * (arrival - t)).sum(axis=1) < 0.0).any():
-        return np.inf
+    for i in range(n):
+        inwards = 0.0
+        for j in range(n):
+            inwards += inverse[i, j] * (arrival - t[j])
+        if inwards < 0.0:
+            return np.inf
     return arrival

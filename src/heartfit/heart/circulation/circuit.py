@@ -121,29 +121,31 @@ def solve_circuit(ends, laws, branch_states, atria, prescribed, t, system, p, wo
     :mod:`heartfit.heart.circulation.system`; ``work`` (3, n), whose rows the module names, and ``jacobian`` (n, n) are
     overwritten.
     """
-    size = first = circuit_residual(
-        ends, laws, branch_states, atria, prescribed, t, system, p, work, jacobian
-    )
+    for i in range(p.size):
+        work[DIRECTION, i], work[PREVIOUS, i] = 0.0, p[i]
     tolerance = RESIDUAL_TOLERANCE
     if atria is not None:
         tolerance = ATRIAL_TOLERANCE
-    for _ in range(NEWTON_ITERATIONS):
-        if size < tolerance:
-            break
-        solve_linear(jacobian, work)
-        for i in range(p.size):
-            work[DIRECTION, i], work[PREVIOUS, i] = work[RESIDUAL, i], p[i]
+    size = first = np.inf
+    for iteration in range(NEWTON_ITERATIONS + 1):
         share, following = 1.0, np.inf
         for _ in range(LINE_SEARCH_HALVINGS):
             for i in range(p.size):
                 p[i] = work[PREVIOUS, i] - share * work[DIRECTION, i]
             following = circuit_residual(
                 ends, laws, branch_states, atria, prescribed, t, system, p, work, jacobian
-            )
+            )  # called in one place, as each is inlined
             if following < size:
                 break
             share *= 0.5
         size = following
+        if iteration == 0:
+            first = size
+        if size < tolerance or iteration == NEWTON_ITERATIONS:
+            break
+        solve_linear(jacobian, work)
+        for i in range(p.size):
+            work[DIRECTION, i], work[PREVIOUS, i] = work[RESIDUAL, i], p[i]
     return first
 
 

@@ -128,8 +128,10 @@ def _eliminate(  # type: ignore[no-untyped-def]
     for s in range(len(parents)):
         touched = rows[row_starts[s] : row_starts[s + 1]]
         c, r = dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
-        place[starts[s] : starts[s + 1]] = np.arange(0, c, dofs)
-        place[touched] = np.arange(c, c + r, dofs)
+        for i in range(starts[s], starts[s + 1]):
+            place[i] = dofs * (i - starts[s])
+        for i in range(len(touched)):
+            place[touched[i]] = c + dofs * i
         front = work[: (c + r) ** 2].reshape(c + r, c + r)
         front[:] = 0.0
         for i in range(starts[s], starts[s + 1]):
@@ -146,7 +148,7 @@ def _eliminate(  # type: ignore[no-untyped-def]
             update = stack[filled : filled + size * size].reshape(size, size)
             _extend_add(front, update, place[left], dofs, symmetric)
         inverse = _inverse(front[:c, :c], symmetric)
-        inverses[inverse_starts[s] : inverse_starts[s + 1]] = inverse.ravel()
+        _fill(inverses[inverse_starts[s] : inverse_starts[s + 1]].reshape(c, c), inverse)
         if r:
             below = front[c:, :c].copy()
             coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
@@ -156,8 +158,9 @@ def _eliminate(  # type: ignore[no-untyped-def]
                 _schur_complement(front[c:, c:], coupling, below, update)
             else:
                 beside = front[:c, c:].copy()
-                transposed[coupling_starts[s] : coupling_starts[s + 1]] = np.dot(inverse, beside).T.ravel()
-                update[:] = front[c:, c:] - np.dot(coupling, beside)
+                back = transposed[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
+                _fill(back, np.dot(inverse, beside).T)
+                _fill(update, front[c:, c:] - np.dot(coupling, beside))
             filled += r * r
             waiting[top] = s
             top += 1
@@ -174,7 +177,9 @@ def _extend_add(front, block, places, dofs, symmetric):  # type: ignore[no-untyp
     for i in range(len(places)):
         for k in range(dofs):
             columns[dofs * i + k] = places[i] + k
-    ascend = (np.diff(places) > 0).all()
+    ascend = True
+    for i in range(len(places) - 1):
+        ascend = ascend and places[i] < places[i + 1]
     for i in range(n):
         row, source = columns[i], block[i]
         target = front[row]
@@ -189,8 +194,15 @@ def _schur_complement(rest, coupling, below, update):  # type: ignore[no-untyped
     block = UPDATE_BLOCK if len(rest) > 2 * UPDATE_BLOCK else len(rest)
     for start in range(0, len(rest), block):
         end = min(start + block, len(rest))
-        update[start:end, :end] = rest[start:end, :end]
-        update[start:end, :end] -= np.dot(coupling[start:end], below[:end].T)
+        _fill(update[start:end, :end], rest[start:end, :end] - np.dot(coupling[start:end], below[:end].T))
+
+
+@njit(cache=True)
+def _fill(target, values):  # type: ignore[no-untyped-def]
+    """Copy a matrix to ``target`` of its shape; numba takes seconds to compile an assignment to a slice."""
+    for i in range(target.shape[0]):
+        for j in range(target.shape[1]):
+            target[i, j] = values[i, j]
 
 
 @njit(cache=True)
@@ -238,8 +250,10 @@ def _substitute(  # type: ignore[no-untyped-def]
                 for m in range(dofs):
                     outer[dofs * i + m] = y[dofs * touched[i] + m]
             np.dot(outer[:r], back, change[:c])
-            own[:c] -= change[:c]
-        y[a : a + c] = own[:c]
+            for i in range(c):
+                own[i] -= change[i]
+        for i in range(c):
+            y[a + i] = own[i]
 
 
 @njit(cache=True)
@@ -255,7 +269,9 @@ def _substitute_columns(  # type: ignore[no-untyped-def]
             coupling = couplings[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
             down = np.dot(coupling, y[a : a + c])
             for i in range(len(touched)):
-                y[dofs * touched[i] : dofs * touched[i] + dofs] -= down[dofs * i : dofs * i + dofs]
+                own, place = dofs * i, dofs * touched[i]
+                rest = y[place : place + dofs]
+                _fill(rest, rest - down[own : own + dofs])
     for s in range(fronts - 1, -1, -1):
         touched = rows[row_starts[s] : row_starts[s + 1]]
         a, c, r = dofs * starts[s], dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
@@ -265,6 +281,7 @@ def _substitute_columns(  # type: ignore[no-untyped-def]
             back = transposed[coupling_starts[s] : coupling_starts[s + 1]].reshape(r, c)
             gathered = np.empty((r, columns), dtype=np.float32)
             for i in range(len(touched)):
-                gathered[dofs * i : dofs * i + dofs] = y[dofs * touched[i] : dofs * touched[i] + dofs]
+                own, place = dofs * i, dofs * touched[i]
+                _fill(gathered[own : own + dofs], y[place : place + dofs])
             x -= np.dot(back.T, gathered)
-        y[a : a + c] = x
+        _fill(y[a : a + c], x)
