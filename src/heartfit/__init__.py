@@ -5,5 +5,5 @@ from pathlib import Path
 
 from heartfit.core.kernel_cache import kernel_folder
 
-# numba reads it on import
-os.environ.setdefault("NUMBA_CACHE_DIR", str(kernel_folder(Path(__file__).parent)))
+if "NUMBA_CACHE_DIR" not in os.environ:  # numba reads it on import; the jobs of a workflow inherit it
+    os.environ["NUMBA_CACHE_DIR"] = str(kernel_folder(Path(__file__).parent))

@@ -165,3 +165,10 @@ def run_python(script: str, **environment: str) -> str:
 def test_numba_keeps_kernels_in_the_folder_of_the_package():
     kept = run_python("import heartfit, numba; print(numba.config.CACHE_DIR)")
     assert kept == str(kernel_cache.kernel_folder(Path(heartfit.__file__).parent))
+
+
+def test_a_job_takes_the_folder_of_kernels_from_the_process_that_starts_it():
+    kept = run_python(
+        "import os, heartfit; print(os.environ['NUMBA_CACHE_DIR'])", NUMBA_CACHE_DIR="elsewhere"
+    )
+    assert kept == "elsewhere"
