@@ -21,7 +21,7 @@ STAGES = {
     "patient1/register_cine": "registration",
     "lbbb2/physical/simulate_point_14": "calibration",
     "lbbb2/physical/simulate_calibrated": "calibration",
-    "sensitivity/paper/simulate_surrounding_3": "sensitivity",
+    "sensitivity/paper/simulate_surroundings": "sensitivity",
     "registration_error/baseline/try_7": "registration error",
     "cover_spheres": "spheres",
     "volunteer1/paper/plot_case": OTHER_STAGE,

@@ -21,7 +21,7 @@ def test_every_rule_that_is_grouped_exists():
 
 
 def test_all_beats_are_grouped():
-    assert {"simulate_point", "simulate_surrounding", "simulate_calibrated", "draw_volunteer"} <= set(
+    assert {"simulate_point", "simulate_surroundings", "simulate_calibrated", "draw_volunteer"} <= set(
         PROFILE["groups"]
     )
 

@@ -84,10 +84,10 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     errors = sum(name.endswith("verification/errors.json") for name in claims)
     assert errors == counts["simulate_calibrated"] - SEALED
     assert "diagnose_planted" not in counts, "the search takes hours and was not requested"
-    assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
+    assert counts["simulate_surroundings"] == SETTINGS
     beating = {"generate_volunteer", "simulate_point", "simulate_calibrated"}
     beating |= {
-        "simulate_surrounding",
+        "simulate_surroundings",
         "search_cause",
         "refit_case",
         "prove_cause",
@@ -95,7 +95,7 @@ def test_one_job_for_each_sigma_point_and_the_truth_is_read_by_the_evaluation_on
     assert readers(planned.stdout, "kernels") == beating
     targets = inputs(dict(jobs(planned.stdout))["all"])
     assert sum("/beats/" in name for name in targets) == (
-        counts["simulate_point"] + counts["simulate_surrounding"]
+        counts["simulate_point"] + SETTINGS * (2 * 14 + 1)
     ), "a deleted beat would go unnoticed"
 
 
@@ -163,7 +163,7 @@ def test_the_measured_heart_is_one_more_case(workflow, measured_heart_folder):
     assert ("registration of images left out" in run.stdout) == (imaged == 0)
     assert counts["simulate_point"] == 2 * SETTINGS * 9
     assert counts["simulate_calibrated"] == 2 * SETTINGS
-    assert counts["simulate_surrounding"] == SETTINGS * (2 * 14 + 1)
+    assert counts["simulate_surroundings"] == SETTINGS
 
 
 def test_a_spoilt_measured_heart_is_refused_in_one_line_before_anything_runs(workflow):
@@ -208,7 +208,7 @@ def test_every_job_has_a_log_a_benchmark_resources_and_a_code_fingerprint(workfl
         "build_template": "templates/{template}",
         "build_measured_mesh": "{case}/build_mesh",
         "simulate_point": "{case}/{setting}/simulate_point_{point}",
-        "simulate_surrounding": "sensitivity/{setting}/simulate_surrounding_{point}",
+        "simulate_surroundings": "sensitivity/{setting}/simulate_surroundings",
         "try_acquisition": "registration_error/{acquisition}/try_{number}",
         "try_mechanism": "{case}/{setting}/try_mechanism_{mechanism}",
         "diagnose_planted": "discovery_benchmark/diagnose_planted_{batch}",

@@ -82,8 +82,13 @@ def perturbation_beats(wildcards):
 
 
 def list_perturbation_beats(setting):
+    return expand(surrounding_files(".json"), setting=setting)
+
+
+def surrounding_files(suffix):
+    """Pattern of the file of each one-at-a-time perturbation of a setting."""
     points = range(2 * len(STUDY.sensitivity.parameters) + 1)
-    return expand("<results>/sensitivity/{setting}/beats/{point}.json", setting=setting, point=points)
+    return [f"<results>/sensitivity/{{setting}}/beats/{point}{suffix}" for point in points]
 
 
 def sensitivities(wildcards):

@@ -13,14 +13,15 @@ use rule draw_sigma_points as draw_surroundings with:
         stated=configuration_text(perturbed_setting_of, SENSITIVITY),
 
 
-use rule simulate_point as simulate_surrounding with:
+# one job for all beats of a setting, which take less time than the start of a job each
+rule simulate_surroundings:
     input:
         mesh=REFERENCE_MESH,
         points="<results>/sensitivity/{setting}/points.json",
         kernels="<results>/kernels.json",
     output:
-        beat="<results>/sensitivity/{setting}/beats/{point}.json",
-        curves="<results>/sensitivity/{setting}/beats/{point}.csv",
+        beats=surrounding_files(".json"),
+        curves=surrounding_files(".csv"),
     params:
         case=REFERENCE,
         setting=perturbed_setting_of,
@@ -29,6 +30,8 @@ use rule simulate_point as simulate_surrounding with:
         stated=configuration_text(
             REFERENCE, perturbed_setting_of, STUDY.numerics, STUDY.filling_pressures(REFERENCE)
         ),
+    script:
+        "../scripts/simulate_surroundings.py"
 
 
 rule analyse_sensitivity:

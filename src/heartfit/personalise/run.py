@@ -1,6 +1,6 @@
 """Steps of a calibration as functions of values: body, beat, estimate, observations."""
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -98,6 +98,19 @@ def run_beat(
     except StepFailed as failure:
         return failed_beat(str(failure), period, heart.trigger, {})
     return simulate(heart, body, replace(scheme.numerics(), keep_positions=keep_positions), progress)
+
+
+def beats_of_points(
+    mesh: VentricularMesh,
+    setting: Setting,
+    period: float,
+    points: Iterable[SigmaPoint],
+    pressures: Pressures,
+    scheme: TimeScheme,
+) -> Iterator[Beat]:
+    """Yield the beat of each point, simulated when it is asked for."""
+    for point in points:
+        yield run_beat(mesh, setting, period, point.parameters, pressures, scheme)
 
 
 def nearby_beats(
