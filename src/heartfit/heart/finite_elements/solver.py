@@ -128,10 +128,7 @@ def _eliminate(  # type: ignore[no-untyped-def]
     for s in range(len(parents)):
         touched = rows[row_starts[s] : row_starts[s + 1]]
         c, r = dofs * (starts[s + 1] - starts[s]), dofs * len(touched)
-        for i in range(starts[s], starts[s + 1]):
-            place[i] = dofs * (i - starts[s])
-        for i in range(len(touched)):
-            place[touched[i]] = c + dofs * i
+        _set_places(place, starts[s], starts[s + 1], touched, dofs)
         front = work[: (c + r) ** 2].reshape(c + r, c + r)
         front[:] = 0.0
         for i in range(starts[s], starts[s + 1]):
@@ -164,6 +161,15 @@ def _eliminate(  # type: ignore[no-untyped-def]
             filled += r * r
             waiting[top] = s
             top += 1
+
+
+@njit(cache=True)
+def _set_places(place, start, end, touched, dofs):  # type: ignore[no-untyped-def]
+    """Set the columns of a front's own nodes, from ``start`` to ``end``, and of those that it touches."""
+    for i in range(start, end):
+        place[i] = dofs * (i - start)
+    for i in range(len(touched)):
+        place[touched[i]] = dofs * (end - start + i)
 
 
 @njit(cache=True)
