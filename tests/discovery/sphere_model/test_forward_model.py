@@ -59,7 +59,7 @@ def test_the_trigger_moves_the_recording_and_not_the_heart():
     assert model.simulations == 1
 
 
-@pytest.mark.parametrize("effects", [(), ("MitralRegurgitation",)], ids=str)
+@pytest.mark.parametrize("effects", [(), ("MitralRegurgitation",), ("Scar",)], ids=str)
 def test_slopes_are_those_of_the_limit_cycle_to_a_hundredth_of_the_noise(monkeypatch, effects):
     noise = np.repeat([1e-6, 133.0], [26, 86])
     library = candidates(SphereForwardModel(ADULT, TIMES))
@@ -85,7 +85,7 @@ def test_beats_of_slopes_take_few_iterations():
     near = model.near(CENTRE, ())
     shifted = CENTRE + 0.02 * (np.arange(len(CENTRE)) == 5)
     costs = [m.simulate(shifted)[1].diagnostics["iterations"] for m in (near, model)]
-    assert costs[0] < 0.5 * costs[1]
+    assert costs[0] < 0.6 * costs[1]
     assert model.simulations == near.simulations == 3
 
 

@@ -1,4 +1,4 @@
-r"""Limit cycles of hearts near another one, each in two or three beats from there.
+r"""Limit cycles of hearts near another one, each in three or four beats from there.
 
 A beat maps the state s at its start to B(s) at its end, and shows the curves C(s). From one beat to the next a heart
 remembers little more than the pressures P of its Windkessels: its walls relax in between. So about the limit cycle
@@ -31,7 +31,7 @@ PRESSURE = rows.NOW + rows.P_C
 PRESSURE_SIZE = 1e-3
 """Relative rise of the pressure of a Windkessel in the beat that measures the response to it."""
 
-CONVERGED, MOST_BEATS = 1e-7, 6
+CONVERGED, MOST_BEATS = 1e-9, 6
 """Relative error of stretches and pressures, as their last changes let expect, below which a beat is the limit cycle,
 and the number of beats after which a heart counts as too far."""
 
