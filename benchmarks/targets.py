@@ -38,7 +38,7 @@ START = (
     "longer, versions are not read, imports not parsed; less would take kernels that load without numba."
 )
 SEARCH = (
-    "A search: 30000 beats of spheres in 7500 hearts, of which 6600 are columns of a Jacobian that take three or four "
+    "A search: 25000 beats of spheres in 7700 hearts, of which 6800 are columns of a Jacobian that take about three "
     "beats of one iteration a step from their centre, are half of it; hearts amended and observed in Python the rest. "
     "Fewer beats do not suffice, see decision 49. Before it were 33000 beats of two iterations."
 )

@@ -11,6 +11,7 @@ from heartfit.discovery.sphere_model.forward_model import NUMERICS, SphereForwar
 from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS
 from heartfit.discovery.sphere_model.nominal_heart import ADULT
 from heartfit.discovery.sphere_model.recording import Recording, Samples
+from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.mechanisms.catheter_offset import CatheterOffset
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 
@@ -60,7 +61,7 @@ def test_the_trigger_moves_the_recording_and_not_the_heart():
 
 
 @pytest.mark.parametrize("effects", [(), ("MitralRegurgitation",), ("Scar",)], ids=str)
-def test_slopes_are_those_of_the_limit_cycle_to_a_hundredth_of_the_noise(monkeypatch, effects):
+def test_slopes_are_those_of_the_limit_cycle_to_a_five_hundredth_of_the_noise(monkeypatch, effects):
     noise = np.repeat([1e-6, 133.0], [26, 86])
     library = candidates(SphereForwardModel(ADULT, TIMES))
     added = [library[name] for name in effects]
@@ -77,7 +78,7 @@ def test_slopes_are_those_of_the_limit_cycle_to_a_hundredth_of_the_noise(monkeyp
 
     searched = slopes(relaxed=False)
     monkeypatch.setattr(forward_model, "NUMERICS", replace(NUMERICS, drift=1e-9, max_beats=80))
-    assert np.abs((searched - slopes(relaxed=True)) / noise[:, None]).max() < 0.01
+    assert np.abs((searched - slopes(relaxed=True)) / noise[:, None]).max() < 0.002
 
 
 def test_beats_of_slopes_take_few_iterations():
@@ -85,7 +86,7 @@ def test_beats_of_slopes_take_few_iterations():
     near = model.near(CENTRE, ())
     shifted = CENTRE + 0.02 * (np.arange(len(CENTRE)) == 5)
     costs = [m.simulate(shifted)[1].diagnostics["iterations"] for m in (near, model)]
-    assert costs[0] < 0.6 * costs[1]
+    assert costs[0] < 0.5 * costs[1]
     assert model.simulations == near.simulations == 3
 
 
@@ -105,3 +106,11 @@ def test_coordinates_outside_the_admissible_range_have_no_prediction():
         )
         is None
     )
+
+
+def test_a_heart_whose_responses_cannot_be_measured_has_no_neighbours(monkeypatch):
+    def fails(*_args: object) -> None:
+        raise StepFailed("a step has no solution")
+
+    monkeypatch.setattr(forward_model, "Neighbours", fails)
+    assert SphereForwardModel(ADULT, TIMES).near(CENTRE, ()) is None

@@ -65,13 +65,14 @@ def test_a_volume_alone_takes_its_landmarks_from_the_fitted_beat() -> None:
 
 
 @pytest.mark.usefixtures("few_mechanisms")
-def test_a_leak_in_a_heart_of_our_law_leads_within_the_structure_of_others() -> None:
-    """It is not named: beside structure a name needs 25."""
-    diagnosis = diagnose(recorded(LEAK), structure=STRUCTURE)
+def test_a_leak_in_a_heart_of_our_law_is_named_within_the_structure_of_others() -> None:
+    """A heart of our law needs none of that structure, beside which a name would need 25."""
+    diagnosis = diagnose(recorded(replace(LEAK, scales=2.0)), structure=STRUCTURE)
     first, second = list(diagnosis.ranking.items())[:2]
     assert first[0] == "MitralRegurgitation"
     assert first[1] > second[1] + 5.0
-    assert diagnosis.verdict == "model"
+    assert diagnosis.verdict == "named"
+    assert diagnosis.threshold == DEFAULT_RULES.detected
     assert all(trace.structure is not None for trace in diagnosis.traces)
 
 

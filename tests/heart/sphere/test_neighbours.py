@@ -54,7 +54,8 @@ def test_a_neighbour_is_on_its_limit_cycle(spherical_heart: Heart, name: str, sh
     neighbour, expected, centre = map(scaled, cycles)
     change = np.abs(expected - centre).max()
     assert change > 10.0 * SEARCHED.drift
-    assert np.abs(neighbour - expected).max() < 0.003 * change + 1e-7
+    assert np.abs(neighbour - expected).max() < 1e-8
+    assert cycles[0].beat.diagnostics["beats"] <= 3
 
 
 def test_a_neighbour_takes_few_beats_of_one_iteration_a_step(spherical_heart: Heart):
@@ -63,6 +64,13 @@ def test_a_neighbour_takes_few_beats_of_one_iteration_a_step(spherical_heart: He
     steps = diagnostics["beats"] * round(spherical_heart.period / SEARCHED.time_step)
     assert diagnostics["beats"] <= 3
     assert steps <= diagnostics["iterations"] < 1.3 * steps
+
+
+@pytest.mark.parametrize("name", ["k_RS", "c_1"])
+def test_walls_that_remember_the_last_beat_take_no_further_one(spherical_heart: Heart, name: str):
+    heart = changed(spherical_heart, "mu", 2.0)
+    near = Neighbours(limit_cycle(spheres(heart), SEARCHED), SEARCHED)
+    assert near.limit_cycle(spheres(changed(heart, name, 1.005))).beat.diagnostics["beats"] <= 3
 
 
 def test_the_state_of_a_neighbour_beats_on(spherical_heart: Heart):
@@ -82,7 +90,7 @@ def test_the_centre_is_its_own_neighbour_and_stays_unchanged(spherical_heart: He
     again = near.limit_cycle(centre.heart)
     assert np.array_equal(centre.state.sides, kept)
     expected = scaled(limit_cycle(centre.heart, TIGHT))
-    assert np.abs(scaled(again) - expected).max() < 1e-7 < np.abs(scaled(centre) - expected).max()
+    assert np.abs(scaled(again) - expected).max() < 1e-8 < np.abs(scaled(centre) - expected).max()
 
 
 def test_a_far_heart_is_no_neighbour(spherical_heart: Heart):

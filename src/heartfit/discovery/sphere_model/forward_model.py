@@ -17,6 +17,7 @@ from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS, TIM
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart, perturb
 from heartfit.discovery.sphere_model.recording import BALANCE
 from heartfit.heart.beat import Beat
+from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics
 from heartfit.heart.sphere.neighbours import Neighbours
@@ -87,7 +88,10 @@ class SphereForwardModel:
         cycle = self._limit_cycle(_amend(self.nominal, x, effects), x, effects)
         if cycle is None or cycle.heart.atria is not None:
             return None
-        return replace(self, neighbours=Neighbours(cycle, NUMERICS), _cycles=OrderedDict())
+        try:
+            return replace(self, neighbours=Neighbours(cycle, NUMERICS), _cycles=OrderedDict())
+        except StepFailed:
+            return None
 
     def _limit_cycle(
         self, nominal: NominalHeart, x: Floats, effects: Sequence[Mechanism]

@@ -1,18 +1,20 @@
-r"""Limit cycles of hearts near another one, each in three or four beats from there.
+r"""Limit cycles of hearts near another one, each in three beats or so from there.
 
 A beat maps the state s at its start to B(s) at its end, and shows the curves C(s). From one beat to the next a heart
-remembers little more than the pressures P of its Windkessels: its walls relax in between. So about the limit cycle
-:math:`s^*` of the centre
+remembers little more than z: the pressures of its Windkessels, and a little of the stretches of its walls. So about the
+limit cycle :math:`s^* = B(s^*)` of the centre, a move :math:`\sigma` of the start moves the end and the curves by
 
-.. math:: B(s) = B(s^*) + D (P - P^*), \qquad C(s) = C(s^*) + S (P - P^*),
+.. math:: B(s^* + \sigma) - B(s^*) = J \sigma, \qquad C(s^* + \sigma) - C(s^*) = S \sigma ,
 
-with responses D and S that one more beat for each Windkessel measures. A neighbour, whose parameters differ a little,
-starts at :math:`s^*`. Newton's method, with the rows :math:`\Lambda` of D that are pressures, corrects the end of each
-of its beats, where the next one starts, and its curves,
+which z of :math:`\sigma` determines. With the pressure of a Windkessel raised, two beats of the centre show two such
+moves: the raised pressure itself, and what is left of it after the first beat. A neighbour, whose parameters differ a
+little, starts at :math:`s^*`. Newton's method, with weights w of all :math:`\sigma_i`, corrects the end of each of its
+beats, where the next one starts, and its curves,
 
-.. math:: r = (I - \Lambda)^{-1} (P_{B(s)} - P_s), \qquad s' = B(s) + D\, r, \qquad C' = C(s) + S\, r ,
+.. math:: \sum_i w_i\, z(\sigma_i - J \sigma_i) = z(B(s) - s), \qquad
+          s' = B(s) + \sum_i w_i\, J \sigma_i, \qquad C' = C(s) + \sum_i w_i\, S \sigma_i ,
 
-until :math:`\Delta_k^2 / \Delta_{k-1}`, of the changes :math:`\Delta` of the corrected state, is small.
+until :math:`\Delta_k^2 / \Delta_{k-1}`, of the changes :math:`\Delta` of the corrected z, is small.
 
 Every step starts from the values of the beat before, here of the centre, so that most of them need one iteration.
 """
@@ -29,7 +31,7 @@ from heartfit.heart.sphere.simulation import LimitCycle, SphereRun, shift_pressu
 
 PRESSURE = rows.NOW + rows.P_C
 PRESSURE_SIZE = 1e-3
-"""Relative rise of the pressure of a Windkessel in the beat that measures the response to it."""
+"""Relative rise of the pressure of a Windkessel before the beats that measure the response to it."""
 
 CONVERGED, MOST_BEATS = 1e-9, 6
 """Relative error of stretches and pressures, as their last changes let expect, below which a beat is the limit cycle,
@@ -45,15 +47,14 @@ class Neighbours:
                 "neighbours: an atrium of the centre has a volume, expected prescribed pressures"
             )
         self._numerics, self._state, self._curves = numerics, centre.state, centre.curves
-        run, sizes = SphereRun(centre.heart, numerics), PRESSURE_SIZE * _pressures(centre.state)
-        onward = self._beat_on(run, np.zeros(len(sizes)))
-        raised = [self._beat_on(run, rise) for rise in np.diag(sizes)]
-        self._responses = [
-            [(new - old) / size for new, old in zip(tables, onward, strict=True)]
-            for tables, size in zip(raised, sizes, strict=True)
-        ]
-        matrix = np.column_stack([sides[PRESSURE] for sides, *_ in self._responses])
-        self._amplification = np.linalg.inv(np.eye(len(sizes)) - matrix)
+        run, pressures = SphereRun(centre.heart, numerics), centre.state.sides[PRESSURE]
+        unraised = self._beat_twice(run, np.zeros_like(pressures))
+        moves = [_moves(self._beat_twice(run, rise), unraised) for rise in np.diag(PRESSURE_SIZE * pressures)]
+        starts = [tables for move in moves for tables in move[:-1]]
+        ends = [tables for move in moves for tables in move[1:]]
+        slow = [_slow(start) - _slow(end) for (start, *_), (end, *_) in zip(starts, ends, strict=True)]
+        self._weights = np.linalg.pinv(np.column_stack(slow))
+        self._ends = [np.stack(table, axis=-1) for table in zip(*ends, strict=True)]
 
     def limit_cycle(self, heart: SphericalHeart) -> LimitCycle | None:
         """The limit cycle of a neighbour; None where it is too far for the responses, or does not beat."""
@@ -63,40 +64,45 @@ class Neighbours:
             while run.drift > CONVERGED:
                 if run.beats == MOST_BEATS:
                     return None
-                before, last = _slow(state), change
-                self._beat_and_correct(run, state, curves)
-                change = float(np.abs(_slow(state) / before - 1.0).max())
+                last, change = change, self._beat_and_correct(run, state, curves)
                 run.drift = change * min(change / last, 1.0) if run.beats > 1 else change
         except StepFailed:
             return None
         return run.limit_cycle(state, curves)
 
-    def _beat_on(self, run: SphereRun, rise: Floats) -> list[Floats]:
-        """Tables of the state and curves of the centre's next beat, with the pressures raised before it (v,) [Pa]."""
+    def _beat_twice(self, run: SphereRun, rise: Floats) -> list[list[Floats]]:
+        """Tables at the centre, with the pressures raised (v,) [Pa], and at the ends of two beats from there."""
         state, curves = run.heart.take_over(self._state), self._curves.copy()
         shift_pressures(state, rise)
+        tables = [_copies(state, curves)]
+        for _ in range(2):
+            run.run_beat(state, curves)
+            tables.append(_copies(state, curves))
+        return tables
+
+    def _beat_and_correct(self, run: SphereRun, state: State, curves: Floats) -> float:
+        """Run a beat, move its end and its curves to the limit cycle, and return the relative change of z."""
+        start = _slow(state.sides)
         run.run_beat(state, curves)
-        return _tables(state, curves)
-
-    def _beat_and_correct(self, run: SphereRun, state: State, curves: Floats) -> None:
-        """Run a beat, and move its end and its curves to the limit cycle."""
-        start = _pressures(state)
-        run.run_beat(state, curves)
-        rise: Floats = self._amplification @ (_pressures(state) - start)
-        for size, response in zip(rise, self._responses, strict=True):
-            for table, per_pascal in zip(_tables(state, curves), response, strict=True):
-                table += size * per_pascal
+        weights: Floats = self._weights @ (_slow(state.sides) - start)
+        for table, moves in zip(_tables(state, curves), self._ends, strict=True):
+            table += moves @ weights
+        return float(np.abs(_slow(state.sides) / start - 1.0).max())
 
 
-def _pressures(state: State) -> Floats:
-    """Pressures (v,) of the Windkessels [Pa]."""
-    return state.sides[PRESSURE].copy()
-
-
-def _slow(state: State) -> Floats:
-    """Stretches and pressures of the Windkessels [Pa], (2 v,), at the end of a beat."""
-    return np.concatenate([state.sides[rows.NOW + rows.STRETCH], state.sides[PRESSURE]])
+def _slow(sides: Floats) -> Floats:
+    """Stretches and pressures of the Windkessels [Pa], (2 v,), in the table of the sides."""
+    return np.concatenate([sides[rows.NOW + rows.STRETCH], sides[PRESSURE]])
 
 
 def _tables(state: State, curves: Floats) -> list[Floats]:
     return [state.sides, state.fibres, state.branches, curves]
+
+
+def _copies(state: State, curves: Floats) -> list[Floats]:
+    return [table.copy() for table in _tables(state, curves)]
+
+
+def _moves(raised: list[list[Floats]], centre: list[list[Floats]]) -> list[list[Floats]]:
+    """Differences of the tables from those of the centre, before and after each beat."""
+    return [[new - old for new, old in zip(*pair, strict=True)] for pair in zip(raised, centre, strict=True)]
