@@ -69,7 +69,10 @@ class Heart:
         known = self._parameters
         changes: dict[str, Any] = {}
         for name, value in values.items():
-            *parts, last = _resolve_path(name, known).split(".")
+            path = _resolve_path(name, known)
+            if known[path] == value:
+                continue
+            *parts, last = path.split(".")
             reduce(lambda branch, part: branch.setdefault(part, {}), parts, changes)[last] = float(value)
         return _with_changes(self, changes)
 

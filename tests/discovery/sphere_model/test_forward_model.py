@@ -9,7 +9,7 @@ from heartfit.discovery.inference.hypothesis import CountedHypothesis
 from heartfit.discovery.sphere_model import forward_model
 from heartfit.discovery.sphere_model.forward_model import NUMERICS, SphereForwardModel, candidates, hypothesis
 from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS
-from heartfit.discovery.sphere_model.nominal_heart import ADULT
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, WITH_RIGHT, perturb
 from heartfit.discovery.sphere_model.recording import Recording, Samples
 from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.mechanisms.catheter_offset import CatheterOffset
@@ -114,3 +114,13 @@ def test_a_heart_whose_responses_cannot_be_measured_has_no_neighbours(monkeypatc
 
     monkeypatch.setattr(forward_model, "Neighbours", fails)
     assert SphereForwardModel(ADULT, TIMES).near(CENTRE, ()) is None
+
+
+@pytest.mark.parametrize("nominal", [ADULT, WITH_RIGHT], ids=["left", "both"])
+def test_a_heart_near_another_is_the_one_from_the_nominal_heart(nominal):
+    rng = np.random.default_rng(5)
+    x = 0.7 * rng.standard_normal(len(nominal.free))
+    centre = perturb(nominal, x)
+    for shift in np.diag(np.full(x.size, 0.02)):
+        near, anew = perturb(nominal, x + shift, centre.heart), perturb(nominal, x + shift)
+        assert near == anew != centre

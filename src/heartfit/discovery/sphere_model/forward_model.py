@@ -38,11 +38,13 @@ class SphereForwardModel:
     """Predictions of curves at their ``times`` [s after the trigger], by name.
 
     neighbours: hearts whose beats are simulated from that of their centre; None where every beat starts relaxed.
+    centre: the heart of that centre without the effects, whose equal parts are kept.
     """
 
     nominal: NominalHeart
     times: Mapping[str, Floats]
     neighbours: Neighbours | None = None
+    centre: Heart | None = None
     _cycles: "OrderedDict[bytes, LimitCycle | None]" = field(default_factory=OrderedDict)
     _counts: Counter[str] = field(default_factory=Counter)
 
@@ -72,7 +74,7 @@ class SphereForwardModel:
     def simulate(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Heart, Beat] | None:
         """The heart at the coordinates x (b,) and its beat; None where the simulation fails."""
         try:
-            nominal = _amend(self.nominal, x, effects)
+            nominal = self._amend(x, effects)
             cycle = self._limit_cycle(nominal, x, effects)
         except ValueError:  # coordinates outside the range of a parameter
             return None
@@ -85,13 +87,20 @@ class SphereForwardModel:
 
         None where that heart has no limit cycle, or one that its neighbours do not start from.
         """
-        cycle = self._limit_cycle(_amend(self.nominal, x, effects), x, effects)
+        cycle = self._limit_cycle(self._amend(x, effects), x, effects)
         if cycle is None or cycle.heart.atria is not None:
             return None
         try:
-            return replace(self, neighbours=Neighbours(cycle, NUMERICS), _cycles=OrderedDict())
+            neighbours = Neighbours(cycle, NUMERICS)
         except StepFailed:
             return None
+        centre = perturb(self.nominal, x).heart
+        return replace(self, neighbours=neighbours, centre=centre, _cycles=OrderedDict())
+
+    def _amend(self, x: Floats, effects: Sequence[Mechanism]) -> NominalHeart:
+        """The nominal heart at the coordinates x (b,), with these effects."""
+        perturbed = perturb(self.nominal, x, self.centre)
+        return replace(perturbed, heart=reduce(add, effects, perturbed.heart))
 
     def _limit_cycle(
         self, nominal: NominalHeart, x: Floats, effects: Sequence[Mechanism]
@@ -106,12 +115,6 @@ class SphereForwardModel:
         if len(self._cycles) > KEPT_CYCLES:
             self._cycles.popitem(last=False)
         return self._cycles[key]
-
-
-def _amend(nominal: NominalHeart, x: Floats, effects: Sequence[Mechanism]) -> NominalHeart:
-    """The nominal heart at the coordinates x (b,), with these effects."""
-    perturbed = perturb(nominal, x)
-    return replace(perturbed, heart=reduce(add, effects, perturbed.heart))
 
 
 def observe_curve(beat: Beat, heart: Heart, name: str, times: Floats) -> Floats:

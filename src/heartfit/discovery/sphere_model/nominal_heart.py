@@ -13,8 +13,9 @@ pressures of the atria both sides share the muscle and its control, and nothing 
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from math import sqrt
+from operator import add
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.free_parameters import (
@@ -211,25 +212,26 @@ WITH_RIGHT = replace(
 mean pressure of the pulmonary artery 1.8 kPa (13 mmHg; 14 in people, Kovacs et al. 2009)."""
 
 
-def perturb(nominal: NominalHeart, x: Floats) -> NominalHeart:
-    """The nominal heart at the coordinates x (d,), d up to the number of free parameters."""
+def perturb(nominal: NominalHeart, x: Floats, near: Heart | None = None) -> NominalHeart:
+    """The nominal heart at the coordinates x (d,), d up to the number of free parameters.
+
+    near: its heart at other coordinates, of which the parts with equal parameters are kept.
+    """
     left, right = x[: len(FREE_PARAMETERS)], x[len(FREE_PARAMETERS) :]
     cavity, spread, *inertances = _factors(nominal, SPHERE_PARAMETERS, left)
     factors = dict(zip(("mitral", "aortic"), inertances, strict=True))
     changed = _parameters(nominal, HEART_PARAMETERS, left[len(SPHERE_PARAMETERS) :])
+    sensors: tuple[Sensor, ...] = ()
     if nominal.right is not None:
         right_cavity, *inertances, gain = _factors(nominal, RIGHT_SPHERE_PARAMETERS, right)
         factors |= dict(zip(("tricuspid", "pulmonary"), inertances, strict=True))
         changed |= _parameters(nominal, RIGHT_HEART_PARAMETERS, right[len(RIGHT_SPHERE_PARAMETERS) :])
-        nominal = replace(
-            nominal,
-            right=replace(nominal.right, cavity=right_cavity * nominal.right.cavity),
-            heart=nominal.heart + RightVolumeGain(gain),
-        )
+        nominal = replace(nominal, right=replace(nominal.right, cavity=right_cavity * nominal.right.cavity))
+        sensors = (RightVolumeGain(gain),)
     valves = tuple((name, value * factors.get(name, 1.0)) for name, value in nominal.inertia.valves)
     return replace(
         nominal,
-        heart=nominal.heart.with_parameters(changed),
+        heart=reduce(add, sensors, (near or nominal.heart).with_parameters(changed)),
         cavity=cavity * nominal.cavity,
         spread=spread * nominal.spread,
         inertia=replace(nominal.inertia, valves=valves),
