@@ -1,10 +1,12 @@
 """Noise of all regional curves: recovered, covering, without error in phase 0, and refused for too few sequences."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.observation.curve import Curve
 from heartfit.observation.gain_noise import GainNoise
@@ -39,14 +41,20 @@ def pair(rng: np.random.Generator) -> RegionalPair:
         for kind in KINDS
         for name in names_of_kind(kind)
     }
-    values, vectors = np.linalg.eigh(KNOWN.covariance(true))
-    error = vectors @ (np.sqrt(np.maximum(values, 0.0)) * rng.standard_normal(values.size))
-    errors = error.reshape(len(true), -1)
+    errors = {name: error for kind in KINDS for name, error in kind_errors(true, kind, rng).items()}
     registered = {
-        name: replace(curve, values=curve.values + errors[place])
-        for place, (name, curve) in enumerate(KNOWN.expected(true).items())
+        name: replace(curve, values=curve.values + errors[name])
+        for name, curve in KNOWN.expected(true).items()
     }
     return RegionalPair(true, registered)
+
+
+def kind_errors(true: Mapping[str, Curve], kind: str, rng: np.random.Generator) -> dict[str, Floats]:
+    """Errors of the curves of one kind, on which the other kinds have no influence."""
+    curves = {name: true[name] for name in names_of_kind(kind)}
+    values, vectors = np.linalg.eigh(KNOWN.covariance(curves))
+    error = vectors @ (np.sqrt(np.maximum(values, 0.0)) * rng.standard_normal(values.size))
+    return dict(zip(curves, error.reshape(len(curves), -1), strict=True))
 
 
 def pairs(count: int, seed: int = 0) -> list[RegionalPair]:
