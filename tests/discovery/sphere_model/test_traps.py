@@ -95,7 +95,7 @@ def chi_square(judge: FitContext, predicted: Floats) -> float:
 
 
 def test_a_severe_leak_moves_the_baseline_fit_to_where_the_leak_is_not_observable():
-    """Most of its evidence lies where fits from there do not arrive, but those that start from the prior mean do."""
+    """Fits from there miss most of the evidence of the leak; fits from the prior mean do not."""
     recording = recorded(PlantedPlan(312, "single", ("MitralRegurgitation",), 3.0))
     data = search_data(recording)
     model = SphereForwardModel(

@@ -1,4 +1,4 @@
-r"""Limit cycles of hearts near another one, each in three beats or so from there.
+r"""Limit cycles of hearts near another one, each about three beats from there.
 
 A beat maps the state s at its start to B(s) at its end, and shows the curves C(s). From one beat to the next a heart
 remembers little more than z: the pressures of its Windkessels, and a little of the stretches of its walls. So about the
@@ -48,8 +48,8 @@ class Neighbours:
             )
         self._numerics, self._state, self._curves = numerics, centre.state, centre.curves
         run, pressures = SphereRun(centre.heart, numerics), centre.state.sides[PRESSURE]
-        unraised = self._beat_twice(run, np.zeros_like(pressures))
-        moves = [_moves(self._beat_twice(run, rise), unraised) for rise in np.diag(PRESSURE_SIZE * pressures)]
+        own = self._beat_twice(run, np.zeros_like(pressures))
+        moves = [_moves(self._beat_twice(run, rise), own) for rise in np.diag(PRESSURE_SIZE * pressures)]
         starts = [tables for move in moves for tables in move[:-1]]
         ends = [tables for move in moves for tables in move[1:]]
         slow = [_slow(start) - _slow(end) for (start, *_), (end, *_) in zip(starts, ends, strict=True)]
