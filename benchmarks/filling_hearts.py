@@ -7,9 +7,7 @@ drawn as well, from wide distributions; hearts whose indices all lie in their no
 
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import reduce
-from operator import add
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,7 +15,7 @@ from heartfit.calibration.plausible import Limit
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.forward_model import NUMERICS, Candidate
 from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS
-from heartfit.discovery.sphere_model.nominal_heart import ADULT, NominalHeart, perturb
+from heartfit.discovery.sphere_model.nominal_heart import ADULT, perturb
 from heartfit.heart.beat import Beat
 from heartfit.mechanisms.mitral_dynamics import MitralDynamics
 from heartfit.mechanisms.relaxed_friction import RelaxedFriction
@@ -47,11 +45,6 @@ REPEATS = 40
 Indices = Mapping[str, float]
 
 
-def extended(nominal: NominalHeart, mechanisms: Iterable[Mechanism]) -> NominalHeart:
-    """Return the heart with these mechanisms."""
-    return replace(nominal, heart=reduce(add, mechanisms, nominal.heart))
-
-
 def indices(curves: Mapping[str, Curve]) -> dict[str, float]:
     """Filling indices, cavity indices and E/EDV of a beat; raises ValueError where a beat lacks one."""
     known = filling_indices(curves) | cavity_indices(curves)
@@ -64,7 +57,8 @@ def indices(curves: Mapping[str, Curve]) -> dict[str, float]:
 def sphere_curves() -> dict[str, dict[str, Curve]]:
     """Curves of the nominal heart with each set of mechanisms."""
     return {
-        name: beat_curves(extended(ADULT, mechanisms).beat(NUMERICS)) for name, mechanisms in HEARTS.items()
+        name: beat_curves(ADULT.with_mechanisms(mechanisms).beat(NUMERICS))
+        for name, mechanisms in HEARTS.items()
     }
 
 
@@ -76,7 +70,7 @@ def drawn_indices(count: int = DRAWS) -> dict[str, list[Indices | None]]:
 
 def _indices_at(x: Floats, mechanisms: Iterable[Mechanism]) -> Indices | None:
     try:
-        return indices(beat_curves(extended(perturb(ADULT, x), mechanisms).beat(NUMERICS)))
+        return indices(beat_curves(perturb(ADULT, x).with_mechanisms(mechanisms).beat(NUMERICS)))
     except ValueError:
         return None
 
@@ -159,7 +153,7 @@ def _mechanisms(row: Floats) -> tuple[Mechanism, ...]:
 
 def sphere_costs() -> dict[str, float]:
     """CPU time [s] of the nominal heart's way to its limit cycle, alternated between the sets of mechanisms."""
-    hearts = {name: extended(ADULT, mechanisms) for name, mechanisms in HEARTS.items()}
+    hearts = {name: ADULT.with_mechanisms(mechanisms) for name, mechanisms in HEARTS.items()}
     work = {name: lambda heart=heart: heart.beat(NUMERICS) for name, heart in hearts.items()}
     return alternated_costs(work, REPEATS)
 

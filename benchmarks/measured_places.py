@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from benchmarks.filling_hearts import extended
 from benchmarks.measured_table import store_table
 from benchmarks.ventricles import ROOT
 from heartfit.core.errors import InputError
@@ -100,7 +99,7 @@ def fitted_heart(
     volume: Recording, nominal: NominalHeart, added: tuple[Mechanism, ...], named: tuple[str, ...]
 ) -> NominalHeart:
     """Return the heart with mechanisms, the named ones of the size that fits the volume best."""
-    heart = extended(nominal, added)
+    heart = nominal.with_mechanisms(added)
     if not named:
         return heart
     problem = SphereProblem.from_recording(volume, heart)
@@ -113,7 +112,7 @@ def fitted_heart(
     sizes = np.split(
         explained.fit.x[len(problem.model.base) :], np.cumsum([len(one.unknowns) for one in chosen])[:-1]
     )
-    return extended(heart, [one.at(x) for one, x in zip(chosen, sizes, strict=True)])
+    return heart.with_mechanisms(one.at(x) for one, x in zip(chosen, sizes, strict=True))
 
 
 def places_beside(volume: Recording, nominal: NominalHeart) -> ResidualPlaces:

@@ -53,7 +53,7 @@ STRUCTURE_MUTANTS = (
     *changes(
         "discovery/sphere_model/earlier.py",
         EARLIER,
-        ("the functions are forgotten", "heart=_with_places(heart, z), stands_for", "stands_for"),
+        ("the functions are forgotten", "replace(placed, stands_for", "replace(heart, stands_for"),
         (
             "functions keep their course at another rate",
             "place.function.at(times)",

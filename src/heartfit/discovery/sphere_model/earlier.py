@@ -20,8 +20,6 @@ doi:10.1111/1467-9868.00294.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
-from operator import add
 
 import numpy as np
 
@@ -78,8 +76,9 @@ class EarlierHeart:
         )
         blocks = zip(problem.data.blocks, levels, strict=True)
         heart = perturb(problem.model.nominal, x)
+        placed = heart.with_mechanisms(_standardised_places(z, heart.heart.period))
         return cls(
-            replace(heart, heart=_with_places(heart, z), stands_for="change"),
+            replace(placed, stands_for="change"),
             {block.curve: block.noise.levels[level : level + 2] for block, level in blocks},
         )
 
@@ -90,7 +89,7 @@ class EarlierHeart:
             return nominal
         times = _phase_times(nominal.heart, self.nominal.heart, period * np.arange(SAMPLES) / SAMPLES)
         carried = (_carried(place, times, period) for place in _places(nominal.heart))
-        return replace(nominal, heart=reduce(add, carried, nominal.heart))
+        return nominal.with_mechanisms(carried)
 
     def misfit(self, recording: Recording) -> dict[str, float]:
         """Return the root mean square residual of the earlier recording over the noise, by curve."""
@@ -154,10 +153,6 @@ def _hypothesis(model: SphereForwardModel) -> Hypothesis:
         return x[:BASE], _standardised_places(x[BASE:], period)
 
     return model_hypothesis(model, (), functions, split)
-
-
-def _with_places(nominal: NominalHeart, z: Floats) -> Heart:
-    return reduce(add, _standardised_places(z, nominal.heart.period), nominal.heart)
 
 
 def _standardised_places(z: Floats, period: float) -> Sequence[FunctionOfTime]:

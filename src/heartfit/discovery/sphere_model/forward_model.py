@@ -3,8 +3,7 @@
 from collections import Counter, OrderedDict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache, reduce
-from operator import add
+from functools import cached_property, lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -74,7 +73,7 @@ class SphereForwardModel:
     def simulate(self, x: Floats, effects: Sequence[Mechanism] = ()) -> tuple[Heart, Beat] | None:
         """The heart at the coordinates x (b,) and its beat; None where the simulation fails."""
         try:
-            nominal = self._amend(x, effects)
+            nominal = self._perturb(x).with_mechanisms(effects)
             cycle = self._limit_cycle(nominal, x, effects)
         except ValueError:  # coordinates outside the range of a parameter
             return None
@@ -87,20 +86,18 @@ class SphereForwardModel:
 
         None where that heart has no limit cycle, or one that its neighbours do not start from.
         """
-        cycle = self._limit_cycle(self._amend(x, effects), x, effects)
+        perturbed = self._perturb(x)
+        cycle = self._limit_cycle(perturbed.with_mechanisms(effects), x, effects)
         if cycle is None or cycle.heart.atria is not None:
             return None
         try:
             neighbours = Neighbours(cycle, NUMERICS)
         except StepFailed:
             return None
-        centre = perturb(self.nominal, x).heart
-        return replace(self, neighbours=neighbours, centre=centre, _cycles=OrderedDict())
+        return replace(self, neighbours=neighbours, centre=perturbed.heart, _cycles=OrderedDict())
 
-    def _amend(self, x: Floats, effects: Sequence[Mechanism]) -> NominalHeart:
-        """The nominal heart at the coordinates x (b,), with these effects."""
-        perturbed = perturb(self.nominal, x, self.centre)
-        return replace(perturbed, heart=reduce(add, effects, perturbed.heart))
+    def _perturb(self, x: Floats) -> NominalHeart:
+        return perturb(self.nominal, x, self.centre)
 
     def _limit_cycle(
         self, nominal: NominalHeart, x: Floats, effects: Sequence[Mechanism]

@@ -11,7 +11,7 @@ Where the volume of the right ventricle is searched, too, a second sphere adds t
 pressures of the atria both sides share the muscle and its control, and nothing else.
 """
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from math import sqrt
@@ -38,7 +38,7 @@ from heartfit.heart.sphere.body import HEALTHY_ACTIVATION, Sphere
 from heartfit.heart.sphere.heart import Inertia, SphericalHeart
 from heartfit.heart.sphere.neighbours import Neighbours
 from heartfit.heart.sphere.simulation import LimitCycle, SphereRun, simulate_spherical
-from heartfit.roles import Sensor
+from heartfit.roles import Mechanism, Sensor
 
 INVERSE_TO_SIZE = (
     "circulation.systemic.R_p",
@@ -105,6 +105,10 @@ class NominalHeart:
     def values(self) -> dict[str, float]:
         """Parameters of the heart by path [SI]."""
         return self.heart.parameters()
+
+    def with_mechanisms(self, mechanisms: Iterable[Mechanism]) -> "NominalHeart":
+        """Return the heart with these mechanisms, in place of those of their kinds."""
+        return replace(self, heart=reduce(add, mechanisms, self.heart))
 
     def beat(self, numerics: Numerics) -> Beat:
         """Simulate the beat of the sphere, or of both."""
