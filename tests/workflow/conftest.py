@@ -99,14 +99,21 @@ def workflow(tmp_path, server):
 
 
 @pytest.fixture(scope="module")
-def drawn(tmp_path_factory):
-    """Workflow with an own library after drawing the sigma points of one case, and these points."""
+def drawing(tmp_path_factory):
+    """Workflow with an own library after drawing the sigma points of one case, these points, and the run."""
     folder = copied(tmp_path_factory.mktemp("drawn") / "project", *PARTS, "src")
     with ForkServer(folder / "src") as server:
         workflow = Workflow(folder, server)
         points = "results/volunteer1/physical/calibration/points.json"
-        assert workflow.snakemake("--cores", "1", points).returncode == 0
-        yield workflow, points
+        run = workflow.snakemake("--cores", "1", points)
+        assert run.returncode == 0
+        yield workflow, points, run
+
+
+@pytest.fixture(scope="module")
+def drawn(drawing):
+    """The same workflow and points."""
+    return drawing[:2]
 
 
 @pytest.fixture(scope="module")

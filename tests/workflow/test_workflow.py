@@ -139,6 +139,13 @@ def test_without_the_measured_heart_the_virtual_cases_run_and_one_line_reports_i
     assert "measured_heart" in lines[0]
 
 
+def test_a_run_says_at_its_end_too_what_it_left_out(drawing):
+    _, _, run = drawing
+    start, end = (place for place, line in enumerate(run.stdout.splitlines()) if "patient1 left out" in line)
+    (last_step,) = (place for place, line in enumerate(run.stdout.splitlines()) if "(100%) done" in line)
+    assert start < last_step < end
+
+
 def test_numbers_are_checked_on_request(workflow, planned):
     assert "check_numbers" not in job_counts(planned.stdout)
     run = workflow.snakemake("-n", "check_numbers", "--configfile", "config/smoke.yaml")
