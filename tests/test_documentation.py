@@ -60,7 +60,9 @@ def commands_of_study(text):
     """Commands of study.py that start a line of a text, `run` where none is named."""
     return {
         command or "run"
-        for command in re.findall(r"^ *(?:step )?(?:in_bare_clone )?python3 study\.py ?(\w*)", text, re.MULTILINE)
+        for command in re.findall(
+            r"^ *(?:step )?(?:in_bare_clone )?python3 study\.py ?(\w*)", text, re.MULTILINE
+        )
     }
 
 
