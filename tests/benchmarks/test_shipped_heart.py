@@ -1,5 +1,6 @@
 """The shipped heart is the published one: its files by their checksums, its voxels wherever a study reads them."""
 
+import gzip
 import hashlib
 from pathlib import Path
 
@@ -71,11 +72,11 @@ def test_the_shipped_heart_is_remade(
     tmp_path: Path, measured_heart_folder: Path, published_heart_folder: Path
 ) -> None:
     ship(published_heart_folder, tmp_path)
-    remade, shipped = (read_images(folder / "cine" / "sax") for folder in (tmp_path, measured_heart_folder))
-    assert np.array_equal(remade.voxels, shipped.voxels)
     written = {file.relative_to(tmp_path) for file in files_in(tmp_path)}
-    for name in (name for name in written if name.suffix != ".gz"):
-        assert (tmp_path / name).read_bytes() == (measured_heart_folder / name).read_bytes(), name
+    for name in written:  # compressed files of another zlib may differ
+        here, there = ((folder / name).read_bytes() for folder in (tmp_path, measured_heart_folder))
+        unpack = gzip.decompress if name.suffix == ".gz" else bytes
+        assert unpack(here) == unpack(there), name
     kept = {file.relative_to(measured_heart_folder) for file in files_in(measured_heart_folder)}
     assert {name.as_posix() for name in kept - written} == {"README.md", "published.tsv", "cine/timing.json"}
 
