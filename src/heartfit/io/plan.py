@@ -126,10 +126,8 @@ def _left_out(
 ) -> str:
     absent = [name for name in listed if name not in cases]
     if absent:
-        return (
-            f"{', '.join(absent)} left out: no data; state them under `sources`, "
-            f"or a folder as measured_heart, which is {study.measured_heart}"
-        )
+        folder = study.measured_heart or "a folder `measured_heart`"
+        return f"{', '.join(absent)} left out: no data under `sources` nor in {folder}; state them"
     unseen = [name for name, source in sources.items() if source.images is None]
     if unseen:
         return f"registration of images left out: no images of {', '.join(unseen)}, nor a short-axis cine cine/sax*"
