@@ -48,8 +48,12 @@ def evidences(
         (evidences(12.0, 9.0), Decision("named", A)),
         (evidences(12.0, pair=18.9), Decision("named", A)),
         (evidences(12.0, pair=19.0), Decision("two", AB)),
-        (evidences(12.0, pair=19.0, left=4.0), Decision("unknown")),
-        (evidences(12.0, discrepancy=30.0, on_top=30.0, pair=50.0), Decision("two", AB)),
+        (evidences(12.0, discrepancy=17.0, pair=19.0), Decision("two", AB)),
+        (evidences(12.0, discrepancy=17.1, pair=19.0), Decision("unknown")),
+        (evidences(12.0, discrepancy=17.0, pair=19.0, left=4.0), Decision("two", AB)),
+        (evidences(12.0, discrepancy=17.0, pair=19.0, left=4.1), Decision("unknown")),
+        (evidences(12.0, discrepancy=90.0, pair=100.0, left=35.0), Decision("two", AB)),
+        (evidences(12.0, discrepancy=90.1, pair=100.0, left=35.0), Decision("unknown")),
     ],
 )
 def test_decision_rules(evidence, expected) -> None:
