@@ -152,13 +152,39 @@ def leading_effects(evidences: Evidences, rules: Rules = DEFAULT_RULES) -> Effec
     return pair if pair and evidences.pairs[pair] - best >= rules.second else evidences.single
 
 
+@dataclass(frozen=True)
+class BesideProcess:
+    """An explanation beside the Gaussian process, in ln evidence.
+
+    gain, over: over the baseline and over the process alone; left: gain of a process on top of it; required, allowed:
+    the least ``over`` and the largest ``left`` of an explanation that is named.
+    """
+
+    gain: float
+    over: float
+    left: float
+    required: float
+    allowed: float
+
+    @classmethod
+    def of(cls, evidences: Evidences, effects: Effects, rules: Rules = DEFAULT_RULES) -> "BesideProcess":
+        """Compare these effects, the best single one or the best pair, with the process."""
+        best = evidences.log_evidence(effects)
+        gain, over = best - evidences.baseline, best - evidences.discrepancy
+        share = rules.strong_share * gain if over >= rules.strong else 0.0
+        left, allowed = evidences.on_top[effects] - best, max(rules.on_top, share)
+        return cls(gain, over, left, rules.over_discrepancy, allowed)
+
+    @property
+    def better(self) -> bool:
+        """True if the explanation is better than the process by enough, and leaves little for it."""
+        return self.over >= self.required and self.left <= self.allowed
+
+
 def is_explained(evidences: Evidences, effects: Effects, rules: Rules = DEFAULT_RULES) -> bool:
     """True if these effects, the best single one or the best pair, explain the data."""
-    best = evidences.log_evidence(effects)
-    gain, margin = best - evidences.baseline, best - evidences.discrepancy
-    left = evidences.on_top[effects] - best
-    small = left <= rules.on_top or (margin >= rules.strong and left <= rules.strong_share * gain)
-    return gain >= rules.detected and margin >= rules.over_discrepancy and small
+    beside = BesideProcess.of(evidences, effects, rules)
+    return beside.gain >= rules.detected and beside.better
 
 
 def _alternatives(table: Mapping[Effects, float], best: Effects, rules: Rules) -> tuple[Effects, ...]:
