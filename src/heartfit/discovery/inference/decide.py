@@ -171,9 +171,9 @@ class BesideProcess:
         """Compare these effects, the best single one or the best pair, with the process."""
         best = evidences.log_evidence(effects)
         gain, over = best - evidences.baseline, best - evidences.discrepancy
+        left = evidences.on_top[effects] - best
         share = rules.strong_share * gain if over >= rules.strong else 0.0
-        left, allowed = evidences.on_top[effects] - best, max(rules.on_top, share)
-        return cls(gain, over, left, rules.over_discrepancy, allowed)
+        return cls(gain, over, left, rules.over_discrepancy, max(rules.on_top, share))
 
     @property
     def better(self) -> bool:
