@@ -147,7 +147,9 @@ def searched(plan: PlantedPlan) -> SearchedHeart:
     evidences = case.findings.evidences
     best = [effects for effects in (evidences.single, evidences.pair) if effects]
     tests = {effects: predict_explanation(case, effects, {}) for effects in best}
-    helps = {effects: all(test and test.helps() for test in made) for effects, made in tests.items()}
+    helps = {
+        effects: all(test and test.helps() for test in predictions) for effects, predictions in tests.items()
+    }
     return SearchedHeart(plan, evidences, helps)
 
 

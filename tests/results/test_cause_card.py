@@ -146,11 +146,11 @@ def test_a_curve_outside_the_search_is_listed_with_the_reason():
         assert [line for line in listed if CURVES[curve] in line and reason in line]
 
 
-SHORT, LEFT = BesideProcess(22.7, -1.4, 1.0, 2.0, 4.0), BesideProcess(22.7, 12.0, 8.5, 2.0, 7.9)
+BELOW, LEFT = BesideProcess(22.7, -1.4, 1.0, 2.0, 4.0), BesideProcess(22.7, 12.0, 8.5, 2.0, 7.9)
 
 
 @pytest.mark.parametrize(
-    ("beside", "numbers"), [(SHORT, {22.7, 24.1, 2.0, 1.4}), (LEFT, {8.5, 7.9})], ids=["below", "left"]
+    ("beside", "numbers"), [(BELOW, {22.7, 24.1, 2.0, 1.4}), (LEFT, {8.5, 7.9})], ids=["below", "left"]
 )
 @pytest.mark.parametrize("verdict", ["unknown", "insufficient"])
 def test_a_candidate_is_shown_with_the_rule_that_it_breaks_and_not_as_a_name(verdict, beside, numbers):
@@ -158,7 +158,7 @@ def test_a_candidate_is_shown_with_the_rule_that_it_breaks_and_not_as_a_name(ver
     sentence = candidate_sentence(case.candidate)
     sizes = " ".join(map(mechanism_with_size, (LEAK, DELAY)))
     assert set(numbers_in(sentence)) - set(numbers_in(sizes)) == numbers
-    assert ("below" in sentence) == (beside is SHORT)
+    assert ("below" in sentence) == (beside is BELOW)
     named = markdown_card(case, "case 1").split("Candidate, not named")
     assert len(named) == 2, "stated once"
     assert spaced_name(DELAY.name) not in named[0]

@@ -171,9 +171,9 @@ def diagnose(arguments: argparse.Namespace) -> int:
         )
     code = fingerprint(Path(diagnosis.__file__))
     write_cause_card(arguments.output, render_cause(conclusion, arguments.measured.stem), code)
-    said = [verdict_sentence(conclusion)]
-    said += [candidate_sentence(conclusion.candidate)] if conclusion.candidate else []
-    print(f"{' '.join(said)} See {arguments.output / 'cause.md'} and {arguments.output / 'cause.png'}.")
+    sentences = [verdict_sentence(conclusion)]
+    sentences += [candidate_sentence(conclusion.candidate)] if conclusion.candidate else []
+    print(f"{' '.join(sentences)} See {arguments.output / 'cause.md'} and {arguments.output / 'cause.png'}.")
     if arguments.write_mechanism:
         write_text(arguments.write_mechanism, mechanism_file(conclusion, arguments.measured.stem))
     return 0

@@ -96,13 +96,13 @@ def searches(draw: some.DrawFn) -> Search:
         draw(some.sampled_from(SEARCH_RULES)),
     )
     singles = {(name,): float(rng.normal(4.0, 8.0)) for name in NAMES}
-    found = Evidences(0.0, singles, float(rng.normal(6.0, 8.0)), {}, {})
+    fitted = Evidences(0.0, singles, float(rng.normal(6.0, 8.0)), {}, {})
     best = max(singles.values())
-    pairs = {pair: best + float(rng.normal(6.0, 6.0)) for pair in PAIRS} if is_detected(found, rules) else {}
-    found = replace(found, pairs=pairs)
-    explained = [effects for effects in (found.single, found.pair) if effects]
-    left = {effects: found.log_evidence(effects) + float(rng.uniform(-3.0, 10.0)) for effects in explained}
-    return replace(found, on_top=left), rules
+    pairs = {pair: best + float(rng.normal(6.0, 6.0)) for pair in PAIRS} if is_detected(fitted, rules) else {}
+    fitted = replace(fitted, pairs=pairs)
+    explained = [effects for effects in (fitted.single, fitted.pair) if effects]
+    left = {effects: fitted.log_evidence(effects) + float(rng.uniform(-3.0, 10.0)) for effects in explained}
+    return replace(fitted, on_top=left), rules
 
 
 def is_named(evidences: Evidences, rules: Rules) -> bool:
@@ -145,10 +145,10 @@ def test_the_order_of_names_and_the_unit_of_the_data_decide_nothing(search: Sear
     def renamed(effects: Effects) -> Effects:
         return tuple(new[name] for name in effects)
 
-    def moved(table: Mapping[Effects, float]) -> dict[Effects, float]:
+    def rescaled(table: Mapping[Effects, float]) -> dict[Effects, float]:
         return {renamed(effects): value + 64.0 for effects, value in table.items()}
 
-    singles, on_top, pairs = map(moved, (evidences.singles, evidences.on_top, evidences.pairs))
+    singles, on_top, pairs = map(rescaled, (evidences.singles, evidences.on_top, evidences.pairs))
     other = decide(Evidences(64.0, singles, evidences.discrepancy + 64.0, on_top, pairs), rules)
     before = decide(evidences, rules)
     assert (other.verdict, other.effects) == (before.verdict, renamed(before.effects))
