@@ -1,8 +1,8 @@
-"""Rules for a pair beside the Gaussian process: python -m benchmarks.named_pairs choose, then score
+"""Rules for a pair beside the Gaussian process: python -m benchmarks.named_pairs choose [N], then score [N]
 
 Hearts of the benchmark's generator on seeds that nothing else uses. Each is searched once by half of its samples; its
 evidences are kept, so that every rule decides on the same ones, and the other half judges the name. Stores
-docs/measured/named_pairs_*.tsv. A quarter of an hour of a core, and half of that.
+docs/measured/named_pairs_*.tsv after each of the first N. A quarter of a minute of a core for each heart.
 
 The rule was to be chosen so: of those that give no more wrong names than the rule for single effects alone did, the one
 with the most right names; of equals the one with the larger margin. A name is wrong if a sound heart or an effect from
@@ -17,7 +17,7 @@ from math import inf
 import numpy as np
 import pandas as pd
 
-from benchmarks.in_turn import spread_evenly
+from benchmarks.in_turn import searched_in_turn, spread_evenly
 from benchmarks.measured_table import store_table
 from heartfit.discovery.inference.decide import (
     DEFAULT_RULES,
@@ -206,19 +206,22 @@ def _rates(name: str, rule: Candidate, hearts: Sequence[SearchedHeart]) -> dict[
 
 
 def main(arguments: list[str]) -> int:
-    """Search the hearts of a purpose and store their tables."""
-    if len(arguments) != 1 or arguments[0] not in HEARTS:
+    """Search the first hearts of a purpose and store their tables."""
+    purpose, *first = arguments or [""]
+    if purpose not in HEARTS or len(first) > 1:
         sys.stderr.write(f"{__doc__}\n")
         return 2
-    (purpose,) = arguments
-    hearts = []
-    for plan in HEARTS[purpose].plans():
-        hearts.append(searched(plan))
-        sys.stdout.write(f"{' | '.join(hearts_table(hearts[-1:]).iloc[0])}\n")
-        sys.stdout.flush()
-    store_table(f"named_pairs_{purpose}_hearts", hearts_table(hearts), f"benchmarks.named_pairs {purpose}")
-    store_table(f"named_pairs_{purpose}", rates_table(hearts), f"benchmarks.named_pairs {purpose}")
+    plans = HEARTS[purpose].plans()[: int(first[0]) if first else None]
+    for hearts in searched_in_turn(searched, plans, hearts_table):
+        store(purpose, hearts)
     return 0
+
+
+def store(purpose: str, hearts: Sequence[SearchedHeart]) -> None:
+    """Write the tables of the first hearts of a purpose."""
+    made_by = f"benchmarks.named_pairs {purpose} {len(hearts)}"
+    store_table(f"named_pairs_{purpose}_hearts", hearts_table(hearts), made_by)
+    store_table(f"named_pairs_{purpose}", rates_table(hearts), made_by)
 
 
 if __name__ == "__main__":
