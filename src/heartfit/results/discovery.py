@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from heartfit.discovery.sphere_model.cause import Cause, Departure, Diagnosis, Gain, departures
-from heartfit.results.cause_card import CURVES, direction_and_phase, spaced_name
+from heartfit.results.cause_card import CURVES, candidate_names, direction_and_phase, spaced_name
 from heartfit.results.errors import root_mean_square
 from heartfit.results.text import (
     AMPLITUDE_UNITS,
@@ -130,7 +130,10 @@ def _amplitude(value: float, unit: str) -> str:
 def _verdict(diagnosis: Diagnosis) -> str:
     names = " and ".join(spaced_name(cause.name) for cause in diagnosis.mechanisms)
     withdrawn = ", ".join(map(spaced_name, diagnosis.withdrawn))
-    return f"{diagnosis.verdict}{f': {names}' if names else ''}{f' (withdrawn: {withdrawn})' if withdrawn else ''}"
+    remarks = [f"withdrawn: {withdrawn}"] if withdrawn else []
+    remarks += [f"candidate, not named: {candidate_names(diagnosis)}"] if diagnosis.candidate else []
+    remark = f" ({'; '.join(remarks)})" if remarks else ""
+    return f"{diagnosis.verdict}{f': {names}' if names else ''}{remark}"
 
 
 def _departure(departure: Departure) -> Entry:
