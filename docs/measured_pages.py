@@ -67,9 +67,7 @@ PRINTED_OF_NORMAL = {
     "normal_patients": "specificity_claims",
 }
 """The same for the second cohort."""
-OF_VOLUNTEERS = (
-    "of the volunteers$|over that after calibration$|healthy mean$|^(?:mean|largest) error of [Vq]"
-)
+OF_VOLUNTEERS = "of the volunteers$|over that after calibration$|^(?:mean|largest) error of [Vq]"
 """Quantities of the claims that the second cohort decides."""
 FRACTION = re.compile(r"\d+\.\d+")
 """Numbers that a table stores with all digits and a page prints with two decimals."""
