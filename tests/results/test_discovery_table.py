@@ -68,7 +68,11 @@ def test_a_measured_heart_has_neither_answer_nor_bias() -> None:
     [
         ("named", {"MitralRegurgitation": 12.0}, (12.0, "mitral regurgitation")),
         ("group", {"SlowRelaxation": 9.0, "MitralRegurgitation": 11.0}, (11.0, "mitral regurgitation")),
-        ("two", dict.fromkeys(("SlowRelaxation", "MitralRegurgitation"), 23.2), (23.2, "slow relaxation and")),
+        (
+            "two",
+            dict.fromkeys(("SlowRelaxation", "MitralRegurgitation"), 23.2),
+            (23.2, "slow relaxation and"),
+        ),
         ("unknown", {}, (24.3, "a Gaussian process")),
     ],
 )
