@@ -24,6 +24,7 @@ from heartfit.discovery.sphere_model.cause import (
     PlaceFunction,
     Refitted,
     Trace,
+    UnnamedCandidate,
     departures,
 )
 from heartfit.discovery.sphere_model.strokes import Strokes
@@ -89,6 +90,7 @@ class CauseFile:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
+    candidate: UnnamedCandidate | None = None
     made_by: str = ""
 
     @classmethod
