@@ -17,6 +17,7 @@ from heartfit.discovery.sphere_model.cause import (
     ActingPlace,
     Cause,
     Change,
+    CurveFit,
     Departure,
     Diagnosis,
     FittedModel,
@@ -89,6 +90,7 @@ class CauseFile:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
+    fits: tuple[CurveFit, ...] = ()
     made_by: str = ""
 
     @classmethod

@@ -12,7 +12,7 @@ from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.model import ObservedBeat
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Refitted, Trace
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain, Refitted, Trace
 from heartfit.discovery.sphere_model.held_out import error_ratio
 from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.geometry.mesh import Motion, VentricularMesh
@@ -90,10 +90,7 @@ def curve_gains(
     period = case.curves["lv_volume"].period
     for name, held in case.split.held.items():
         before, after = (held.values - curves[name](held.times) for curves in (baseline, extended))
-        fitted_too = name in case.split.fitted
-        yield _gain(
-            name, HELD_OUT_NOTES[name] if fitted_too else "never fitted", held.times / period, before, after
-        )
+        yield _gain(name, HELD_OUT_NOTES[name], held.times / period, before, after)
 
 
 def _gain(name: str, on: str, phase: Floats, before: Floats, after: Floats) -> Gain:
@@ -109,7 +106,8 @@ Z_95 = 1.96
 class TriedExtension:
     """Refits of the baseline and of an extension; kept: effects that helped; simulations: beats of all refits.
 
-    final: coordinates of the extension given both halves of the samples, None where they are not known.
+    final: coordinates of the extension given both halves of the samples, None where they are not known; fits: of the
+    curves about the extension.
     """
 
     extension: Extension
@@ -118,6 +116,7 @@ class TriedExtension:
     kept: tuple[str, ...]
     simulations: int
     final: Gaussian | None = None
+    fits: tuple[CurveFit, ...] = ()
 
     def refitted(self, ranking: Mapping[str, float]) -> Refitted:
         """Return the result in the form of a diagnosis; ranking: evidence of each mechanism in the search."""
@@ -129,6 +128,7 @@ class TriedExtension:
             self.simulations,
             self.baseline.converged and self.extended.converged,
             tuple(causes_of(self.extension, self.final, ranking)) if self.final else (),
+            self.fits,
         )
 
 
@@ -152,8 +152,13 @@ def propose_extensions(diagnosis: Diagnosis, base: Setting, both: bool = False) 
     return [Extension.from_names(base, best[0]).with_free_parameters(both)]
 
 
-def apply_proof(diagnosis: Diagnosis, tried: TriedExtension, proof: Proof) -> Diagnosis:
-    """Return the diagnosis with amplitudes and gains in three dimensions, without mechanisms that do not help."""
+def apply_proof(
+    diagnosis: Diagnosis, tried: TriedExtension, proof: Proof, fits: Sequence[CurveFit] = ()
+) -> Diagnosis:
+    """Return the diagnosis with amplitudes and gains in three dimensions, without mechanisms that do not help.
+
+    fits: of the curves about the model without an extension.
+    """
     refitted = tried.refitted(diagnosis.ranking) if tried.extension.added else None
     causes = {cause.name: cause for cause in refitted.extension} if refitted else {}
     known = replace(
@@ -163,6 +168,7 @@ def apply_proof(diagnosis: Diagnosis, tried: TriedExtension, proof: Proof) -> Di
         simulations=diagnosis.simulations + tried.simulations,
         traces=proof.traces(),
         refitted=refitted,
+        fits=tuple(fits),
     )
     return withdraw_unhelpful(known, tried.kept)
 
