@@ -25,6 +25,7 @@ from heartfit.discovery.sphere_model.cause import (
     PlaceFunction,
     Refitted,
     Trace,
+    UnnamedCandidate,
     departures,
 )
 from heartfit.discovery.sphere_model.strokes import Strokes
@@ -91,6 +92,7 @@ class CauseFile:
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
     fits: tuple[CurveFit, ...] = ()
+    candidate: UnnamedCandidate | None = None
     made_by: str = ""
 
     @classmethod
