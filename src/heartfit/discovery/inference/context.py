@@ -24,7 +24,14 @@ from scipy.special import logsumexp
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Block, Data, Whitening
-from heartfit.discovery.inference.evidence import SIMULATION_LIMIT, Explanation, Fit, fit, linear_posterior
+from heartfit.discovery.inference.evidence import (
+    SIMULATION_LIMIT,
+    Explanation,
+    Fit,
+    fit,
+    linear_posterior,
+    settle,
+)
 from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
 
 DISCREPANCY_SIZES = (0.4, 1.0, 2.5)
@@ -113,6 +120,13 @@ class FitContext:
         fitted = fit(model, self.data.values, self.whitening, start, slopes, trusted, target, limit)
         self.simulations += model.runs
         return None if fitted is None else Explanation.from_fit(fitted, self.data.values, self.whitening)
+
+    def settle(self, explanation: Explanation) -> Explanation:
+        """The explanation at the settled end of its fit; see :func:`settle`."""
+        model = CountedHypothesis(explanation.fit.hypothesis)
+        settled = settle(model, self.data.values, self.whitening, explanation.fit)
+        self.simulations += model.runs
+        return Explanation.from_fit(settled, self.data.values, self.whitening)
 
     def simulate(self, hypothesis: Hypothesis, x: Floats) -> Floats | None:
         """Prediction (n,) of the hypothesis at x (d,); None where the simulation fails."""

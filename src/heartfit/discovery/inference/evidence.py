@@ -19,7 +19,7 @@ bound cuts to its tail. Z is averaged over the levels of the noise. Two one-side
 References: Kass and Raftery 1995, doi:10.1080/01621459.1995.10476572.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import reduce
 
 import numpy as np
@@ -27,7 +27,7 @@ from scipy.special import log_ndtr, logsumexp, ndtr, ndtri
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Whitening
-from heartfit.discovery.inference.descent import EXPENSIVE, Descent, InverseProblem, Schedule
+from heartfit.discovery.inference.descent import EXPENSIVE, LONGEST_STEP, Descent, InverseProblem, Schedule
 from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
 
 SIMULATION_LIMIT = 600
@@ -48,7 +48,10 @@ SCHEDULE = Schedule(
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """The end of one minimisation: x (d,), predicted (n,), jacobian (n, d) and the objective."""
+    """The end of one minimisation: x (d,), predicted (n,), jacobian (n, d) and the objective.
+
+    kink: of a settled fit, the slope (d,) of the objective that no step could follow; empty of another one.
+    """
 
     hypothesis: Hypothesis
     x: Floats
@@ -56,6 +59,12 @@ class Fit:
     jacobian: Floats
     objective: float
     converged: bool
+    kink: Floats = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def settled(self) -> bool:
+        """True if the fit ended with mean slopes."""
+        return self.kink.size > 0
 
     @classmethod
     def at_end(cls, hypothesis: Hypothesis, descent: Descent) -> "Fit":
@@ -100,6 +109,33 @@ def fit(
     return Fit.at_end(model.hypothesis, descent)
 
 
+SETTLED_REACH = 0.1
+"""Range of mean slopes to either side of a settled fit [prior standard deviations]."""
+SETTLED = Schedule(0.02, 0.1, longest_step=LONGEST_STEP, jacobian_refresh=1, active_set=True)
+"""Steps of a settling fit, which are short: every one has slopes of its own."""
+SETTLING_LIMIT = 250
+"""Simulations after which a fit counts as settled: four or five Jacobians."""
+
+
+def settle(model: CountedHypothesis, values: Floats, whitening: Whitening, fit: Fit) -> Fit:
+    """The fit continued with mean slopes, which do not hang on the side of a kink on which it stopped.
+
+    Where no step leads down any more, the slope that is left is a kink's, and no gain is expected of it.
+    """
+
+    def differences(x: Floats, predicted: Floats, _old: Floats) -> Floats:
+        return model.mean_slopes(x, predicted, SETTLED_REACH)
+
+    problem = InverseProblem(model, values, whitening, fit.hypothesis.lower)
+    slopes = differences(fit.x, fit.predicted, fit.jacobian)
+    descent = Descent(problem, SETTLED, fit.x, fit.predicted, slopes, differences)
+    while not descent.ended and model.runs < SETTLING_LIMIT:
+        descent.advance()
+    slope, _ = problem.normal(descent.x, descent.predicted, descent.jacobian)
+    pushed = (descent.x <= problem.lower) & (slope < 0.0)
+    return replace(Fit.at_end(fit.hypothesis, descent), kink=np.where(pushed, 0.0, slope))
+
+
 def fit_from_slopes(
     model: CountedHypothesis,
     values: Floats,
@@ -129,12 +165,20 @@ class LaplacePosterior:
 
 
 def posterior(
-    whitening: Whitening, x: Floats, residual: Floats, jacobian: Floats, one_sided: np.ndarray
+    whitening: Whitening,
+    x: Floats,
+    residual: Floats,
+    jacobian: Floats,
+    one_sided: np.ndarray,
+    kink: Floats | float = 0.0,
 ) -> LaplacePosterior:
-    """The posterior of the model that is linear about x: coordinates (d,), residual (n,), Jacobian (n, d)."""
+    """The posterior of the model that is linear about x: coordinates (d,), residual (n,), Jacobian (n, d).
+
+    kink (d,): a slope that x has but the model about it has not.
+    """
     gram, peak = _level_combinations(whitening, residual, jacobian)
     covariance = np.asarray(np.linalg.inv(np.eye(x.size) + gram[:, 1:, 1:]), np.float64)
-    slope = gram[:, 1:, 0] - x
+    slope = gram[:, 1:, 0] - x - kink
     step = np.einsum("cij,cj->ci", covariance, slope)
     log_z = peak - 0.5 * gram[:, 0, 0] - 0.5 * x @ x + 0.5 * np.sum(step * slope, axis=1)
     volume, kept = laplace(x + step, covariance, one_sided)
@@ -219,4 +263,5 @@ class Explanation:
 
 def linear_posterior(fit: Fit, values: Floats, whitening: Whitening) -> LaplacePosterior:
     """The posterior of the model that is linear about the fit, under this noise."""
-    return posterior(whitening, fit.x, values - fit.predicted, fit.jacobian, fit.hypothesis.one_sided)
+    kink = fit.kink if fit.settled else 0.0
+    return posterior(whitening, fit.x, values - fit.predicted, fit.jacobian, fit.hypothesis.one_sided, kink)

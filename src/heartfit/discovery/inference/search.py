@@ -162,14 +162,20 @@ def _refine(context: FitContext, at_mean: Explanation, survey: Survey, rules: Ru
         _refit_from_placements(context, at_mean, single, rules) for single in refitted[: rules.respread]
     ]
     singles = rank([*respread, *refitted[rules.respread :], *survey.singles[rules.refitted :]])
-    baseline = _refit_baseline(context, survey.baseline, singles[0])
+    baseline = survey.baseline
+    for single in singles[: rules.settled]:
+        baseline = _refit_baseline(context, baseline, single)
     nested = [
         single
-        if _not_worse(single, baseline)
-        else fit_from_baseline(context, baseline, single.fit.hypothesis)
-        for single in singles
+        if place >= rules.settled and _not_worse(single, baseline)
+        else _better(single, fit_from_baseline(context, baseline, single.fit.hypothesis))
+        for place, single in enumerate(singles)
     ]
-    return replace(survey, singles=rank(single for single in nested if single is not None), baseline=baseline)
+    return replace(survey, singles=rank(nested), baseline=baseline)
+
+
+def _better(single: Explanation, other: Explanation | None) -> Explanation:
+    return other if other is not None and other.fit.objective < single.fit.objective else single
 
 
 def _refit_fresh(context: FitContext, single: Explanation) -> Explanation:
@@ -201,6 +207,26 @@ def _polish_single(context: FitContext, single: Explanation, amplitudes: Sequenc
         start = single.fit.hypothesis.at(amplitude)
         single = context.improve(single, start, single.fit.jacobian)
     return single
+
+
+def settle_best(context: FitContext, survey: Survey, rules: Rules) -> Survey:
+    """Settle the baseline and the leading singles and pairs, which a decision compares."""
+    (baseline,) = _settle_leading(context, (survey.baseline,), 1)
+    singles, pairs = (
+        _settle_leading(context, fits, rules.settled) for fits in (survey.singles, survey.pairs)
+    )
+    return replace(survey, baseline=baseline, singles=singles, pairs=pairs)
+
+
+def _settle_leading(
+    context: FitContext, explanations: tuple[Explanation, ...], count: int
+) -> tuple[Explanation, ...]:
+    """Settle explanations, the best first, until the ``count`` best ones are settled."""
+    ranked = rank(explanations)
+    while unsettled := [one for one in ranked[:count] if not one.fit.settled]:
+        settled = context.settle(unsettled[0])
+        ranked = rank(settled if one is unsettled[0] else one for one in ranked)
+    return ranked
 
 
 @dataclass(frozen=True, eq=False)
@@ -249,7 +275,7 @@ def search(
     fails at the centre of the priors, or that of every effect.
     """
     context = FitContext(data)
-    survey = survey_singles(context, baseline, singles, rules)
+    survey = settle_best(context, survey_singles(context, baseline, singles, rules), rules)
     scale = _structural_scale(context, survey.baseline)
     rules = rules.beside_structure(_structural_scale(context, survey.singles[0]))
     survey = _complete(context, survey, combine, rules)
@@ -266,5 +292,6 @@ def _complete(context: FitContext, survey: Survey, combine: CombineEffects, rule
     if not is_detected(evidences, rules):
         return survey
     if not is_explained(evidences, rules):
-        survey = polish_best(context, survey, rules)
-    return replace(survey, pairs=rank(fit_pairs(context, survey.singles, combine, rules)))
+        survey = settle_best(context, polish_best(context, survey, rules), rules)
+    pairs = rank(fit_pairs(context, survey.singles, combine, rules))
+    return settle_best(context, replace(survey, pairs=pairs), rules)
