@@ -13,6 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.cause import (
     ActingPlace,
     Cause,
@@ -89,6 +90,7 @@ class CauseFile:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
+    margin: Margin | None = None
     made_by: str = ""
 
     @classmethod
