@@ -1,29 +1,32 @@
 """Movement of ln Bayes factors when data move by a rounding: python -m benchmarks.stable_evidence [HEARTS]
 
 Hidden and sound hearts of the planting campaign in turn, of both populations, are searched three times: as recorded,
-and with every value moved at random by 1e-10 and by 1e-6 of itself. Stores docs/measured/stable_evidence.tsv. Twenty
-seconds of one core per heart; a second call measures the hearts that the table lacks.
+and with every value moved at random by 1e-10 and by 1e-6 of itself. Stores docs/measured/stable_evidence_hearts.tsv and
+their summary in stable_evidence.tsv. Twenty seconds of one core per heart; a second call measures the hearts that the
+table lacks.
 """
 
 import sys
 import time as clock
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 
 from benchmarks.measured_table import read_table, store_table
-from heartfit.discovery.inference.margin import margin
+from heartfit.discovery.inference.margin import CLOSE, margin
 from heartfit.discovery.sphere_model.recording import Recording, Samples
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 from heartfit.synthetic.campaign import PlantedPlan, plantable
 from heartfit.synthetic.case import REST, plant
 
-MODULE, TABLE = "benchmarks.stable_evidence", "stable_evidence"
+MODULE, TABLE, SUMMARY = "benchmarks.stable_evidence", "stable_evidence_hearts", "stable_evidence"
 FIRST_SEED, HEARTS, SCALES = 800000, 40, 2.5
 MOVES = (1e-10, 1e-6)
 """Relative moves of the data: another processor's, and the last digit of a CSV."""
+PRINTED_MOVES = ("1e-10", "1e-6")
+"""The same in names of columns."""
 LEADING = 3
 """Number of hypotheses, the best ones of the search of the data as they are."""
 
@@ -36,6 +39,7 @@ def main(hearts: int) -> None:
             row = measured(plan)
             table = pd.concat([table, pd.DataFrame([row])], ignore_index=True)
             store_table(TABLE, table, MODULE)
+            store_table(SUMMARY, summary(table), MODULE)
             sys.stdout.write(f"{row}\n")
             sys.stdout.flush()
 
@@ -85,6 +89,41 @@ def measured(plan: PlantedPlan) -> Mapping[str, str]:
         "simulations": str(searches[0].findings.simulations),
         "CPU s per search": f"{(clock.process_time() - started) / len(searches):.1f}",
     }
+
+
+def summary(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the numbers of sound, hidden and all hearts that keep ln Bayes factors and verdicts."""
+    sound = table["hidden"] == ""
+    groups = {"sound": table[sound], "hidden": table[~sound], "all": table}
+    return pd.DataFrame({"hearts": list(groups), **_columns(groups.values())})
+
+
+def _columns(groups: Iterable[pd.DataFrame]) -> dict[str, list[str]]:
+    columns: dict[str, list[str]] = {}
+    for group in groups:
+        changed = group["verdicts"].str.split("; ").map(lambda verdicts: len(set(verdicts)) > 1)
+        close = group["margins"].str.split("; ").map(any)
+        kept = {
+            move: (
+                group[[f"{name} by {move}" for name in ("moves", "best moves")]].astype(float) <= CLOSE
+            ).sum()
+            for move in PRINTED_MOVES
+        }
+        both = (
+            (group[[f"moves by {move}" for move in PRINTED_MOVES]].astype(float) <= CLOSE).all(axis=1).sum()
+        )
+        row = {
+            "number": len(group),
+            **{f"leading three kept, {move}": kept[move][f"moves by {move}"] for move in PRINTED_MOVES},
+            "leading three kept, both": both,
+            **{f"the best kept, {move}": kept[move][f"best moves by {move}"] for move in PRINTED_MOVES},
+            "other verdicts": changed.sum(),
+            "of these close": (changed & close).sum(),
+            "close decisions": close.sum(),
+        }
+        for name, value in row.items():
+            columns.setdefault(name, []).append(str(value))
+    return columns
 
 
 def factors(case: SearchedRecording) -> dict[str, float]:

@@ -21,7 +21,7 @@ from heartfit.discovery.inference.decide import (
 
 CLOSE = 0.5
 """Margin [ln Z] below which a decision is close."""
-GRID = 0.01
+GRID = 0.02
 """Step of the changes [ln Z]."""
 
 
