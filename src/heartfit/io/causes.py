@@ -25,6 +25,7 @@ from heartfit.discovery.sphere_model.cause import (
     PlaceFunction,
     Refitted,
     Trace,
+    UnnamedCandidate,
     departures,
 )
 from heartfit.discovery.sphere_model.strokes import Strokes
@@ -90,6 +91,7 @@ class CauseFile:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
+    candidate: UnnamedCandidate | None = None
     margin: Margin | None = None
     made_by: str = ""
 

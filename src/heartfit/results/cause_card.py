@@ -13,6 +13,7 @@ from heartfit.discovery.sphere_model.cause import (
     Diagnosis,
     Gain,
     Refitted,
+    UnnamedCandidate,
     departures,
 )
 from heartfit.discovery.sphere_model.strokes import Strokes
@@ -71,6 +72,28 @@ def spaced_name(name: str) -> str:
     return re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower()
 
 
+def candidate_sentence(candidate: UnnamedCandidate) -> str:
+    """Return the leading explanation with its sizes, and by which rule it is not named."""
+    causes, beside = "; ".join(map(mechanism_with_size, candidate.causes)), candidate.beside_process
+    subject = "the pair" if len(candidate.causes) == 2 else "the mechanism"
+    side = "above" if beside.over >= 0.0 else "below"
+    rules = {
+        f"The ln Bayes factor of {subject}, {beside.gain:.1f}, must exceed that of a Gaussian process, "
+        f"{beside.gain - beside.over:.1f}, by {beside.required:g}; it is {abs(beside.over):.1f} {side}.": (
+            beside.over < beside.required
+        ),
+        f"A Gaussian process beside {subject} gains {beside.left:.1f} more in ln evidence; "
+        f"at most {beside.allowed:.1f} may be left.": beside.left > beside.allowed,
+    }
+    return " ".join([f"Candidate, not named: {causes}.", *(rule for rule, broken in rules.items() if broken)])
+
+
+def candidate_names(diagnosis: Diagnosis) -> str:
+    """Return the mechanisms of the candidate, joined by "and"; empty without one."""
+    causes = diagnosis.candidate.causes if diagnosis.candidate else ()
+    return " and ".join(spaced_name(cause.name) for cause in causes)
+
+
 def _mechanism_names(diagnosis: Diagnosis) -> str:
     return ", ".join(spaced_name(cause.name) for cause in diagnosis.mechanisms)
 
@@ -81,6 +104,7 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
     misfits += [f"- {line}" for line in unsearched_sentences(diagnosis)]
     parts = [
         f"# {title}\n\n**{verdict_sentence(diagnosis)}**",
+        *([candidate_sentence(diagnosis.candidate)] if diagnosis.candidate else []),
         *([close_sentence(diagnosis.margin)] if diagnosis.margin else []),
         *([_warnings(diagnosis.warnings)] if diagnosis.warnings else []),
         "## Misfit of the simulation\n\n" + "\n".join(misfits),
@@ -226,6 +250,8 @@ def alternatives_text(diagnosis: Diagnosis) -> str:
             f"Withdrawn: {names}. The fit to the searched data improves, "
             f"but the held-out error does not{elsewhere}."
         )
+    if diagnosis.candidate:
+        return "None in the library: the candidate leads, but is not named."
     if diagnosis.verdict == "unknown":
         best = next(name for name in diagnosis.ranking if name != "unknown")
         return (
@@ -264,10 +290,12 @@ def gain_subject(diagnosis: Diagnosis) -> str:
     """Return "the named mechanism", or the extension that was refitted although none is named."""
     if diagnosis.acting:
         return "a free function at the best place"
+    if diagnosis.candidate and not diagnosis.refitted:
+        return "the candidate, which is not named"
     if diagnosis.mechanisms or not diagnosis.refitted:
         return "the named mechanism"
     refitted = " and ".join(spaced_name(cause.name) for cause in diagnosis.refitted.extension)
-    return f"{refitted} (refitted, not named)"
+    return f"{refitted} ({'candidate' if diagnosis.candidate else 'refitted'}, not named)"
 
 
 def gains_text(gains: Iterable[Gain]) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from heartfit.discovery.sphere_model.cause import Cause, Departure, Diagnosis, Gain, departures
-from heartfit.results.cause_card import CURVES, direction_and_phase, spaced_name
+from heartfit.results.cause_card import CURVES, candidate_names, direction_and_phase, spaced_name
 from heartfit.results.errors import root_mean_square
 from heartfit.results.text import (
     AMPLITUDE_UNITS,
@@ -100,7 +100,7 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
         yield Entry("hidden", "; ".join(map(_hidden_effect, result.hidden)) or "nothing")
     yield from map(_departure, departures(proved))
     yield Entry("said by the search", _verdict(searched))
-    yield _number("ln Bayes factor of the search", max(searched.ranking.values(), default=NAN))
+    yield _factor_of_the_search(searched)
     yield _number("its threshold", searched.threshold)
     yield Entry("said after the refit", _verdict(proved))
     if proved.refitted:
@@ -118,6 +118,22 @@ def _number(quantity: str, value: float) -> Entry:
     return Entry(quantity, f"{value:.1f}", value)
 
 
+def _factor_of_the_search(searched: Diagnosis) -> Entry:
+    """Return the ln Bayes factor of what the search names, else the largest of its ranking, with whose it is.
+
+    All mechanisms of a pair have the factor of the pair; of a group the best one counts.
+    """
+    factors = {spaced_name(cause.name): cause.ln_bayes_factor for cause in searched.mechanisms}
+    if searched.verdict == "two":
+        owner, factor = " and ".join(factors), next(iter(factors.values()))
+    elif ranked := factors or {spaced_name(name): value for name, value in searched.ranking.items()}:
+        owner, factor = max(ranked.items(), key=lambda entry: entry[1])
+    else:
+        owner, factor = "nothing tried", NAN
+    subject = "a Gaussian process" if owner == "unknown" else owner
+    return Entry("ln Bayes factor of the search", f"{factor:.1f} ({subject})", factor)
+
+
 def _hidden_effect(effect: Effect) -> str:
     return f"{spaced_name(effect.name)}, {_amplitude(effect.amplitude, effect.unit)} ({effect.scales:.1f} scales)"
 
@@ -130,7 +146,10 @@ def _amplitude(value: float, unit: str) -> str:
 def _verdict(diagnosis: Diagnosis) -> str:
     names = " and ".join(spaced_name(cause.name) for cause in diagnosis.mechanisms)
     withdrawn = ", ".join(map(spaced_name, diagnosis.withdrawn))
-    return f"{diagnosis.verdict}{f': {names}' if names else ''}{f' (withdrawn: {withdrawn})' if withdrawn else ''}"
+    remarks = [f"withdrawn: {withdrawn}"] if withdrawn else []
+    remarks += [f"candidate, not named: {candidate_names(diagnosis)}"] if diagnosis.candidate else []
+    remark = f" ({'; '.join(remarks)})" if remarks else ""
+    return f"{diagnosis.verdict}{f': {names}' if names else ''}{remark}"
 
 
 def _departure(departure: Departure) -> Entry:

@@ -291,7 +291,7 @@ def _complete(context: FitContext, survey: Survey, combine: CombineEffects, rule
     evidences = survey.evidences(context.discrepancy)
     if not is_detected(evidences, rules):
         return survey
-    if not is_explained(evidences, rules):
+    if not is_explained(evidences, evidences.single, rules):
         survey = settle_best(context, polish_best(context, survey, rules), rules)
     pairs = rank(fit_pairs(context, survey.singles, combine, rules))
     return settle_best(context, replace(survey, pairs=pairs), rules)

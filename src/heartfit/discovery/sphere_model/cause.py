@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 
 from heartfit.core.arrays import Floats
-from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.inference.decide import BesideProcess, Verdict
 from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.observation.beat import BeatPhases
@@ -26,10 +26,18 @@ class Cause:
 
 
 @dataclass(frozen=True)
+class UnnamedCandidate:
+    """The leading explanation, one mechanism or two, that is detected but not better enough than the process."""
+
+    causes: tuple[Cause, ...]
+    beside_process: BesideProcess
+
+
+@dataclass(frozen=True)
 class Gain:
     """Root mean square errors [SI] of a held-out curve: ``none`` without and ``extended`` with the cause.
 
-    ratio: extended over none, with a 95 % interval over the phases of the beat; on: description of the held-out data.
+    ratio: extended over none, with its 95 % interval; on: description of the held-out data.
     """
 
     curve: str
@@ -172,8 +180,9 @@ class Diagnosis:
       from the best; withdrawn: names that did not help on held-out data.
     - threshold: the least ln Bayes factor of a detection; ranking: ln Bayes factors over the baseline of every single
       mechanism and, as "unknown", of a GP discrepancy.
-    - refitted: the proof in three dimensions, if there is one; without a named cause, a trial of the best of the
-      ranking.
+    - candidate: the leading explanation where it is detected but not named, None otherwise.
+    - refitted: the proof in three dimensions, if there is one; without a named cause, a trial of the candidate or, if
+      there is none, of the best of the ranking.
     - unsearched: recorded curves that are not searched, with the reason; phases: of the beat without a cause,
       None where one of its valves never moves.
     - self_test: median of the largest ln Bayes factors in beats of the model without a hidden effect, None where no
@@ -215,6 +224,7 @@ class Diagnosis:
     acting: tuple[ActingPlace, ...] = ()
     functions: tuple[PlaceFunction, ...] = ()
     strokes: Strokes | None = None
+    candidate: UnnamedCandidate | None = None
     margin: Margin | None = None
 
 
