@@ -54,7 +54,7 @@ def plan_of(number: int) -> PlantedPlan:
     return PlantedPlan(seed, "single", (name,), SCALES, population=population)
 
 
-def moved(recording: Recording, size: float, seed: int) -> Recording:
+def with_moved_values(recording: Recording, size: float, seed: int) -> Recording:
     """Return the recording with independent relative moves of its values, normal with the deviation ``size``."""
     rng = np.random.default_rng([seed, 1])
     curves = {
@@ -68,7 +68,8 @@ def measured(plan: PlantedPlan) -> Mapping[str, str]:
     """One row: verdicts, margins, ln Bayes factors of the leading hypotheses, and how far they move."""
     started, recording = clock.process_time(), Recording.from_curves(plant(plan).curves[REST])
     searches = [
-        SearchedRecording.search(moved(recording, size, plan.seed).halves()[0]) for size in (0.0, *MOVES)
+        SearchedRecording.search(with_moved_values(recording, size, plan.seed).halves()[0])
+        for size in (0.0, *MOVES)
     ]
     tables = [factors(one) for one in searches]
     leading = sorted(tables[0], key=tables[0].__getitem__, reverse=True)[:LEADING]

@@ -35,17 +35,17 @@ def evidences(
     ],
 )
 def test_margins_of_single_conditions(evidence: Evidences, expected: Margin | None) -> None:
-    found = margin(evidence)
+    nearest = margin(evidence)
     if expected is None:
-        assert found is None
+        assert nearest is None
     else:
-        assert found is not None
-        assert abs(found.change) == pytest.approx(abs(expected.change), abs=1.1 * GRID)
-        assert found.verdict == expected.verdict
-        assert found.on_top is expected.on_top or expected.explanation == A
+        assert nearest is not None
+        assert abs(nearest.change) == pytest.approx(abs(expected.change), abs=1.1 * GRID)
+        assert nearest.verdict == expected.verdict
+        assert nearest.on_top is expected.on_top or expected.explanation == A
 
 
-def moved(evidence: Evidences, change: float, rng: np.random.Generator) -> Evidences:
+def with_change(evidence: Evidences, change: float, rng: np.random.Generator) -> Evidences:
     """The evidences with one ln Z, drawn at random among those of a decision, changed."""
     where = rng.integers(4)
     if where == 0:
@@ -78,9 +78,9 @@ def test_no_smaller_change_of_one_evidence_changes_what_is_decided() -> None:
     rng, close = np.random.default_rng(46), 0
     for _ in range(80):
         evidence = drawn(rng)
-        found = margin(evidence)
-        close += found is not None
-        smallest = CLOSE if found is None else abs(found.change) - GRID
+        nearest = margin(evidence)
+        close += nearest is not None
+        smallest = CLOSE if nearest is None else abs(nearest.change) - GRID
         for change in rng.uniform(-1.0, 1.0, 10) * smallest:
-            assert named(decide(moved(evidence, change, rng))) == named(decide(evidence))
+            assert named(decide(with_change(evidence, change, rng))) == named(decide(evidence))
     assert 20 < close < 70

@@ -30,7 +30,6 @@ from heartfit.discovery.inference.evidence import (
     Fit,
     fit,
     linear_posterior,
-    settle,
 )
 from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
 
@@ -120,13 +119,6 @@ class FitContext:
         fitted = fit(model, self.data.values, self.whitening, start, slopes, trusted, target, limit)
         self.simulations += model.runs
         return None if fitted is None else Explanation.from_fit(fitted, self.data.values, self.whitening)
-
-    def settle(self, explanation: Explanation) -> Explanation:
-        """The explanation at the settled end of its fit; see :func:`settle`."""
-        model = CountedHypothesis(explanation.fit.hypothesis)
-        settled = settle(model, self.data.values, self.whitening, explanation.fit)
-        self.simulations += model.runs
-        return Explanation.from_fit(settled, self.data.values, self.whitening)
 
     def simulate(self, hypothesis: Hypothesis, x: Floats) -> Floats | None:
         """Prediction (n,) of the hypothesis at x (d,); None where the simulation fails."""

@@ -19,7 +19,7 @@ m_a < 0, a posterior that the bound cuts to its tail. Z is averaged over the lev
 References: Kass and Raftery 1995, doi:10.1080/01621459.1995.10476572.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import reduce
 
 import numpy as np
@@ -27,7 +27,7 @@ from scipy.special import logsumexp, ndtr, ndtri
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Whitening
-from heartfit.discovery.inference.descent import EXPENSIVE, LONGEST_STEP, Descent, InverseProblem, Schedule
+from heartfit.discovery.inference.descent import EXPENSIVE, Descent, InverseProblem, Schedule
 from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
 from heartfit.discovery.inference.orthant import log_share
 
@@ -108,33 +108,6 @@ def fit(
     while not descent.ended and model.runs < limit:
         descent.advance()
     return Fit.at_end(model.hypothesis, descent)
-
-
-SETTLED_REACH = 0.1
-"""Range of mean slopes to either side of a settled fit [prior standard deviations]."""
-SETTLED = Schedule(0.02, 0.1, longest_step=LONGEST_STEP, jacobian_refresh=1, active_set=True)
-"""Steps of a settling fit, which are short: every one has slopes of its own."""
-SETTLING_LIMIT = 250
-"""Simulations after which a fit counts as settled: four or five Jacobians."""
-
-
-def settle(model: CountedHypothesis, values: Floats, whitening: Whitening, fit: Fit) -> Fit:
-    """The fit continued with mean slopes, which do not hang on the side of a kink on which it stopped.
-
-    Where no step leads down any more, the slope that is left is a kink's, and no gain is expected of it.
-    """
-
-    def differences(x: Floats, predicted: Floats, _old: Floats) -> Floats:
-        return model.mean_slopes(x, predicted, SETTLED_REACH)
-
-    problem = InverseProblem(model, values, whitening, fit.hypothesis.lower)
-    slopes = differences(fit.x, fit.predicted, fit.jacobian)
-    descent = Descent(problem, SETTLED, fit.x, fit.predicted, slopes, differences)
-    while not descent.ended and model.runs < SETTLING_LIMIT:
-        descent.advance()
-    slope, _ = problem.normal(descent.x, descent.predicted, descent.jacobian)
-    pushed = (descent.x <= problem.lower) & (slope < 0.0)
-    return replace(Fit.at_end(fit.hypothesis, descent), kink=np.where(pushed, 0.0, slope))
 
 
 def fit_from_slopes(

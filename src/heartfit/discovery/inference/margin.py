@@ -79,7 +79,7 @@ def _with(table: Mapping[Effects, float], effects: Effects, change: float) -> di
 
 
 def _followed(changed: Evidences, before: Evidences) -> Evidences:
-    """Where another effect or pair becomes the best one, a process gains on top of it what it gained before."""
+    """The changed evidences, where a process gains on top of a new best effect or pair what it gained before."""
     single = before.on_top[before.single] - before.singles[before.single]
     on_top = {changed.single: changed.singles[changed.single] + single}
     if changed.pair:

@@ -7,7 +7,7 @@ baseline, which it contains, and the baseline is fitted again from the best effe
 was no effect.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -34,6 +34,7 @@ from heartfit.discovery.inference.predicted_evidence import (
     fit_pairs,
     predict_placements,
 )
+from heartfit.discovery.inference.settling import rank, settle_leading
 
 EQUAL_MARGIN = 0.05
 """Objective above the baseline's up to which an effect counts as its equal."""
@@ -64,11 +65,6 @@ class Survey:
             {explanation.effects: discrepancy.log_evidence(explanation.fit) for explanation in best},
             {pair.effects: pair.log_evidence for pair in self.pairs},
         )
-
-
-def rank(explanations: Iterable[Explanation]) -> tuple[Explanation, ...]:
-    """Sort by descending evidence."""
-    return tuple(sorted(explanations, key=lambda explanation: explanation.log_evidence, reverse=True))
 
 
 def survey_singles(
@@ -211,22 +207,9 @@ def _polish_single(context: FitContext, single: Explanation, amplitudes: Sequenc
 
 def settle_best(context: FitContext, survey: Survey, rules: Rules) -> Survey:
     """Settle the baseline and the leading singles and pairs, which a decision compares."""
-    (baseline,) = _settle_leading(context, (survey.baseline,), 1)
-    singles, pairs = (
-        _settle_leading(context, fits, rules.settled) for fits in (survey.singles, survey.pairs)
-    )
+    (baseline,) = settle_leading(context, (survey.baseline,), 1)
+    singles, pairs = (settle_leading(context, fits, rules.settled) for fits in (survey.singles, survey.pairs))
     return replace(survey, baseline=baseline, singles=singles, pairs=pairs)
-
-
-def _settle_leading(
-    context: FitContext, explanations: tuple[Explanation, ...], count: int
-) -> tuple[Explanation, ...]:
-    """Settle explanations, the best first, until the ``count`` best ones are settled."""
-    ranked = rank(explanations)
-    while unsettled := [one for one in ranked[:count] if not one.fit.settled]:
-        settled = context.settle(unsettled[0])
-        ranked = rank(settled if one is unsettled[0] else one for one in ranked)
-    return ranked
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,7 @@ from heartfit.discovery.inference.decide import DEFAULT_RULES
 from heartfit.discovery.inference.evidence import Explanation, Fit
 from heartfit.discovery.inference.hypothesis import Coordinate, CountedHypothesis, Hypothesis
 from heartfit.discovery.inference.search import search
+from heartfit.discovery.inference.settling import settle
 from tests.discovery.inference import oscillator
 from tests.discovery.inference.linear import TIMES, data
 
@@ -55,7 +56,7 @@ def test_two_ends_beside_a_kink_have_one_evidence() -> None:
     """A one-sided slope takes the side on which the fit has stopped; the integral is between both."""
     hypothesis, context = problem(left=0.0)
     ends = [stopped(hypothesis, context, PLACE + side) for side in (-0.03, 0.01)]
-    settled = [context.settle(end) for end in ends]
+    settled = [settle(context, end) for end in ends]
     assert abs(ends[0].log_evidence - ends[1].log_evidence) > 0.5
     assert settled[0].log_evidence == pytest.approx(settled[1].log_evidence, abs=0.01)
     assert settled[0].log_evidence == pytest.approx(integral(0.0), abs=0.15)
@@ -64,7 +65,7 @@ def test_two_ends_beside_a_kink_have_one_evidence() -> None:
 def test_a_gain_that_no_step_realises_is_no_evidence() -> None:
     hypothesis, context = problem(left=-2.0)
     end = stopped(hypothesis, context, PLACE)
-    exact, settled = integral(-2.0), context.settle(end)
+    exact, settled = integral(-2.0), settle(context, end)
     assert 0.0 < settled.log_evidence - exact < 0.45 * (end.log_evidence - exact)
     assert end.fit.objective - settled.fit.objective < 0.01
 
