@@ -45,7 +45,7 @@ SELECTION = pd.DataFrame(
 FOURTEEN = Gaussian.from_relative(dict.fromkeys(PAPER_PARAMETERS, 1.0), dict.fromkeys(PAPER_PARAMETERS, 0.2))
 SENSITIVITY = Sensitivity(FOURTEEN, ("V_min",), np.ones(1), np.zeros((14, 1)), np.zeros((14, 1)))
 SLOPE_ERRORS = Scatter(("q_max", "q_min"), 21, np.array([0.1, -0.1]), np.diag([1e-6, 1e-6]))
-NOISE = NoiseModel({}, SLOPE_ERRORS, SLOPE_ERRORS)
+NOISE = NoiseModel({}, SLOPE_ERRORS, {"lv_volume": SLOPE_ERRORS})
 RESULTS = StudyResults(
     cases=[
         calibrated("volunteer1", errors=10.0, ratios={"sigma_0": 1.2}),

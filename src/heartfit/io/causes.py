@@ -18,6 +18,7 @@ from heartfit.discovery.sphere_model.cause import (
     ActingPlace,
     Cause,
     Change,
+    CurveFit,
     Departure,
     Diagnosis,
     FittedModel,
@@ -91,6 +92,7 @@ class CauseFile:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
+    fits: tuple[CurveFit, ...] = ()
     candidate: UnnamedCandidate | None = None
     margin: Margin | None = None
     made_by: str = ""
