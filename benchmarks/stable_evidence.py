@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.measured_table import read_table, store_table
-from heartfit.discovery.inference.margin import CLOSE, margin
+from heartfit.discovery.inference.margin import CLOSE
 from heartfit.discovery.sphere_model.recording import Recording, Samples
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 from heartfit.synthetic.campaign import PlantedPlan, plantable
@@ -75,7 +75,7 @@ def measured(plan: PlantedPlan) -> Mapping[str, str]:
     leading = sorted(tables[0], key=tables[0].__getitem__, reverse=True)[:LEADING]
     moves = [max(abs(table.get(name, np.inf) - tables[0][name]) for name in leading) for table in tables[1:]]
     first = [abs(table[leading[0]] - tables[0][leading[0]]) for table in tables[1:]]
-    nearest = [margin(one.findings.evidences, one.rules) for one in searches]
+    nearest = [one.findings.margin for one in searches]
     return {
         "seed": str(plan.seed),
         "population": plan.population,

@@ -4,7 +4,6 @@ from collections.abc import Collection, Mapping, Sequence
 from functools import partial
 
 from heartfit.discovery.inference.decide import CHANGE_RULES, DEFAULT_RULES, Effects, Rules, Verdict
-from heartfit.discovery.inference.margin import margin
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.consistency import implausible
 from heartfit.discovery.sphere_model.earlier import EarlierHeart
@@ -103,7 +102,7 @@ def conclude(
         changes=case.changes(best),
         strokes=Strokes.from_recording(case.recording),
         candidate=case.candidate(),
-        margin=margin(case.findings.evidences, case.rules),
+        margin=case.findings.margin,
     )
 
 
