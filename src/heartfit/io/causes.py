@@ -13,6 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.cause import (
     ActingPlace,
     Cause,
@@ -93,6 +94,7 @@ class CauseFile:
     strokes: Strokes | None = None
     fits: tuple[CurveFit, ...] = ()
     candidate: UnnamedCandidate | None = None
+    margin: Margin | None = None
     made_by: str = ""
 
     @classmethod

@@ -8,6 +8,7 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import BesideProcess, Verdict
+from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.observation.beat import BeatPhases
 from heartfit.places import Region
@@ -217,6 +218,7 @@ class Diagnosis:
       one for each; both empty where no place is detected.
     - strokes: of both ventricles, None without a right volume.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
+    - margin: the smallest change of one ln Z that changes the decision of the search; None if it is not close.
     - fits: of the curves about the 3-D model without a cause, empty where none was refitted.
     """
 
@@ -246,6 +248,7 @@ class Diagnosis:
     strokes: Strokes | None = None
     fits: tuple[CurveFit, ...] = ()
     candidate: UnnamedCandidate | None = None
+    margin: Margin | None = None
 
 
 CLEAR_DEVIATIONS = 2.0

@@ -102,6 +102,7 @@ def conclude(
         changes=case.changes(best),
         strokes=Strokes.from_recording(case.recording),
         candidate=case.candidate(),
+        margin=case.findings.margin,
     )
 
 
