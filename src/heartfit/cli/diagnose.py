@@ -139,9 +139,9 @@ def diagnose(arguments: argparse.Namespace) -> int:
     from heartfit.io.pressures import read_pressure
     from heartfit.io.recordings import read_conditions, read_recording
     from heartfit.places import PLACES
-    from heartfit.results.cause_card import verdict_sentence
     from heartfit.results.cause_figure import render_cause
     from heartfit.results.mechanism_file import mechanism_file
+    from heartfit.results.verdict_text import verdict_sentence
     from heartfit.study.case import RecordedPressure
 
     run_mechanism_files(arguments.mechanism)

@@ -9,9 +9,8 @@ from heartfit.discovery.inference.decide import Verdict
 from heartfit.discovery.wall_model.hypotheses import is_regional
 from heartfit.discovery.wall_model.search import WallFindings
 from heartfit.discovery.wall_model.territory import probability_of_segments
-from heartfit.results.cause_card import spaced_name
 from heartfit.results.residual import SEGMENT_NAMES
-from heartfit.results.text import AMPLITUDE_UNITS
+from heartfit.results.text import AMPLITUDE_UNITS, spaced_name
 from heartfit.roles import registered
 
 PROBABLE = 0.5

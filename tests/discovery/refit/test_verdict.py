@@ -20,8 +20,10 @@ from heartfit.discovery.refit.verdict import (
     withdraw_unhelpful,
 )
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain
+from heartfit.observation.beat import BeatPhases
 from heartfit.personalise.setting import Setting
-from heartfit.results.cause_card import gain_subject, markdown_card, spaced_name
+from heartfit.results.cause_card import gain_subject, markdown_card
+from heartfit.results.text import spaced_name
 from tests.printed import numbers_in
 
 PLAIN = Setting.model_validate({"element": "sphere", "estimate": ("sigma_0", "R_p")}).with_prior({})
@@ -153,7 +155,7 @@ class Helped:
     def gains(self) -> list[Gain]:
         return [Gain("rv_volume", "never fitted", 4e-6, 2e-6, 0.5, (0.4, 0.6))]
 
-    def traces(self) -> tuple[()]:
+    def traces(self, phases: BeatPhases | None = None) -> tuple[()]:
         return ()
 
 

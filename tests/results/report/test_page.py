@@ -8,9 +8,9 @@ from html.parser import HTMLParser
 import pytest
 
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.results.cause_card import verdict_sentence
 from heartfit.results.report.cases import facts, status
 from heartfit.results.report.page import Assets, data, render
+from heartfit.results.verdict_text import verdict_sentence
 from tests.results.report.conftest import ASSETS, HOSTILE
 from tests.results.report.small_report import SETTING, diagnosis, study, volumes
 

@@ -14,7 +14,6 @@ import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from heartfit.results.cause_card import verdict_sentence
 from heartfit.results.discovery import NOTE, printed_findings
 from heartfit.results.errors import PAPER, mean_error
 from heartfit.results.report.cases import facts, observations, plot_cohort, status
@@ -26,6 +25,7 @@ from heartfit.results.report.record import CaseRecord, FittedCase, ReportTable, 
 from heartfit.results.report.surface import colour_scales, viewer_data
 from heartfit.results.report.wall import WallCard, wall_section
 from heartfit.results.text import GREEK, LONG_STEP_LEGEND, LONG_STEP_MARK, RATES, cell_texts
+from heartfit.results.verdict_text import verdict_sentence
 
 LETTERS = {"alpha": "α", "sigma": "σ", "mu": "μ", "tau": "τ", "eta": "η"}
 
