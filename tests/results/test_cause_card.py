@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model.cause import Cause, Change, Diagnosis, Gain, Trace
+from heartfit.discovery.inference.decide import BesideProcess
+from heartfit.discovery.sphere_model.cause import Cause, Change, Diagnosis, Gain, Trace, UnnamedCandidate
 from heartfit.discovery.sphere_model.misfit import departures
 from heartfit.discovery.sphere_model.recording import UNSEARCHED
 from heartfit.observation.beat import BeatPhases
@@ -13,7 +14,7 @@ from heartfit.results.cause_card import alternatives_text, markdown_card
 from heartfit.results.cause_figure import plot_cause
 from heartfit.results.misfit_text import misfit_sentence
 from heartfit.results.text import CURVES, spaced_name
-from heartfit.results.verdict_text import mechanism_with_size, verdict_sentence
+from heartfit.results.verdict_text import candidate_sentence, mechanism_with_size, verdict_sentence
 from tests.printed import numbers_in
 
 LEAK = Cause("MitralRegurgitation", 12.0, 3e-5, "m^2", (2e-5, 4e-5))
@@ -139,6 +140,27 @@ def test_a_curve_outside_the_search_is_listed_with_the_reason():
     listed = bullets(markdown_card(diagnosis("none", unsearched=UNSEARCHED), "case 1"))
     for curve, reason in UNSEARCHED.items():
         assert [line for line in listed if CURVES[curve] in line and reason in line]
+
+
+BELOW, LEFT = BesideProcess(22.7, -1.4, 1.0, 2.0, 4.0), BesideProcess(22.7, 12.0, 8.5, 2.0, 7.9)
+
+
+@pytest.mark.parametrize(
+    ("beside", "numbers"), [(BELOW, {22.7, 24.1, 2.0, 1.4}), (LEFT, {8.5, 7.9})], ids=["below", "left"]
+)
+@pytest.mark.parametrize("verdict", ["unknown", "insufficient"])
+def test_a_candidate_is_shown_with_the_rule_that_it_breaks_and_not_as_a_name(verdict, beside, numbers):
+    case = diagnosis(verdict, candidate=UnnamedCandidate((LEAK, DELAY), beside))
+    sentence = candidate_sentence(case)
+    sizes = " ".join(map(mechanism_with_size, (LEAK, DELAY)))
+    assert set(numbers_in(sentence)) - set(numbers_in(sizes)) == numbers
+    assert ("below" in sentence) == (beside is BELOW)
+    named = markdown_card(case, "case 1").split("Candidate, not named")
+    assert len(named) == 2, "stated once"
+    assert spaced_name(DELAY.name) not in named[0]
+    figure = plot_cause(case)
+    assert "Candidate, not named: mitral regurgitation and catheter delay" in figure.get_suptitle()
+    assert labelled(figure.axes[0]) == labelled(plot_cause(diagnosis(verdict)).axes[0]) + 1
 
 
 def test_the_card_lists_alternatives_gains_and_withdrawn_names():

@@ -24,6 +24,7 @@ from heartfit.discovery.sphere_model.cause import (
     Refitted,
     ShownModel,
     Trace,
+    UnnamedCandidate,
 )
 from heartfit.discovery.sphere_model.misfit import Departure, departures
 from heartfit.discovery.sphere_model.strokes import Strokes
@@ -91,6 +92,7 @@ class CauseFile:
     strokes: Strokes | None = None
     model: ShownModel = "sphere"
     free_parameters: int = 0
+    candidate: UnnamedCandidate | None = None
     made_by: str = ""
 
     @classmethod

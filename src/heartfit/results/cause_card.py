@@ -130,6 +130,8 @@ def alternatives_text(diagnosis: Diagnosis) -> str:
             f"Withdrawn: {names}. The fit to the searched data improves, "
             f"but the held-out error does not{elsewhere}."
         )
+    if diagnosis.candidate:
+        return "None in the library: the candidate leads, but is not named."
     if diagnosis.verdict == "unknown":
         best = next((name for name in diagnosis.ranking if name != "unknown"), "")
         return (
@@ -148,7 +150,7 @@ def _named(name: str) -> str:
 def refit_section(diagnosis: Diagnosis) -> str:
     """Return the evidence of the refit in three dimensions and a table of the parameters without and with it.
 
-    A mechanism that is not named is told here with its size; that of a named one is in the headline.
+    A mechanism that is not named is told here with its size; that of a named one and of a candidate is above.
     """
     refitted = diagnosis.refitted
     assert refitted is not None
@@ -169,10 +171,12 @@ def refit_section(diagnosis: Diagnosis) -> str:
 
 def _extension(diagnosis: Diagnosis, refitted: Refitted) -> str:
     named = {cause.name for cause in diagnosis.mechanisms}
+    told_above = named if diagnosis.verdict != "group" else set()
+    told_above |= {cause.name for cause in diagnosis.candidate.causes} if diagnosis.candidate else set()
     final = {cause.name: cause for cause in refitted.from_all_samples}
     told = [
         spaced_name(cause.name)
-        if cause.name in named and diagnosis.verdict != "group"
+        if cause.name in told_above
         else f"{mechanism_with_size(final.get(cause.name, cause))}{'' if cause.name in named else ', not named'}"
         for cause in refitted.extension
     ]
@@ -183,7 +187,11 @@ def gain_subject(diagnosis: Diagnosis) -> str:
     """Return what the held-out error was computed with: " with mitral regurgitation", empty where nothing was added."""
     named = {cause.name for cause in diagnosis.mechanisms}
     if diagnosis.refitted and not {cause.name for cause in diagnosis.refitted.extension} <= named:
-        return f" with {added_name(diagnosis)} (refitted, not named)"
+        return (
+            f" with {added_name(diagnosis)} ({'candidate' if diagnosis.candidate else 'refitted'}, not named)"
+        )
+    if diagnosis.candidate and not (diagnosis.mechanisms or diagnosis.acting):
+        return f" with {added_name(diagnosis)} (candidate, not named)"
     if added_name(diagnosis):
         return f" with {added_name(diagnosis)}"
     withdrawn = " and ".join(map(spaced_name, diagnosis.withdrawn))

@@ -16,7 +16,7 @@ from heartfit.results.figures import ARTERY, CALIBRATED, MEASURED, REFERENCE, cl
 from heartfit.results.misfit_text import added_name, mean_misfit, misfit_sentences
 from heartfit.results.residual import CURVE_LABELS, PHASE_LABELS
 from heartfit.results.text import CURVES, printed_curve_unit
-from heartfit.results.verdict_text import explanation_name, verdict_sentence
+from heartfit.results.verdict_text import candidate_names, explanation_name, verdict_sentence
 
 RANKING_BARS = 8
 """Number of bars of the ranking."""
@@ -52,7 +52,9 @@ def plot_cause(diagnosis: Diagnosis) -> Figure:
     for axes in panels[0]:
         axes.legend(frameon=False, fontsize=8, loc="best")
     _ranking(right.subplots(), diagnosis)
-    figure.suptitle(verdict_sentence(diagnosis), fontsize=11, fontweight="bold", wrap=True)
+    title = [verdict_sentence(diagnosis)]
+    title += [f"Candidate, not named: {candidate_names(diagnosis)}."] if diagnosis.candidate else []
+    figure.suptitle("\n".join(title), fontsize=11, fontweight="bold", wrap=True)
     return figure
 
 

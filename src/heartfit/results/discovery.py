@@ -22,6 +22,7 @@ from heartfit.results.text import (
     to_latex,
     to_markdown,
 )
+from heartfit.results.verdict_text import candidate_names
 from heartfit.synthetic.campaign import Effect
 
 NAN = float("nan")
@@ -132,7 +133,10 @@ def _amplitude(value: float, unit: str) -> str:
 def _verdict(diagnosis: Diagnosis) -> str:
     names = " and ".join(spaced_name(cause.name) for cause in diagnosis.mechanisms)
     withdrawn = ", ".join(map(spaced_name, diagnosis.withdrawn))
-    return f"{diagnosis.verdict}{f': {names}' if names else ''}{f' (withdrawn: {withdrawn})' if withdrawn else ''}"
+    remarks = [f"withdrawn: {withdrawn}"] if withdrawn else []
+    remarks += [f"candidate, not named: {candidate_names(diagnosis)}"] if diagnosis.candidate else []
+    remark = f" ({'; '.join(remarks)})" if remarks else ""
+    return f"{diagnosis.verdict}{f': {names}' if names else ''}{remark}"
 
 
 def _departure(departure: Departure) -> Entry:

@@ -18,7 +18,8 @@ def added_name(diagnosis: Diagnosis) -> str:
     """
     if diagnosis.acting:
         return FREE_FUNCTION
-    causes = diagnosis.refitted.extension if diagnosis.refitted else diagnosis.mechanisms
+    candidate = diagnosis.candidate.causes if diagnosis.candidate else ()
+    causes = diagnosis.refitted.extension if diagnosis.refitted else diagnosis.mechanisms or candidate
     fitted = causes[:1] if diagnosis.verdict == "group" else causes
     return " and ".join(spaced_name(cause.name) for cause in fitted)
 

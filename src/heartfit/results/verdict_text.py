@@ -1,6 +1,6 @@
 """The headline of a diagnosis, and the lines below it: evidence beside its threshold, and what the sizes are."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -18,7 +18,7 @@ SILENT = ("none", "model")
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
     """Return the verdict as one sentence: "Missing mechanism: mitral regurgitation, 0.31 cm² (95 % CI ...)."."""
-    named = "; ".join(map(mechanism_with_size, sizes(diagnosis)))
+    named = "; ".join(map(mechanism_with_size, sizes(diagnosis, diagnosis.mechanisms)))
     return {
         "none": f"No missing mechanism detected (none): {_silence(diagnosis)}.",
         "model": f"No missing mechanism detected (model): {_silence(diagnosis)}. The misfit is of the size and shape "
@@ -72,15 +72,15 @@ def strongest(diagnosis: Diagnosis) -> tuple[str, float]:
     return max(diagnosis.ranking.items(), key=lambda item: item[1], default=("", float("nan")))
 
 
-def sizes(diagnosis: Diagnosis) -> tuple[Cause, ...]:
-    """Return the named mechanisms with the one size that is told of each.
+def sizes(diagnosis: Diagnosis, causes: Sequence[Cause]) -> tuple[Cause, ...]:
+    """Return the named mechanisms, or those of a candidate, with the one size that is told of each.
 
     It is that of the model in three dimensions where there was a refit, and from all samples where it was computed.
     """
     proved = diagnosis.refitted
     final = proved.from_all_samples if proved else diagnosis.from_all_samples
     known = {cause.name: cause for cause in final}
-    return tuple(known.get(cause.name, cause) for cause in diagnosis.mechanisms)
+    return tuple(known.get(cause.name, cause) for cause in causes)
 
 
 def mechanism_with_size(cause: Cause) -> str:
@@ -95,7 +95,36 @@ def mechanism_with_size(cause: Cause) -> str:
 
 def verdict_lines(diagnosis: Diagnosis) -> list[str]:
     """Return the lines below the headline, one fact each."""
-    return [*evidence_lines(diagnosis), *size_lines(diagnosis)]
+    candidate = [candidate_sentence(diagnosis)] if diagnosis.candidate else []
+    return [*evidence_lines(diagnosis), *candidate, *size_lines(diagnosis)]
+
+
+def candidate_causes(diagnosis: Diagnosis) -> tuple[Cause, ...]:
+    """Return the mechanisms of the candidate; none without one."""
+    return diagnosis.candidate.causes if diagnosis.candidate else ()
+
+
+def candidate_names(diagnosis: Diagnosis) -> str:
+    """Return the mechanisms of the candidate, joined by "and"; empty without one."""
+    return " and ".join(spaced_name(cause.name) for cause in candidate_causes(diagnosis))
+
+
+def candidate_sentence(diagnosis: Diagnosis) -> str:
+    """Return the leading explanation with its sizes, and by which rule it is not named."""
+    assert diagnosis.candidate is not None
+    told, beside = sizes(diagnosis, diagnosis.candidate.causes), diagnosis.candidate.beside_process
+    subject = "the pair" if len(told) == 2 else "the mechanism"
+    side = "above" if beside.over >= 0.0 else "below"
+    rules = {
+        f"The ln Bayes factor of {subject}, {beside.gain:.1f}, must exceed that of a Gaussian process, "
+        f"{beside.gain - beside.over:.1f}, by {beside.required:g}; it is {abs(beside.over):.1f} {side}.": (
+            beside.over < beside.required
+        ),
+        f"A Gaussian process beside {subject} gains {beside.left:.1f} more in ln evidence; "
+        f"at most {beside.allowed:.1f} may be left.": beside.left > beside.allowed,
+    }
+    named = "; ".join(map(mechanism_with_size, told))
+    return " ".join([f"Candidate, not named: {named}.", *(rule for rule, broken in rules.items() if broken)])
 
 
 def evidence_lines(diagnosis: Diagnosis) -> Iterable[str]:
@@ -126,7 +155,7 @@ def size_lines(diagnosis: Diagnosis) -> Iterable[str]:
     """Yield what the size of each named mechanism measures, and from which samples and model it comes."""
     if diagnosis.verdict == "group":
         return
-    told = sizes(diagnosis)
+    told = sizes(diagnosis, diagnosis.mechanisms or candidate_causes(diagnosis))
     for cause in told:
         kind = registered().get(cause.name)
         if kind is not None:

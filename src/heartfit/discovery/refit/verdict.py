@@ -138,33 +138,36 @@ class TriedExtension:
 def propose_extensions(diagnosis: Diagnosis, base: Setting, both: bool = False) -> list[Extension]:
     """Return the extensions to refit in three dimensions, each of which contains the previous one; both: ventricles.
 
-    They consist of the named mechanisms; of two, the stronger one is tried alone first, because the second may be
-    false. Of a group the best is tried, and for an unknown effect the best of the ranking. Where the simulation
-    explains the recording nothing is tried.
+    They consist of the named mechanisms or, without any, of the candidate; of two, the stronger one is tried alone
+    first, because the second may be false. Of a group the best is tried, and for an unknown effect without a candidate
+    the best of the ranking. Where the simulation explains the recording nothing is tried.
     """
-    if diagnosis.verdict in ("none", "insufficient"):
+    leading = [cause.name for cause in diagnosis.mechanisms or _candidates(diagnosis)]
+    if diagnosis.verdict in ("none", "insufficient") and not leading:
         return []
-    named = sorted(
-        (cause.name for cause in diagnosis.mechanisms), key=lambda name: -diagnosis.ranking.get(name, np.inf)
-    )
-    if diagnosis.verdict == "two":
-        return [Extension.from_names(base, *named[:count]).with_free_parameters(both) for count in (1, 2)]
-    best = [cause.name for cause in diagnosis.mechanisms] or [
-        name for name in diagnosis.ranking if name != "unknown"
-    ]
+    if len(leading) == 2 and diagnosis.verdict != "group":
+        leading.sort(key=lambda name: -diagnosis.ranking.get(name, np.inf))
+        return [Extension.from_names(base, *leading[:count]).with_free_parameters(both) for count in (1, 2)]
+    best = leading or [name for name in diagnosis.ranking if name != "unknown"]
     return [Extension.from_names(base, best[0]).with_free_parameters(both)]
+
+
+def _candidates(diagnosis: Diagnosis) -> tuple[Cause, ...]:
+    return diagnosis.candidate.causes if diagnosis.candidate else ()
 
 
 def apply_proof(diagnosis: Diagnosis, tried: TriedExtension, proof: Proof) -> Diagnosis:
     """Return the diagnosis with amplitudes and gains in three dimensions, without mechanisms that do not help."""
     refitted = tried.refitted(diagnosis.ranking) if tried.extension.added else None
     causes = {cause.name: cause for cause in refitted.extension} if refitted else {}
+    candidate = tuple(causes.get(cause.name, cause) for cause in _candidates(diagnosis))
     known = replace(
         diagnosis,
         mechanisms=tuple(
             replace(causes.get(cause.name, cause), ln_bayes_factor=cause.ln_bayes_factor)
             for cause in diagnosis.mechanisms
         ),
+        candidate=diagnosis.candidate and replace(diagnosis.candidate, causes=candidate),
         gain=tuple(proof.gains()) if refitted else (),
         simulations=diagnosis.simulations + tried.simulations,
         traces=proof.traces(diagnosis.phases),

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from heartfit.core.arrays import Floats
-from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.inference.decide import BesideProcess, Verdict
 from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.observation.beat import BeatPhases
 from heartfit.places import Region
@@ -20,6 +20,14 @@ class Cause:
     amplitude: float
     unit: str
     interval: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class UnnamedCandidate:
+    """The leading explanation, one mechanism or two, that is detected but not better enough than the process."""
+
+    causes: tuple[Cause, ...]
+    beside_process: BesideProcess
 
 
 @dataclass(frozen=True)
@@ -176,8 +184,9 @@ class Diagnosis:
       from the best; withdrawn: names that did not help on held-out data.
     - threshold: the least ln Bayes factor of a detection; ranking: ln Bayes factors over the baseline of every single
       mechanism and, as "unknown", of a GP discrepancy.
-    - refitted: the proof in three dimensions, if there is one; without a named cause, a trial of the best of the
-      ranking.
+    - candidate: the leading explanation where it is detected but not named, None otherwise.
+    - refitted: the proof in three dimensions, if there is one; without a named cause, a trial of the candidate or, if
+      there is none, of the best of the ranking.
     - unsearched: recorded curves that are not searched, with the reason; phases: of the beat without a cause,
       None where one of its valves never moves.
     - self_test: median of the largest ln Bayes factors in beats of the model without a hidden effect, None where no
@@ -222,6 +231,7 @@ class Diagnosis:
     strokes: Strokes | None = None
     model: ShownModel = "sphere"
     free_parameters: int = 0
+    candidate: UnnamedCandidate | None = None
 
 
 CLEAR_DEVIATIONS = 2.0
