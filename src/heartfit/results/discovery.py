@@ -103,7 +103,7 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
         yield Entry("hidden", "; ".join(map(_hidden_effect, result.hidden)) or "nothing")
     yield from map(_departure, departures(proved))
     yield Entry("said by the search", _verdict(searched))
-    yield _number("ln Bayes factor of the search", max(searched.ranking.values(), default=NAN))
+    yield _factor_of_the_search(searched)
     yield _number("its threshold", searched.threshold)
     yield Entry("said after the refit", _verdict(proved))
     if proved.refitted:
@@ -119,6 +119,22 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
 
 def _number(quantity: str, value: float) -> Entry:
     return Entry(quantity, f"{value:.1f}", value)
+
+
+def _factor_of_the_search(searched: Diagnosis) -> Entry:
+    """Return the ln Bayes factor of what the search names, else the largest of its ranking, with whose it is.
+
+    All mechanisms of a pair have the factor of the pair; of a group the best one counts.
+    """
+    factors = {spaced_name(cause.name): cause.ln_bayes_factor for cause in searched.mechanisms}
+    if searched.verdict == "two":
+        owner, factor = " and ".join(factors), next(iter(factors.values()))
+    elif ranked := factors or {spaced_name(name): value for name, value in searched.ranking.items()}:
+        owner, factor = max(ranked.items(), key=lambda entry: entry[1])
+    else:
+        owner, factor = "nothing tried", NAN
+    subject = "a Gaussian process" if owner == "unknown" else owner
+    return Entry("ln Bayes factor of the search", f"{factor:.1f} ({subject})", factor)
 
 
 def _hidden_effect(effect: Effect) -> str:

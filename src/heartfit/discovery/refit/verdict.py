@@ -8,12 +8,12 @@ import numpy as np
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.inference.error_ratio import error_ratio
 from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.model import ObservedBeat
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Refitted, Trace
-from heartfit.discovery.sphere_model.held_out import error_ratio
 from heartfit.discovery.sphere_model.misfit import deviation_of_means, phase_names
 from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.geometry.mesh import Motion, VentricularMesh
@@ -50,11 +50,11 @@ class Proof:
         simulated = (beat.motion.resample(times) for beat in (self.baseline, self.extended))
         motions = (self.measured, *simulated)
         measured, *fits = (segment_strain(self.mesh, motion) for motion in motions)
-        phase = np.repeat(times / self.measured.period, measured.shape[2])
+        frames = np.repeat(times, measured.shape[2])
         for name in STRAINS:
             direction = DIRECTIONS.index(name)
             before, after = ((measured - strain)[:, direction].ravel() for strain in fits)
-            yield _gain(f"{name} strain", "never fitted", phase, before, after)
+            yield _gain(f"{name} strain", "never fitted", frames, before, after)
 
     def helps(self) -> bool:
         r"""Return True if the extension brings all held-out curves together nearer to the measurement.
@@ -90,17 +90,14 @@ def curve_gains(
     case: MeasuredCase, baseline: Mapping[str, Curve], extended: Mapping[str, Curve]
 ) -> Iterator[Gain]:
     """Yield the gain on the held-out part of each curve."""
-    period = case.curves["lv_volume"].period
     for name, held in case.split.held.items():
         before, after = (held.values - curves[name](held.times) for curves in (baseline, extended))
         fitted_too = name in case.split.fitted
-        yield _gain(
-            name, HELD_OUT_NOTES[name] if fitted_too else "never fitted", held.times / period, before, after
-        )
+        yield _gain(name, HELD_OUT_NOTES[name] if fitted_too else "never fitted", held.times, before, after)
 
 
-def _gain(name: str, on: str, phase: Floats, before: Floats, after: Floats) -> Gain:
-    ratio, interval = error_ratio(phase, before, after)
+def _gain(name: str, on: str, times: Floats, before: Floats, after: Floats) -> Gain:
+    ratio, interval = error_ratio(times, before, after)
     baseline, extended = (float(np.sqrt(np.mean(error**2))) for error in (before, after))
     return Gain(name, on, baseline, extended, ratio, interval)
 

@@ -34,7 +34,7 @@ class UnnamedCandidate:
 class Gain:
     """Root mean square errors [SI] of a held-out curve: ``none`` without and ``extended`` with the cause.
 
-    ratio: extended over none, with a 95 % interval over the phases of the beat; on: description of the held-out data.
+    ratio: extended over none, with its 95 % interval; on: description of the held-out data.
     """
 
     curve: str
