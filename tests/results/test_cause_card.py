@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from heartfit.discovery.inference.decide import BesideProcess
-from heartfit.discovery.sphere_model.cause import Cause, Change, Diagnosis, Gain, Trace, UnnamedCandidate
+from heartfit.discovery.sphere_model.cause import (
+    Cause,
+    Change,
+    CurveFit,
+    Diagnosis,
+    Gain,
+    Trace,
+    UnnamedCandidate,
+)
 from heartfit.discovery.sphere_model.misfit import departures
 from heartfit.discovery.sphere_model.recording import UNSEARCHED
 from heartfit.observation.beat import BeatPhases
@@ -89,6 +97,32 @@ def test_a_departing_curve_outside_the_search_is_excepted():
     titles = [plot_cause(cause).axes[1].get_title() for cause in (departing, searched)]
     assert titles[0] != titles[1]
     assert [numbers_in(title) for title in titles] == [[2.7, 0.89, 3.0], [2.7, 0.89, 3.0]]
+
+
+def test_a_curve_that_the_refit_explains_is_not_excepted_and_the_card_says_so():
+    departing = diagnosis(
+        "none", traces=(replace(TRACE, curve="rv_volume"),), unsearched={"rv_volume": "no right side"}
+    )
+    within, beyond = (
+        replace(departing, fits=(CurveFit("rv_volume", chi_squared, 24.0, p),))
+        for chi_squared, p in ((20.0, 0.7), (60.0, 6e-5))
+    )
+    assert CURVES["rv_volume"] not in verdict_sentence(within)
+    assert CURVES["rv_volume"] in verdict_sentence(beyond)
+    for one, numbers in ((within, [20.0, 24.0, 0.7]), (beyond, [60.0, 24.0, 6e-5])):
+        (line,) = [line for line in bullets(markdown_card(one, "case 1")) if "chi-squared" in line]
+        assert numbers_in(line)[-3:] == numbers
+
+
+@pytest.mark.parametrize(
+    ("p", "words"), [(0.7, "leaves no misfit"), (6e-5, "by more than its noise, though not in")]
+)
+def test_a_curve_without_a_clear_phase_is_missed_where_its_chi_squared_is_too_large(p, words):
+    fit = CurveFit("lv_volume", 20.0, 24.0, p)
+    (small,) = departures(diagnosis("none", traces=(replace(TRACE, measured=1e-4 + 0.4 * BUMP),)))
+    assert words in misfit_sentence(small, "the refitted 3-D heart", fit)
+    (clear,) = departures(diagnosis("none"))
+    assert words not in misfit_sentence(clear, "the refitted 3-D heart", fit)
 
 
 def test_units_are_clinical():

@@ -31,12 +31,12 @@ GROUPS = Groups(("volunteer1", "volunteer2"), ("real",), ("lbbb1", "lbbb2"))
 def costs(case: str, longest: float) -> list[Cost]:
     walls = {"draw_sigma_points": 6.0, "simulate_point_0": 30.0, "simulate_point_1": longest}
     walls |= {"update_parameters": 12.0, "simulate_calibrated": 42.0}
-    return [Cost(f"{case}/paper/{job}", wall, wall, 100.0) for job, wall in walls.items()]
+    return [Cost(f"{case}/locking/{job}", wall, wall, 100.0) for job, wall in walls.items()]
 
 
 SELECTION = pd.DataFrame(
     {
-        "setting": "paper",
+        "setting": "locking",
         "observed": ["volume", "volume", "volume and pressure", "volume and pressure"],
         "chosen by": ["rule", PAPER] * 2,
         "parameters": ["sigma_0, c_1, mu, tau", ", ".join(FOUR), ", ".join(SEVEN), ", ".join(SEVEN)],
@@ -45,7 +45,7 @@ SELECTION = pd.DataFrame(
 FOURTEEN = Gaussian.from_relative(dict.fromkeys(PAPER_PARAMETERS, 1.0), dict.fromkeys(PAPER_PARAMETERS, 0.2))
 SENSITIVITY = Sensitivity(FOURTEEN, ("V_min",), np.ones(1), np.zeros((14, 1)), np.zeros((14, 1)))
 SLOPE_ERRORS = Scatter(("q_max", "q_min"), 21, np.array([0.1, -0.1]), np.diag([1e-6, 1e-6]))
-NOISE = NoiseModel({}, SLOPE_ERRORS, SLOPE_ERRORS)
+NOISE = NoiseModel({}, SLOPE_ERRORS, {"lv_volume": SLOPE_ERRORS})
 RESULTS = StudyResults(
     cases=[
         calibrated("volunteer1", errors=10.0, ratios={"sigma_0": 1.2}),
@@ -58,7 +58,7 @@ RESULTS = StudyResults(
     costs=[
         cost for case in (*GROUPS.virtual, "real") for cost in costs(case, 300.0 if case == "lbbb1" else 60.0)
     ],
-    sensitivities={"paper": SENSITIVITY},
+    sensitivities={"locking": SENSITIVITY},
     selection=[SELECTION],
     noise=[NOISE],
 )

@@ -17,6 +17,7 @@ from heartfit.discovery.sphere_model.cause import (
     ActingPlace,
     Cause,
     Change,
+    CurveFit,
     Diagnosis,
     FittedModel,
     Gain,
@@ -93,6 +94,7 @@ class CauseFile:
     model: ShownModel = "sphere"
     free_parameters: int = 0
     candidate: UnnamedCandidate | None = None
+    fits: tuple[CurveFit, ...] = ()
     made_by: str = ""
 
     @classmethod

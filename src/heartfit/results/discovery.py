@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain
 from heartfit.discovery.sphere_model.misfit import Departure, departures
 from heartfit.results.errors import root_mean_square
 from heartfit.results.misfit_text import mean_misfit
@@ -92,8 +92,10 @@ NOTE = (
     "Wrong by: the misfit of the refitted three-dimensional heart without an added mechanism, on average over the "
     "phase in which it is clearest, ± the noise of this average; sd: misfit over noise. The search on the sphere and "
     "the refits use one half of the samples; the error ratio, with the mechanism over without it, is that of the other "
-    "half and of curves to which nothing was fitted. The size from all samples is one linear step from the refit, once "
-    "the other half has judged. K has no true value. Refits are coarse where the configuration has `discovery.coarse`."
+    "half and of the strain, to which nothing was fitted. Chi-squared of the refits: of all samples of a curve, of its "
+    "degrees of freedom, with the probability p that a correct model is further off. The size from all samples is one "
+    "linear step from the refit, once the other half has judged. K has no true value. Refits are coarse where the "
+    "configuration has `discovery.coarse`."
 )
 
 
@@ -102,6 +104,7 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
     if result.hidden is not None:
         yield Entry("hidden", "; ".join(map(_hidden_effect, result.hidden)) or "nothing")
     yield from map(_departure, departures(proved))
+    yield from (_fit(fit, "without a mechanism") for fit in proved.fits)
     yield Entry("said by the search", _verdict(searched))
     yield _factor_of_the_search(searched)
     yield _number("its threshold", searched.threshold)
@@ -112,6 +115,7 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
         yield from _hidden_sizes(proved.refitted.extension, result.hidden or ())
         yield _number("ln Bayes factor of the refits", proved.refitted.ln_bayes_factor)
         yield Entry("both refits converged", "yes" if proved.refitted.converged else "no")
+        yield from (_fit(fit, "with the mechanism") for fit in proved.refitted.fits)
     yield from map(_gain, proved.gain)
     yield from _parameters(result)
     yield Entry("simulated beats", str(proved.simulations), proved.simulations)
@@ -158,6 +162,13 @@ def _verdict(diagnosis: Diagnosis) -> str:
 def _departure(departure: Departure) -> Entry:
     text = f"{mean_misfit(departure)}: {abs(departure.deviations):.1f} sd"
     return Entry(f"wrong by: {CURVES.get(departure.curve, departure.curve)}", text, departure.deviations)
+
+
+def _fit(fit: CurveFit, model: str) -> Entry:
+    """Return the chi-squared of a curve; its value is the probability of a larger one, which a correct model meets."""
+    curve = CURVES.get(fit.curve, fit.curve)
+    text = f"{fit.chi_squared:.1f} of {fit.freedom:.1f}, p = {fit.p:.2g}"
+    return Entry(f"chi-squared: {curve}, {model}", text, fit.p)
 
 
 def _size(name: str, unit: str) -> tuple[str, float]:

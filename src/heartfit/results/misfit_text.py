@@ -1,8 +1,8 @@
 """Sentences on what a simulation gets wrong, each with the model that it speaks of."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
-from heartfit.discovery.sphere_model.cause import Diagnosis
+from heartfit.discovery.sphere_model.cause import CurveFit, Diagnosis
 from heartfit.discovery.sphere_model.misfit import Departure, departures
 from heartfit.results.text import CURVES, printed_curve_unit, spaced_name, two_digits
 
@@ -35,27 +35,40 @@ def misfit_sentences(diagnosis: Diagnosis) -> tuple[str, ...]:
     """Return one sentence per curve on the simulation without a cause, then on that with it where there is one."""
     models = (False, True) if added_name(diagnosis) else (False,)
     return tuple(
-        misfit_sentence(departure, model_name(diagnosis, extended))
+        misfit_sentence(
+            departure, model_name(diagnosis, extended), _fits(diagnosis, extended).get(departure.curve)
+        )
         for extended in models
         for departure in departures(diagnosis, extended)
     )
 
 
-def misfit_sentence(departure: Departure, model: str) -> str:
+def _fits(diagnosis: Diagnosis, extended: bool) -> Mapping[str, CurveFit]:
+    """Return the chi-squared of the curves of a model, by curve; empty where none was computed."""
+    fits = (diagnosis.refitted.fits if diagnosis.refitted else ()) if extended else diagnosis.fits
+    return {fit.curve: fit for fit in fits}
+
+
+def misfit_sentence(departure: Departure, model: str, fit: CurveFit | None = None) -> str:
     """Return what a model gets wrong in a curve on average over a phase, beside the noise of that average.
 
     "The sphere of the search (...) gives the aortic pressure 0.8 ± 0.2 kPa too low in ejection (4.0 sd of the noise,
-    12 samples)."
+    12 samples)." fit: chi-squared of all samples about this model.
     """
     curve = CURVES.get(departure.curve, departure.curve)
     subject = f"{model[0].upper()}{model[1:]}"
     of_noise = f"{abs(departure.deviations):.1f} sd of the noise, {_samples(departure.samples)}"
-    if departure.clear:
-        return f"{subject} gives the {curve} {mean_misfit(departure)} ({of_noise})."
-    return (
-        f"{subject} leaves no misfit of the {curve} beyond the noise in the mean of any phase: at most "
-        f"{mean_misfit(departure)} ({of_noise})."
+    whole = (
+        f"; over the beat chi-squared is {fit.chi_squared:.1f} of {fit.freedom:.1f} degrees of freedom, p = {fit.p:.2g}"
+        if fit
+        else ""
     )
+    if departure.clear:
+        return f"{subject} gives the {curve} {mean_misfit(departure)} ({of_noise}){whole}."
+    told = f"at most {mean_misfit(departure)} ({of_noise}){whole}."
+    if fit is None or fit.within_noise:
+        return f"{subject} leaves no misfit of the {curve} beyond the noise in the mean of any phase: {told}"
+    return f"{subject} misses the {curve} by more than its noise, though not in the mean of a phase: {told}"
 
 
 def mean_misfit(departure: Departure) -> str:

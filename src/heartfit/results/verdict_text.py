@@ -41,6 +41,7 @@ def _silence(diagnosis: Diagnosis) -> str:
 def _left_out(diagnosis: Diagnosis) -> str:
     """Return the end of the sentence on curves that depart and were not searched."""
     departing = {departure.curve for departure in departures(diagnosis) if departure.clear}
+    departing -= {fit.curve for fit in diagnosis.fits if fit.within_noise}
     names = " and ".join(CURVES[name] for name in sorted(departing & set(diagnosis.unsearched)))
     return (
         f". This is of the searched curves: the {names}, which the simulation misses, was not searched"

@@ -13,7 +13,7 @@ from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.model import ObservedBeat
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Refitted, Trace
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain, Refitted, Trace
 from heartfit.discovery.sphere_model.misfit import deviation_of_means, phase_names
 from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.geometry.mesh import Motion, VentricularMesh
@@ -92,8 +92,7 @@ def curve_gains(
     """Yield the gain on the held-out part of each curve."""
     for name, held in case.split.held.items():
         before, after = (held.values - curves[name](held.times) for curves in (baseline, extended))
-        fitted_too = name in case.split.fitted
-        yield _gain(name, HELD_OUT_NOTES[name] if fitted_too else "never fitted", held.times, before, after)
+        yield _gain(name, HELD_OUT_NOTES[name], held.times, before, after)
 
 
 def _gain(name: str, on: str, times: Floats, before: Floats, after: Floats) -> Gain:
@@ -109,7 +108,8 @@ Z_95 = 1.96
 class TriedExtension:
     """Refits of the baseline and of an extension; kept: effects that helped; simulations: beats of all refits.
 
-    final: coordinates of the extension given both halves of the samples, None where they are not known.
+    final: coordinates of the extension given both halves of the samples, None where they are not known; fits: of the
+    curves about the extension.
     """
 
     extension: Extension
@@ -118,6 +118,7 @@ class TriedExtension:
     kept: tuple[str, ...]
     simulations: int
     final: Gaussian | None = None
+    fits: tuple[CurveFit, ...] = ()
 
     def refitted(self, ranking: Mapping[str, float]) -> Refitted:
         """Return the result in the form of a diagnosis; ranking: evidence of each mechanism in the search."""
@@ -129,6 +130,7 @@ class TriedExtension:
             self.simulations,
             self.baseline.converged and self.extended.converged,
             tuple(causes_of(self.extension, self.final, ranking)) if self.final else (),
+            self.fits,
         )
 
 
@@ -153,8 +155,13 @@ def _candidates(diagnosis: Diagnosis) -> tuple[Cause, ...]:
     return diagnosis.candidate.causes if diagnosis.candidate else ()
 
 
-def apply_proof(diagnosis: Diagnosis, tried: TriedExtension, proof: Proof) -> Diagnosis:
-    """Return the diagnosis with amplitudes and gains in three dimensions, without mechanisms that do not help."""
+def apply_proof(
+    diagnosis: Diagnosis, tried: TriedExtension, proof: Proof, fits: Sequence[CurveFit] = ()
+) -> Diagnosis:
+    """Return the diagnosis with amplitudes and gains in three dimensions, without mechanisms that do not help.
+
+    fits: of the curves about the model without an extension.
+    """
     refitted = tried.refitted(diagnosis.ranking) if tried.extension.added else None
     causes = {cause.name: cause for cause in refitted.extension} if refitted else {}
     candidate = tuple(causes.get(cause.name, cause) for cause in _candidates(diagnosis))
@@ -171,6 +178,7 @@ def apply_proof(diagnosis: Diagnosis, tried: TriedExtension, proof: Proof) -> Di
         refitted=refitted,
         model="3-D heart",
         free_parameters=len(tried.baseline.names),
+        fits=tuple(fits),
     )
     return withdraw_unhelpful(known, tried.kept)
 

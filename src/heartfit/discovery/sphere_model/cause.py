@@ -45,6 +45,25 @@ class Gain:
     interval: tuple[float, float]
 
 
+SMALLEST_P = 0.01
+"""Probability of a larger chi-squared below which a model misses a curve by more than its noise."""
+
+
+@dataclass(frozen=True)
+class CurveFit:
+    """Chi-squared of all samples of a curve about a refit, its degrees of freedom, and the probability p of more."""
+
+    curve: str
+    chi_squared: float
+    freedom: float
+    p: float
+
+    @property
+    def within_noise(self) -> bool:
+        """True if the model misses the curve by no more than its noise."""
+        return self.p > SMALLEST_P
+
+
 @dataclass(frozen=True, eq=False)
 class Trace:
     """A measured curve (k,) [SI] beside the fitted ones: ``none`` without and ``extended`` with the cause.
@@ -138,7 +157,8 @@ class Refitted:
 
     extension: the added causes with refitted amplitudes; ln_bayes_factor: of the two refits; none, extended: parameters
     [SI] by name; simulations: number of 3-D beats; converged: both refits converged; from_all_samples: the added causes
-    with their amplitudes given both halves of the samples, after the second has judged; empty where not computed.
+    with their amplitudes given both halves of the samples, after the second has judged; empty where not computed. fits:
+    of the curves about the extended model, empty where not all slopes are known.
     """
 
     extension: tuple[Cause, ...]
@@ -148,6 +168,7 @@ class Refitted:
     simulations: int
     converged: bool
     from_all_samples: tuple[Cause, ...] = ()
+    fits: tuple[CurveFit, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,6 +224,7 @@ class Diagnosis:
     - model, free_parameters: whose curves the traces show, and how many parameters it has free without a cause, 0 where
       it is not told.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
+    - fits: of the curves about the 3-D model without a cause, empty where none was refitted.
     """
 
     verdict: Verdict
@@ -232,6 +254,7 @@ class Diagnosis:
     model: ShownModel = "sphere"
     free_parameters: int = 0
     candidate: UnnamedCandidate | None = None
+    fits: tuple[CurveFit, ...] = ()
 
 
 CLEAR_DEVIATIONS = 2.0
