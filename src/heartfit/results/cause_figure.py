@@ -127,7 +127,9 @@ def _mark(axes: Axes, departure: Departure, diagnosis: Diagnosis) -> None:
     name += " (not searched)" if departure.curve in diagnosis.unsearched else ""
     told = f"{mean_misfit(departure)}: {abs(departure.deviations):.1f} sd"
     if not departure.clear:
-        axes.set_title(f"{name} without a mechanism: within the noise\n(at most {told})", fontsize=9, pad=24)
+        axes.set_title(
+            f"{name} without a mechanism: no mean beyond the noise\n(at most {told})", fontsize=9, pad=24
+        )
         return
     title = f"{name} without a mechanism:\n{told}"
     axes.set_title(title, fontsize=9, fontweight="bold", color=ARTERY, pad=24)
