@@ -31,7 +31,7 @@ from heartfit.results.cause_figure import plot_cause
 from heartfit.results.misfit_text import MODELS, misfit_sentences
 from heartfit.results.report.cause import cause_card
 from heartfit.results.text import CURVES, spaced_name
-from heartfit.results.verdict_text import candidate_causes, verdict_sentence
+from heartfit.results.verdict_text import candidate_causes, verdict_lines, verdict_sentence
 from tests.printed import numbers_in
 
 PERIOD = 0.8
@@ -126,9 +126,22 @@ def test_each_named_mechanism_has_one_size_with_unit_and_interval(case: Diagnosi
         size = re.findall(
             rf"{spaced_name(cause.name)}, [\d.]+ (cm²|\(no unit,)[ (]*95 % CI [\d.]+ to [\d.]+\)", card
         )
-        told = 0 if case.verdict == "group" and not (case.refitted and cause is LEAK) else 1
-        assert len(size) == told
+        number = 0 if case.verdict == "group" and not (case.refitted and cause is LEAK) else 1
+        assert len(size) == number
     assert card.count("95 % CI") - card.count("error ratio") <= max(len(causes), 1)
+
+
+@every_case
+def test_the_size_is_that_of_the_refit_where_there_is_one_and_of_all_samples(case: Diagnosis) -> None:
+    if case.verdict in ("named", "two"):
+        expected = 0.36 if case.refitted else 0.39
+        assert numbers_in(verdict_sentence(case))[0] == pytest.approx(expected)
+        half = replace(case, from_all_samples=(), refitted=None)
+        assert numbers_in(verdict_sentence(half))[0] == pytest.approx(0.3)
+        sources = [
+            [line for line in verdict_lines(one) if line.startswith("Sizes are")] for one in (case, half)
+        ]
+        assert ["all samples" in lines[0] for lines in sources] == [True, False]
 
 
 @every_case
@@ -146,13 +159,13 @@ def test_a_factor_stands_beside_its_threshold(case: Diagnosis) -> None:
 def test_a_sentence_on_a_misfit_names_its_model_and_no_other_one_denies_it(case: Diagnosis) -> None:
     lines = misfit_parts(case)
     assert len(lines) == len(misfit_sentences(case))
-    told: dict[tuple[str, str], list[bool]] = {}
+    denials: dict[tuple[str, str], list[bool]] = {}
     for line in lines:
         (model,) = [words for words in MODELS.values() if words in line[0:2] + line[2].lower() + line[3:]]
         (state,) = re.findall(r"\((23 free parameters, [^)]+)\)", line)
         (curve,) = [words for words in CURVES.values() if words in line]
-        told.setdefault((model + state, curve), []).append("no misfit" in line)
-    assert all(len(states) == 1 for states in told.values()), "one sentence for each model and curve"
+        denials.setdefault((model + state, curve), []).append("no misfit" in line)
+    assert all(len(states) == 1 for states in denials.values()), "one sentence for each model and curve"
     silent = "beyond the noise" in markdown_card(case, "heart").split("## Misfit")[0]
     assert not silent, "the headline leaves misfits to the section that names their models"
 

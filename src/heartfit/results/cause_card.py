@@ -171,16 +171,16 @@ def refit_section(diagnosis: Diagnosis) -> str:
 
 def _extension(diagnosis: Diagnosis, refitted: Refitted) -> str:
     named = {cause.name for cause in diagnosis.mechanisms}
-    told_above = named if diagnosis.verdict != "group" else set()
-    told_above |= {cause.name for cause in diagnosis.candidate.causes} if diagnosis.candidate else set()
+    sized_above = named if diagnosis.verdict != "group" else set()
+    sized_above |= {cause.name for cause in diagnosis.candidate.causes} if diagnosis.candidate else set()
     final = {cause.name: cause for cause in refitted.from_all_samples}
-    told = [
+    extension = [
         spaced_name(cause.name)
-        if cause.name in told_above
+        if cause.name in sized_above
         else f"{mechanism_with_size(final.get(cause.name, cause))}{'' if cause.name in named else ', not named'}"
         for cause in refitted.extension
     ]
-    return f"Added to the three-dimensional heart: {'; '.join(told)}."
+    return f"Added to the three-dimensional heart: {'; '.join(extension)}."
 
 
 def gain_subject(diagnosis: Diagnosis) -> str:

@@ -125,13 +125,13 @@ def _mark(axes: Axes, departure: Departure, diagnosis: Diagnosis) -> None:
     """Set the departure of the simulation without a cause as title, and shade its phase."""
     name, phases = CURVE_LABELS.get(departure.curve, departure.curve), diagnosis.phases
     name += " (not searched)" if departure.curve in diagnosis.unsearched else ""
-    told = f"{mean_misfit(departure)}: {abs(departure.deviations):.1f} sd"
+    size = f"{mean_misfit(departure)}: {abs(departure.deviations):.1f} sd"
     if not departure.clear:
         axes.set_title(
-            f"{name} without a mechanism: no mean beyond the noise\n(at most {told})", fontsize=9, pad=24
+            f"{name} without a mechanism: no mean beyond the noise\n(at most {size})", fontsize=9, pad=24
         )
         return
-    title = f"{name} without a mechanism:\n{told}"
+    title = f"{name} without a mechanism:\n{size}"
     axes.set_title(title, fontsize=9, fontweight="bold", color=ARTERY, pad=24)
     for phase, start, end in [] if phases is None else phases.spans():
         if phase == departure.phase:

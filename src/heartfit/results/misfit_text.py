@@ -65,10 +65,14 @@ def misfit_sentence(departure: Departure, model: str, fit: CurveFit | None = Non
     )
     if departure.clear:
         return f"{subject} gives the {curve} {mean_misfit(departure)} ({of_noise}){whole}."
-    told = f"at most {mean_misfit(departure)} ({of_noise}){whole}."
+    largest = f"at most {mean_misfit(departure)} ({of_noise}){whole}."
     if fit is None or fit.within_noise:
-        return f"{subject} leaves no misfit of the {curve} beyond the noise in the mean of any phase: {told}"
-    return f"{subject} misses the {curve} by more than its noise, though not in the mean of a phase: {told}"
+        return (
+            f"{subject} leaves no misfit of the {curve} beyond the noise in the mean of any phase: {largest}"
+        )
+    return (
+        f"{subject} misses the {curve} by more than its noise, though not in the mean of a phase: {largest}"
+    )
 
 
 def mean_misfit(departure: Departure) -> str:

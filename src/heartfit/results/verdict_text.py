@@ -113,8 +113,8 @@ def candidate_names(diagnosis: Diagnosis) -> str:
 def candidate_sentence(diagnosis: Diagnosis) -> str:
     """Return the leading explanation with its sizes, and by which rule it is not named."""
     assert diagnosis.candidate is not None
-    told, beside = sizes(diagnosis, diagnosis.candidate.causes), diagnosis.candidate.beside_process
-    subject = "the pair" if len(told) == 2 else "the mechanism"
+    causes, beside = sizes(diagnosis, diagnosis.candidate.causes), diagnosis.candidate.beside_process
+    subject = "the pair" if len(causes) == 2 else "the mechanism"
     side = "above" if beside.over >= 0.0 else "below"
     rules = {
         f"The ln Bayes factor of {subject}, {beside.gain:.1f}, must exceed that of a Gaussian process, "
@@ -124,7 +124,7 @@ def candidate_sentence(diagnosis: Diagnosis) -> str:
         f"A Gaussian process beside {subject} gains {beside.left:.1f} more in ln evidence; "
         f"at most {beside.allowed:.1f} may be left.": beside.left > beside.allowed,
     }
-    named = "; ".join(map(mechanism_with_size, told))
+    named = "; ".join(map(mechanism_with_size, causes))
     return " ".join([f"Candidate, not named: {named}.", *(rule for rule, broken in rules.items() if broken)])
 
 
@@ -146,8 +146,9 @@ def _told_evidence(diagnosis: Diagnosis) -> tuple[str, float]:
     if diagnosis.acting:
         return f"{diagnosis.acting[0].slot}, from all samples,", diagnosis.acting[0].ln_bayes_factor
     if diagnosis.mechanisms:
-        told = diagnosis.mechanisms if diagnosis.verdict == "two" else diagnosis.mechanisms[:1]
-        return " with ".join(spaced_name(cause.name) for cause in told), told[0].ln_bayes_factor
+        first = diagnosis.mechanisms[0]
+        named = diagnosis.mechanisms if diagnosis.verdict == "two" else (first,)
+        return " with ".join(spaced_name(cause.name) for cause in named), first.ln_bayes_factor
     name, factor = strongest(diagnosis)
     return explanation_name(name), factor
 
@@ -156,12 +157,12 @@ def size_lines(diagnosis: Diagnosis) -> Iterable[str]:
     """Yield what the size of each named mechanism measures, and from which samples and model it comes."""
     if diagnosis.verdict == "group":
         return
-    told = sizes(diagnosis, diagnosis.mechanisms or candidate_causes(diagnosis))
-    for cause in told:
+    sized = sizes(diagnosis, diagnosis.mechanisms or candidate_causes(diagnosis))
+    for cause in sized:
         kind = registered().get(cause.name)
         if kind is not None:
             yield f"Size of {spaced_name(cause.name)}: {kind.switch().meaning}."
-    if told:
+    if sized:
         proved = diagnosis.refitted
         model = "the refit in three dimensions" if proved else "the sphere of the search"
         final = proved.from_all_samples if proved else diagnosis.from_all_samples

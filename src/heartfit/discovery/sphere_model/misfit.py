@@ -73,12 +73,12 @@ def largest_departure(curve: str, difference: Floats, sd: Floats, names: np.ndar
 
     difference (k,): simulated minus measured values; sd (k,): of the mean of the phase of each; names (k,): of phases.
     """
-    found = [
+    means = [
         Departure(curve, str(name), float(difference[inside].mean()), float(sd[inside][0]), int(inside.sum()))
         for name in dict.fromkeys(names.tolist())
         for inside in [names == name]
     ]
-    return max(found, key=lambda departure: abs(departure.deviations))
+    return max(means, key=lambda departure: abs(departure.deviations))
 
 
 def departures(diagnosis: Diagnosis, extended: bool = False) -> list[Departure]:

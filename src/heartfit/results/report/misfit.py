@@ -46,8 +46,8 @@ def _targets(model: str, fit: FittedCase) -> str:
     """Return the errors of the targets over their noise, or how many have one."""
     scores = {name: score for name, score in fit.result.scores().items() if isfinite(score)}
     missed = sum(abs(score) > CLEAR_MISFIT for score in scores.values())
-    told = ", ".join(f"{name} {score:+.1f}" for name, score in scores.items())
-    errors = f": errors in sd of the noise {told}" if told else ""
+    printed = ", ".join(f"{name} {score:+.1f}" for name, score in scores.items())
+    errors = f": errors in sd of the noise {printed}" if printed else ""
     return (
         f"{model[0].upper()}{model[1:]} misses {missed} of the {len(scores)} targets of the calibration beyond the "
         f"noise{errors}."
