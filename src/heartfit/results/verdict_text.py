@@ -164,11 +164,7 @@ def size_lines(diagnosis: Diagnosis) -> Iterable[str]:
             yield f"Size of {spaced_name(cause.name)}: {kind.switch().meaning}."
     if sized:
         proved = diagnosis.refitted
-        model = "the refit in three dimensions" if proved else "the sphere of the search"
+        model = "the refit in three dimensions" if proved else "the fit of the sphere"
         final = proved.from_all_samples if proved else diagnosis.from_all_samples
-        samples = (
-            "all samples, after one half of them had judged the name"
-            if final
-            else "the samples that were fitted"
-        )
-        yield f"From {model}, by {samples}."
+        samples = "all samples, after one half of them had judged" if final else "the samples that choose"
+        yield f"Sizes are from {model} to {samples}."
