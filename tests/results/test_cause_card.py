@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from heartfit.discovery.inference.decide import BesideProcess
+from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.cause import (
     Cause,
     Change,
@@ -260,3 +261,17 @@ def test_the_figure_shows_the_band_of_structure():
 def test_a_change_is_a_ratio_or_a_difference(change, line):
     text = markdown_card(diagnosis("none", changes=(change,)), "heart")
     assert f"- `{change.name}`: {line}" in text
+
+
+def test_a_close_decision_says_what_would_change_it() -> None:
+    """And a clear one says nothing of it."""
+    close = Margin(("MitralRegurgitation",), False, -0.21, "none")
+    card = markdown_card(diagnosis("named", (LEAK,), margin=close), "Case")
+    assert (
+        'Close decision: the search would give "none" if the ln evidence of mitral regurgitation were 0.21 lower'
+        in card
+    )
+    on_top = Margin(("MitralRegurgitation",), True, 0.4, "unknown")
+    card = markdown_card(diagnosis("named", (LEAK,), margin=on_top), "Case")
+    assert "a smooth error on top of mitral regurgitation were 0.40 higher" in card
+    assert "Close decision" not in markdown_card(diagnosis("named", (LEAK,)), "Case")

@@ -4,6 +4,7 @@ from collections.abc import Collection, Mapping, Sequence
 from functools import partial
 
 from heartfit.discovery.inference.decide import CHANGE_RULES, DEFAULT_RULES, Effects, Rules, Verdict
+from heartfit.discovery.inference.margin import margin
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.consistency import implausible
 from heartfit.discovery.sphere_model.earlier import EarlierHeart
@@ -103,6 +104,7 @@ def conclude(
         strokes=Strokes.from_recording(case.recording),
         free_parameters=len(case.model.base),
         candidate=case.candidate(),
+        margin=margin(case.findings.evidences, case.rules),
     )
 
 
