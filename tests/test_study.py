@@ -73,12 +73,13 @@ def test_the_lock_names_no_address():
         ([], [1], [[]]),
         (["--configfile", "config/smoke.yaml"], [0], [["--configfile", "config/smoke.yaml"]]),
     ],
-    ids=["the whole study", "one that drifted", "a failed one", "with arguments"],
+    ids=["the whole study", "one that lost a finding", "a failed one", "with arguments"],
 )
 def test_the_measured_heart_follows_the_study_and_its_card_is_printed(
     study, tmp_path, monkeypatch, capsys, arguments, codes, expected
 ):
     monkeypatch.setattr(study, "ROOT", tmp_path)
+    monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
     monkeypatch.setattr(study, "DISCOVERED", tmp_path)
     calls, outcomes = [], iter(codes)
     monkeypatch.setattr(
@@ -88,8 +89,13 @@ def test_the_measured_heart_follows_the_study_and_its_card_is_printed(
     for file in ("patient1/discovery/physical/cause.md", "tables/patient1_physical_extension.md"):
         (tmp_path / file).parent.mkdir(parents=True)
         (tmp_path / file).write_text(f"text of {file}")
+    for folder in ("results", "."):
+        (tmp_path / folder / "tables").mkdir(parents=True, exist_ok=True)
+        (tmp_path / folder / study.AGREEMENT).write_text(f"The tables of {folder} agree.\n")
     assert study.run(arguments) == max(codes)
     assert calls == expected
     printed = capsys.readouterr().out
     assert ("text of patient1/discovery" in printed) == (len(codes) == 3)
     assert ("text of tables/patient1" in printed) == (len(codes) == 3)
+    last = [line.partition(": ")[2] for line in printed.splitlines()[-2:]]
+    assert (last == ["The tables of results agree.", "The tables of . agree."]) == (len(codes) == 3)

@@ -33,7 +33,7 @@ def test_pages_are_printed(capsys):
     [
         (["check", "--config", "nowhere.yaml"], "nowhere.yaml: no such file"),
         (["simulate", "nowhere.vtu"], "nowhere.vtu: no such file"),
-        (["simulate", "x.vtu", "--setting", "fysical"], "known are paper, physical"),
+        (["simulate", "x.vtu", "--setting", "fysical"], "known are locking, physical"),
         (["simulate", "x.vtu", "--set", "sigma0=1"], "nearest are"),
         (["simulate", "x.vtu", "--set", "sigma_0"], "expected NAME=VALUE"),
         (["diagnose", "nowhere.csv"], "nowhere.csv: no such file"),

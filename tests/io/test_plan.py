@@ -15,7 +15,7 @@ def content(tmp_path, request):
     study = yaml.safe_load((request.config.rootpath / ROOT_CONFIG).read_text())
     study |= {"cases": str(tmp_path / "cases.tsv"), "measured_heart": []}
     study["sensitivity"]["case"] = "heart1"
-    study["settings"] |= {"paper": None}
+    study["settings"] |= {"locking": None}
     return study
 
 

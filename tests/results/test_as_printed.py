@@ -39,8 +39,8 @@ def test_the_papers_rows_are_those_of_its_print() -> None:
 
 def test_our_errors_stand_below_one_block_a_setting() -> None:
     table = printed_errors(CASES, ERRORS, GROUPS)
-    assert table["setting"].tolist() == [PAPER] * 3 + ["paper"] * 3 + ["physical"] * 3
-    ours = table[table["setting"] == "paper"].set_index("Volunteers")
+    assert table["setting"].tolist() == [PAPER] * 3 + ["locking"] * 3 + ["physical"] * 3
+    ours = table[table["setting"] == "locking"].set_index("Volunteers")
     assert ours.index.tolist() == ["V_min", "q_max", "q_min"]
     assert ours.loc["q_min", ["1", "2", "3", "Mean", "real"]].tolist() == [
         "10.00",
@@ -56,7 +56,7 @@ def test_our_errors_stand_below_one_block_a_setting() -> None:
 
 def test_our_parameters_have_the_papers_units_and_order_and_three_digits_below_one() -> None:
     table = printed_parameters(CASES, PARAMETERS, GROUPS)
-    ours = table[table["setting"] == "paper"].set_index("Volunteers")
+    ours = table[table["setting"] == "locking"].set_index("Volunteers")
     assert ours.index.tolist() == ["sigma_0 (MPa)", "mu (MPa.s)", "K (MPa)", "R_p (MPa.s/m^3)"]
     assert ours.loc["sigma_0 (MPa)", ["1", "2", "Mean"]].tolist() == ["0.300", "0.450", "0.38"]
     assert ours.loc["mu (MPa.s)", ["1", "Mean"]].tolist() == ["0.0150", "0.015"]

@@ -31,12 +31,12 @@ GROUPS = Groups(("volunteer1", "volunteer2"), ("real",), ("lbbb1", "lbbb2"))
 def costs(case: str, longest: float) -> list[Cost]:
     walls = {"draw_sigma_points": 6.0, "simulate_point_0": 30.0, "simulate_point_1": longest}
     walls |= {"update_parameters": 12.0, "simulate_calibrated": 42.0}
-    return [Cost(f"{case}/paper/{job}", wall, wall, 100.0) for job, wall in walls.items()]
+    return [Cost(f"{case}/locking/{job}", wall, wall, 100.0) for job, wall in walls.items()]
 
 
 SELECTION = pd.DataFrame(
     {
-        "setting": "paper",
+        "setting": "locking",
         "observed": ["volume", "volume", "volume and pressure", "volume and pressure"],
         "chosen by": ["rule", PAPER] * 2,
         "parameters": ["sigma_0, c_1, mu, tau", ", ".join(FOUR), ", ".join(SEVEN), ", ".join(SEVEN)],
@@ -58,7 +58,7 @@ RESULTS = StudyResults(
     costs=[
         cost for case in (*GROUPS.virtual, "real") for cost in costs(case, 300.0 if case == "lbbb1" else 60.0)
     ],
-    sensitivities={"paper": SENSITIVITY},
+    sensitivities={"locking": SENSITIVITY},
     selection=[SELECTION],
     noise=[NOISE],
 )

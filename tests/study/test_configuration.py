@@ -46,7 +46,7 @@ def test_the_studies_that_are_shipped_are_valid():
     [
         ((), "mseh", "mesh"),
         (("mesh",), "edge_lenght", "edge_length"),
-        (("settings", "paper"), "elment", "element"),
+        (("settings", "locking"), "elment", "element"),
     ],
 )
 def test_an_unknown_key_names_the_nearest_known_one(content, path, key, meant):
@@ -95,18 +95,18 @@ def test_a_missing_table_is_named(content):
 
 
 def test_a_parameter_is_not_both_estimated_and_fixed(content):
-    content["settings"]["paper"]["heart"] = {"K": 1e6}
+    content["settings"]["locking"]["heart"] = {"K": 1e6}
     assert re.search(r"\bK\b.*estimated.*fixed", complaint(Study, content))
 
 
 def test_a_parameter_without_prior_is_not_estimated(content):
-    content["settings"]["paper"]["estimate"] = ["k_b"]
+    content["settings"]["locking"]["estimate"] = ["k_b"]
     assert re.search(r"\bk_b\b.*\bprior\b", complaint(Study, content))
 
 
 def test_a_parameter_of_either_sign_is_not_estimated(content):
-    content["settings"]["paper"] |= {"mechanisms": ["ImageShrinkage"], "estimate": ["shrinkage"]}
-    content["settings"]["paper"]["prior"] = {"shrinkage": {"sd": 0.3}}
+    content["settings"]["locking"] |= {"mechanisms": ["ImageShrinkage"], "estimate": ["shrinkage"]}
+    content["settings"]["locking"]["prior"] = {"shrinkage": {"sd": 0.3}}
     message = complaint(Study, content)
     assert re.search(r"\bshrinkage\b.*\bnegative\b", message)
 

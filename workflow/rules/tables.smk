@@ -135,7 +135,8 @@ rule check_numbers:
         study_results(),
         stored_tables,
     output:
-        "<results>/tables/drift.csv",
+        table="<results>/tables/drift.csv",
+        line="<results>/tables/agreement.txt",
     resources:
         mem_mb=500,
         runtime=2,

@@ -147,7 +147,7 @@ STATED_ONCE = {"claims": ("place", "quote", "quantity", "paper", "unit")}
 LONG_STEP_NOTE = (
     f"{LONG_STEP_MARK} or {LONG_STEPS}: an estimate more than {LONG_STEP:g} prior standard deviations from the prior's "
     "mean, where one straight step extrapolates; a second iteration (`iterations: 2`) starts from "
-    "there, as the setting paper_twice of config/full.yaml does."
+    "there, as the setting locking_twice of config/full.yaml does."
 )
 OTHER_DATA = "other hearts, other images and an open model replace the authors' data and scene"
 NOTES = {

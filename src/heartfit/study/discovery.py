@@ -24,7 +24,7 @@ from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 class ElementQuestion(Strict):
     """Comparison of two elements: models that may explain a heart of the other element, on the generator's mesh."""
 
-    setting: str = Field(default="paper", description="setting of the calibrator")
+    setting: str = Field(default="locking", description="setting of the calibrator")
     element: Element = Field(
         default="mixed", description="element of the hidden heart and of the competing model"
     )
