@@ -31,7 +31,9 @@ def main() -> int:
 
 def sizes() -> list[MeshSize]:
     """Sizes of the templates of every configuration, the finest first."""
-    found = {size for path in configurations() for size in read_study([CONFIGURATION, path]).templates().values()}
+    found = {
+        size for path in configurations() for size in read_study([CONFIGURATION, path]).templates().values()
+    }
     return sorted(found, key=lambda size: (size.edge_length, size.tolerance))
 
 

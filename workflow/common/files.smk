@@ -158,7 +158,9 @@ TEMPLATES = [
 MESHES = {
     **{f"template {use}": template_file(use) for use in TEMPLATES},
     **{case: f"<results>/{case}/geometry/mesh.vtu" for case in WITHOUT_TRUTH},
-    **{f"{case}, coarse": f"<results>/{case}/discovery/mesh.vtu" for case, _ in REFITTED if case in COARSENED},
+    **{
+        f"{case}, coarse": f"<results>/{case}/discovery/mesh.vtu" for case, _ in REFITTED if case in COARSENED
+    },
 }
 
 
