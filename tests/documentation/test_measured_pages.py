@@ -48,6 +48,22 @@ def test_every_stored_result_is_printed(pages):
         assert file.read_text().startswith("# made by: "), file.name
 
 
+PRINTED_VALUE = re.compile(r"(\w+)\('([^']+)'(?:, (\d+))?")
+
+
+def test_a_stored_value_has_the_same_digits_on_every_page(pages):
+    """README and pages once printed one number as 2.001, 2.2 and 2.0."""
+    digits = {}
+    for name in pages.PAGES:
+        for stem, quantity, decimals in PRINTED_VALUE.findall(
+            (ROOT / "docs" / "templates" / f"{name}.md.j2").read_text()
+        ):
+            digits.setdefault((stem, quantity), set()).add(decimals)
+    assert len(digits) >= 150
+    assert not {value: ways for value, ways in digits.items() if len(ways) > 1}
+    assert digits["study", "patient1 physical q_max"] == {"1"}, "not as stored"
+
+
 def test_a_number_changed_by_hand_is_detected(pages, tmp_path, monkeypatch):
     page = tmp_path / "study.md"
     text = pages.PAGES["study"].read_text()

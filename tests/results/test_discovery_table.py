@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from heartfit.discovery.inference.decide import BesideProcess
+from heartfit.discovery.sphere_model.cause import UnnamedCandidate
 from heartfit.results.discovery import DiscoveryResult, discovery_table, printed_findings
 from heartfit.synthetic.campaign import Effect
 from tests.results.report.small_report import diagnosis
@@ -63,6 +65,32 @@ def test_a_measured_heart_has_neither_answer_nor_bias() -> None:
     assert (ratio["value"], ratio["low"], ratio["high"]) == (0.5, 0.4, 0.7)
 
 
+@pytest.mark.parametrize(
+    ("verdict", "factors", "expected"),
+    [
+        ("named", {"MitralRegurgitation": 12.0}, (12.0, "mitral regurgitation")),
+        ("group", {"SlowRelaxation": 9.0, "MitralRegurgitation": 11.0}, (11.0, "mitral regurgitation")),
+        (
+            "two",
+            dict.fromkeys(("SlowRelaxation", "MitralRegurgitation"), 23.2),
+            (23.2, "slow relaxation and"),
+        ),
+        ("unknown", {}, (24.3, "a Gaussian process")),
+    ],
+)
+def test_the_factor_of_the_search_is_that_of_what_it_names(
+    verdict: str, factors: dict[str, float], expected: tuple[float, str]
+) -> None:
+    """Not that of the Gaussian process, which may lead the ranking, nor that of a single mechanism of a pair."""
+    cause = diagnosis().mechanisms[0]
+    named = tuple(replace(cause, name=name, ln_bayes_factor=factor) for name, factor in factors.items())
+    ranking = {"unknown": 24.3, "MitralRegurgitation": 12.0, "SlowRelaxation": 4.4}
+    searched = replace(diagnosis(), verdict=verdict, mechanisms=named, ranking=ranking)
+    frame = numbers(replace(result(), searched=searched))
+    assert frame.loc["ln Bayes factor of the search", "value"] == expected[0]
+    assert expected[1] in frame.loc["ln Bayes factor of the search", "text"]
+
+
 def test_a_sound_heart_hides_nothing_and_is_not_extended() -> None:
     silent = replace(diagnosis(), verdict="none", mechanisms=(), refitted=None, gain=())
     sound = DiscoveryResult("sound1", "physical", silent, silent, (), TRUTH)
@@ -70,6 +98,19 @@ def test_a_sound_heart_hides_nothing_and_is_not_extended() -> None:
     assert frame.loc["hidden", "text"] == "nothing"
     assert frame.loc["said after the refit", "text"] == "none"
     assert not [name for name in frame.index if name.startswith(("size", "error ratio", "change"))]
+
+
+def test_a_candidate_is_printed_as_not_named() -> None:
+    causes = diagnosis().mechanisms
+    beside = BesideProcess(12.0, -1.4, 0.0, 2.0, 4.0)
+    unnamed = replace(
+        diagnosis(), verdict="insufficient", mechanisms=(), candidate=UnnamedCandidate(causes, beside)
+    )
+    frame = numbers(DiscoveryResult("patient1", "physical", unnamed, unnamed))
+    expected = "insufficient (candidate, not named: mitral regurgitation)"
+    assert [frame.loc[f"said {when}", "text"] for when in ("by the search", "after the refit")] == [
+        expected
+    ] * 2
 
 
 def test_cases_are_columns_in_print_with_one_row_for_each_finding() -> None:

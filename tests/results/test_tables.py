@@ -104,9 +104,10 @@ def test_parameters_in_printed_units_with_prior_paper_and_truth() -> None:
     assert table["sigma_0 sd (%)"].iloc[1] == pytest.approx(9)
     assert table["sigma_0 of truth (%)"].dropna().tolist() == pytest.approx([25])
     assert "R_p of truth (%)" not in table
+    assert table["sigma_0 planted over mean"].dropna().tolist() == [1.0]
     assert table["longest step (prior sd)"].iloc[1] == pytest.approx(np.log(250 / 240) / 0.2)
     sigma = [place for place, column in enumerate(table.columns) if column.startswith("sigma_0")]
-    assert sigma == [4, 5, 6, 7]
+    assert sigma == [4, 5, 6, 7, 8]
     assert table["sigma_0 over mean"].dropna().tolist() == pytest.approx([1, 1, 1, 6.49 / 5.8, 1])
 
 

@@ -211,7 +211,7 @@ def test_a_bad_table_of_cases_is_refused(tmp_path, text, expected):
 
 
 def test_without_the_measured_heart_virtual_cases_remain_and_one_line_reports_it(content, tmp_path):
-    content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": [str(tmp_path / "nowhere")]}
+    content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": str(tmp_path / "nowhere")}
     plan = plan_study(content)
     assert {case.kind for case in plan.cases.values()} == {"virtual", "sealed"}
     assert "patient1" in plan.left_out
@@ -219,7 +219,6 @@ def test_without_the_measured_heart_virtual_cases_remain_and_one_line_reports_it
     assert "\n" not in plan.left_out
 
 
-@pytest.mark.measured
 def test_without_its_images_the_measured_heart_remains_and_one_line_reports_it(
     content, tmp_path, measured_heart_folder
 ):
@@ -228,7 +227,7 @@ def test_without_its_images_the_measured_heart_remains_and_one_line_reports_it(
     (tmp_path / "cine").mkdir()
     timing = measured_heart_folder / "cine" / "timing.json"
     (tmp_path / "cine" / "timing.json").write_text(timing.read_text())
-    content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": [str(tmp_path)]}
+    content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": str(tmp_path)}
     plan = plan_study(content)
     assert "patient1" in plan.cases
     assert plan.sources["patient1"].images is None
@@ -240,10 +239,9 @@ def test_without_its_images_the_measured_heart_remains_and_one_line_reports_it(
     assert plan.left_out == ""
 
 
-@pytest.mark.measured
 def test_a_period_that_is_not_the_measured_one_is_refused(content, tmp_path, measured_heart_folder):
     table = tmp_path / "cases.tsv"
-    content |= {"cases": str(table), "measured_heart": [str(measured_heart_folder)]}
+    content |= {"cases": str(table), "measured_heart": str(measured_heart_folder)}
     content["sensitivity"]["case"] = "a"
     table.write_text("case\tkind\tperiod_s\na\tmeasured\t0.829\n")
     assert set(plan_study(content).cases) == {"a"}

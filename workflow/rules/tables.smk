@@ -17,6 +17,7 @@ rule make_tables:
         numbers="<results>/tables/numbers.csv",
     params:
         origin=ORIGIN,
+        planted_ratios=STUDY.cohort.planted_ratios,
         stated=configuration_text(ORIGIN),
     script:
         "../scripts/make_tables.py"

@@ -17,6 +17,7 @@ from heartfit.discovery.sphere_model.cause import (
     ActingPlace,
     Cause,
     Change,
+    CurveFit,
     Departure,
     Diagnosis,
     FittedModel,
@@ -24,6 +25,7 @@ from heartfit.discovery.sphere_model.cause import (
     PlaceFunction,
     Refitted,
     Trace,
+    UnnamedCandidate,
     departures,
 )
 from heartfit.discovery.sphere_model.strokes import Strokes
@@ -89,6 +91,8 @@ class CauseFile:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
+    fits: tuple[CurveFit, ...] = ()
+    candidate: UnnamedCandidate | None = None
     made_by: str = ""
 
     @classmethod

@@ -69,10 +69,6 @@ class Discovery(Strict):
         "and one for each unknown",
     )
     most_steps: Count = Field(default=20, description="most steps of a refit, which may converge earlier")
-    both_ventricles: bool = Field(
-        default=False,
-        description="refits also fit every other frame of a right volume, with parameters of its own",
-    )
 
     element: ElementQuestion = ElementQuestion()
 
