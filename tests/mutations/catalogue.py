@@ -15,6 +15,7 @@ from tests.mutations.mutants.planting import PLANTING_MUTANTS
 from tests.mutations.mutants.proof import PROOF_MUTANTS
 from tests.mutations.mutants.recentring import RECENTRING_MUTANTS
 from tests.mutations.mutants.refit import REFIT_MUTANTS
+from tests.mutations.mutants.registration import REGISTRATION_MUTANTS
 from tests.mutations.mutants.right_ventricle import RIGHT_VENTRICLE_MUTANTS
 from tests.mutations.mutants.scoring import SCORING_MUTANTS
 from tests.mutations.mutants.search import SEARCH_MUTANTS
@@ -44,6 +45,7 @@ MUTANTS = (
     *REFIT_MUTANTS,
     *PROOF_MUTANTS,
     *OBSERVATION_MUTANTS,
+    *REGISTRATION_MUTANTS,
     *PLANTING_MUTANTS,
     *SCORING_MUTANTS,
 )

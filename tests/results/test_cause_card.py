@@ -9,6 +9,7 @@ from heartfit.discovery.inference.decide import BesideProcess
 from heartfit.discovery.sphere_model.cause import (
     Cause,
     Change,
+    CurveFit,
     Diagnosis,
     Gain,
     Trace,
@@ -101,6 +102,21 @@ def test_a_departing_curve_outside_the_search_is_excepted():
     titles = [plot_cause(cause).axes[1].get_title() for cause in (departing, searched)]
     assert titles[0] != titles[1]
     assert [numbers_in(title) for title in titles] == [[4.7], [4.7]]
+
+
+def test_a_curve_that_the_refit_explains_is_not_excepted_and_the_card_says_so():
+    departing = diagnosis(
+        "none", traces=(replace(TRACE, curve="rv_volume"),), unsearched={"rv_volume": "no right side"}
+    )
+    within, beyond = (
+        replace(departing, fits=(CurveFit("rv_volume", chi_squared, 24.0, p),))
+        for chi_squared, p in ((20.0, 0.7), (60.0, 6e-5))
+    )
+    assert CURVES["rv_volume"] not in verdict_sentence(within)
+    assert CURVES["rv_volume"] in verdict_sentence(beyond)
+    lines = [bullets(markdown_card(one, "case 1"))[2] for one in (within, beyond)]
+    assert [numbers_in(line) for line in lines] == [[20.0, 24.0, 0.7], [60.0, 24.0, 6e-5]]
+    assert len({line[: line.index("chi")] for line in lines}) == 2
 
 
 def test_units_are_clinical():

@@ -65,6 +65,32 @@ def test_a_measured_heart_has_neither_answer_nor_bias() -> None:
     assert (ratio["value"], ratio["low"], ratio["high"]) == (0.5, 0.4, 0.7)
 
 
+@pytest.mark.parametrize(
+    ("verdict", "factors", "expected"),
+    [
+        ("named", {"MitralRegurgitation": 12.0}, (12.0, "mitral regurgitation")),
+        ("group", {"SlowRelaxation": 9.0, "MitralRegurgitation": 11.0}, (11.0, "mitral regurgitation")),
+        (
+            "two",
+            dict.fromkeys(("SlowRelaxation", "MitralRegurgitation"), 23.2),
+            (23.2, "slow relaxation and"),
+        ),
+        ("unknown", {}, (24.3, "a Gaussian process")),
+    ],
+)
+def test_the_factor_of_the_search_is_that_of_what_it_names(
+    verdict: str, factors: dict[str, float], expected: tuple[float, str]
+) -> None:
+    """Not that of the Gaussian process, which may lead the ranking, nor that of a single mechanism of a pair."""
+    cause = diagnosis().mechanisms[0]
+    named = tuple(replace(cause, name=name, ln_bayes_factor=factor) for name, factor in factors.items())
+    ranking = {"unknown": 24.3, "MitralRegurgitation": 12.0, "SlowRelaxation": 4.4}
+    searched = replace(diagnosis(), verdict=verdict, mechanisms=named, ranking=ranking)
+    frame = numbers(replace(result(), searched=searched))
+    assert frame.loc["ln Bayes factor of the search", "value"] == expected[0]
+    assert expected[1] in frame.loc["ln Bayes factor of the search", "text"]
+
+
 def test_a_sound_heart_hides_nothing_and_is_not_extended() -> None:
     silent = replace(diagnosis(), verdict="none", mechanisms=(), refitted=None, gain=())
     sound = DiscoveryResult("sound1", "physical", silent, silent, (), TRUTH)

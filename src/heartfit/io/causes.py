@@ -17,6 +17,7 @@ from heartfit.discovery.sphere_model.cause import (
     ActingPlace,
     Cause,
     Change,
+    CurveFit,
     Departure,
     Diagnosis,
     FittedModel,
@@ -90,6 +91,7 @@ class CauseFile:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
+    fits: tuple[CurveFit, ...] = ()
     candidate: UnnamedCandidate | None = None
     made_by: str = ""
 

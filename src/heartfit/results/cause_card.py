@@ -8,6 +8,7 @@ import numpy as np
 from heartfit.discovery.sphere_model.cause import (
     Cause,
     Change,
+    CurveFit,
     Departure,
     Diagnosis,
     Gain,
@@ -53,8 +54,9 @@ def _unknown(diagnosis: Diagnosis) -> str:
 
 
 def _explained_recording(diagnosis: Diagnosis) -> str:
-    """Return "the recording", less the curves that depart and were not searched."""
+    """Return "the recording", less the curves that depart, were not searched and are not explained by a refit."""
     departing = {departure.curve for departure in departures(diagnosis) if departure.clear}
+    departing -= {fit.curve for fit in diagnosis.fits if fit.within_noise}
     excepted = " and ".join(CURVES[name] for name in sorted(departing & set(diagnosis.unsearched)))
     return f"the recording except the {excepted}, which was not searched" if excepted else "the recording"
 
@@ -106,6 +108,7 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
         *([candidate_sentence(diagnosis.candidate)] if diagnosis.candidate else []),
         *([_warnings(diagnosis.warnings)] if diagnosis.warnings else []),
         "## Misfit of the simulation\n\n" + "\n".join(misfits),
+        *([f"## Fit in three dimensions\n\n{fits_text(diagnosis.fits)}"] if diagnosis.fits else []),
         *([structure_text(diagnosis)] if diagnosis.structural_scale else []),
         *([f"## Strokes of both ventricles\n\n{strokes_sentence(diagnosis.strokes)}"] if diagnosis.strokes else []),
         *([acting_section(diagnosis.acting)] if diagnosis.acting else []),
@@ -211,6 +214,16 @@ def unsearched_sentences(diagnosis: Diagnosis) -> list[str]:
     return [
         f"{CURVES[name]}: not searched, because {reason}." for name, reason in diagnosis.unsearched.items()
     ]
+
+
+def fits_text(fits: Iterable[CurveFit]) -> str:
+    """Return one line per curve: whether the refit without a mechanism explains it to within its noise."""
+    return "\n".join(
+        f"- {CURVES.get(fit.curve, fit.curve)}: the refitted ventricles without a mechanism "
+        f"{'explain it to within its noise' if fit.within_noise else 'miss it by more than its noise'} (chi-squared "
+        f"{fit.chi_squared:.1f} of {fit.freedom:.1f} degrees of freedom, p = {fit.p:.2g})."
+        for fit in fits
+    )
 
 
 def next_measurement_text(diagnosis: Diagnosis) -> str:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from heartfit.discovery.sphere_model.cause import Cause, Departure, Diagnosis, Gain, departures
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Departure, Diagnosis, Gain, departures
 from heartfit.results.cause_card import CURVES, candidate_names, direction_and_phase, spaced_name
 from heartfit.results.errors import root_mean_square
 from heartfit.results.text import (
@@ -88,7 +88,9 @@ def printed_findings(results: Sequence[DiscoveryResult]) -> pd.DataFrame:
 NOTE = (
     "Wrong by: largest departure of the refitted simulation without an added mechanism, in standard deviations of the "
     "noise. The search on the sphere and the refits use one half of the samples; the error ratio, with the mechanism "
-    "over without it, is that of the other half and of curves to which nothing was fitted. The size from all samples "
+    "over without it, is that of the other half and of the strain, to which nothing was fitted. Chi-squared of the "
+    "refits: of all samples of a curve, of its degrees of freedom, with the probability p that a correct model is "
+    "further off. The size from all samples "
     "is one linear step from the refit, once the other half has judged. K has no true value. Refits are coarse where "
     "the configuration has `discovery.coarse`."
 )
@@ -99,8 +101,9 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
     if result.hidden is not None:
         yield Entry("hidden", "; ".join(map(_hidden_effect, result.hidden)) or "nothing")
     yield from map(_departure, departures(proved))
+    yield from (_fit(fit, "without a mechanism") for fit in proved.fits)
     yield Entry("said by the search", _verdict(searched))
-    yield _number("ln Bayes factor of the search", max(searched.ranking.values(), default=NAN))
+    yield _factor_of_the_search(searched)
     yield _number("its threshold", searched.threshold)
     yield Entry("said after the refit", _verdict(proved))
     if proved.refitted:
@@ -109,6 +112,7 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
         yield from _hidden_sizes(proved.refitted.extension, result.hidden or ())
         yield _number("ln Bayes factor of the refits", proved.refitted.ln_bayes_factor)
         yield Entry("both refits converged", "yes" if proved.refitted.converged else "no")
+        yield from (_fit(fit, "with the mechanism") for fit in proved.refitted.fits)
     yield from map(_gain, proved.gain)
     yield from _parameters(result)
     yield Entry("simulated beats", str(proved.simulations), proved.simulations)
@@ -116,6 +120,22 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
 
 def _number(quantity: str, value: float) -> Entry:
     return Entry(quantity, f"{value:.1f}", value)
+
+
+def _factor_of_the_search(searched: Diagnosis) -> Entry:
+    """Return the ln Bayes factor of what the search names, else the largest of its ranking, with whose it is.
+
+    All mechanisms of a pair have the factor of the pair; of a group the best one counts.
+    """
+    factors = {spaced_name(cause.name): cause.ln_bayes_factor for cause in searched.mechanisms}
+    if searched.verdict == "two":
+        owner, factor = " and ".join(factors), next(iter(factors.values()))
+    elif ranked := factors or {spaced_name(name): value for name, value in searched.ranking.items()}:
+        owner, factor = max(ranked.items(), key=lambda entry: entry[1])
+    else:
+        owner, factor = "nothing tried", NAN
+    subject = "a Gaussian process" if owner == "unknown" else owner
+    return Entry("ln Bayes factor of the search", f"{factor:.1f} ({subject})", factor)
 
 
 def _hidden_effect(effect: Effect) -> str:
@@ -143,6 +163,13 @@ def _departure(departure: Departure) -> Entry:
         f"{1e3 * departure.time:.0f} ms: {abs(departure.deviations):.1f} sd"
     )
     return Entry(f"wrong by: {CURVES.get(departure.curve, departure.curve)}", text, departure.deviations)
+
+
+def _fit(fit: CurveFit, model: str) -> Entry:
+    """Return the chi-squared of a curve; its value is the probability of a larger one, which a correct model meets."""
+    curve = CURVES.get(fit.curve, fit.curve)
+    text = f"{fit.chi_squared:.1f} of {fit.freedom:.1f}, p = {fit.p:.2g}"
+    return Entry(f"chi-squared: {curve}, {model}", text, fit.p)
 
 
 def _size(name: str, unit: str) -> tuple[str, float]:

@@ -1,4 +1,4 @@
-"""A measured heart without and with the mechanisms that lead: errors on unseen samples and filling indices."""
+"""A measured heart without and with the mechanisms that lead: errors on held-out samples and filling indices."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -148,7 +148,7 @@ def _volume_panel(axes: Axes, trace: Trace) -> None:
         color=MEASURED,
         markersize=4,
         markerfacecolor="white",
-        label="unseen",
+        label="not fitted",
     )
     axes.set_ylabel(f"{SIDES[trace.curve]}, volume (mL)")
     clean(axes)

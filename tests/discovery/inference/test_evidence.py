@@ -40,6 +40,32 @@ def test_a_one_sided_evidence_is_the_integral_over_the_half_line(sign) -> None:
     assert taken_at(np.zeros(1), J, [True]).log_evidence == pytest.approx(np.log(exact), rel=1e-6)
 
 
+@pytest.mark.parametrize("alike", [0.0, 0.95, -0.95])
+@pytest.mark.parametrize("sizes", [(1.0, 1.0), (0.5, -0.5), (-1.0, 0.2), (-0.6, -0.6), (2.0, -1.5)])
+def test_two_one_sided_amplitudes_have_the_evidence_of_their_quadrant(
+    sizes: tuple[float, float], alike: float
+) -> None:
+    """Beside a free unknown, where data pull one or both below 0, and effects that look alike or opposite."""
+    free, first, second = slopes(3).T
+    J = np.column_stack([free, first, alike * first + np.sqrt(1.0 - alike**2) * second])
+    y = J @ np.array([0.4, *sizes])
+    values, step = np.linspace(0.0, 6.0, 601, retstep=True)
+    weight = np.where(np.arange(601) % 2, 4.0, 2.0) * step / 3.0
+    weight[[0, -1]] = step / 3.0
+    pairs = np.stack(np.meshgrid(values, values, indexing="ij"), axis=-1)
+    prior = 4.0 * norm.pdf(pairs).prod(axis=-1)
+    likelihood = np.mean(
+        [
+            multivariate_normal(y, noise + np.outer(free, free)).pdf(pairs @ J[:, 1:].T)
+            for noise in covariances()
+        ],
+        axis=0,
+    )
+    exact = weight @ (prior * likelihood) @ weight
+    taken = posterior(Whitening.from_data(data(y)), np.zeros(3), y, J, np.array([False, True, True]))
+    assert taken.log_evidence == pytest.approx(np.log(exact), abs=0.01)
+
+
 def test_an_unobserved_amplitude_leaves_the_evidence_unchanged() -> None:
     J = slopes(3)
     J[:, 2] = 0.0

@@ -20,7 +20,7 @@ from heartfit.discovery.refit.verdict import (
     propose_extensions,
     withdraw_unhelpful,
 )
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, UnnamedCandidate
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain, UnnamedCandidate
 from heartfit.personalise.setting import Setting
 from heartfit.results.cause_card import gain_subject, markdown_card, spaced_name
 from tests.printed import numbers_in
@@ -91,6 +91,10 @@ class Judge:
 
     def final(self, _: FittedExtension) -> None:
         """Return no size from all samples: the stand-in has no curves."""
+
+    def fits(self, _: FittedExtension) -> tuple[CurveFit, ...]:
+        """Return no chi-squared: the stand-in has no curves."""
+        return ()
 
 
 def climbed(judge: Judge) -> list[tuple[int, bool]]:

@@ -99,6 +99,18 @@ def test_bending_s_force_and_curvature_are_those_of_its_value(lattice: Lattice, 
     assert part.diagonal == pytest.approx(2.5 * lattice.bending_diagonal, rel=1e-6)
 
 
+def test_a_parabola_bends_by_the_square_of_its_second_derivative(lattice: Lattice) -> None:
+    """u_x = k x^2 / 2, all of u_y = k y z: s k^2 and 2 s k^2 for each voxel."""
+    k, voxels = 0.02, np.prod(SHAPE)
+    x, y, z = np.meshgrid(*[KNOTS * (np.arange(n) - 1.0) for n in lattice.zeros().shape[1:]], indexing="ij")
+    parabola, saddle = lattice.zeros().astype(float), lattice.zeros().astype(float)
+    parabola[0], saddle[1] = 0.5 * k * (x**2 - KNOTS**2 / 3.0), k * y * z
+    for bent, squares in ((parabola, k**2), (saddle, 2.0 * k**2), (parabola + saddle, 3.0 * k**2)):
+        assert Bending(lattice, WEIGHT).linearise(bent).value == pytest.approx(
+            WEIGHT * squares * voxels, rel=1e-4
+        )
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_the_wall_s_force_is_minus_half_the_gradient(lattice: Lattice, seed: int) -> None:
     """States that compress and dilate by a fifth and more."""

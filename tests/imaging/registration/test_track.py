@@ -11,6 +11,9 @@ from scipy.spatial.transform import Rotation
 from heartfit.core.errors import InputError
 from heartfit.geometry.cube import cube
 from heartfit.geometry.mesh import VentricularMesh, element_volumes
+from heartfit.imaging.registration import track as module
+from heartfit.imaging.registration.lattice import Lattice
+from heartfit.imaging.registration.terms import Bending
 from heartfit.imaging.registration.track import FreeForm, Tracking, track
 from heartfit.imaging.sequence import Grid, ImageSequence
 
@@ -187,6 +190,28 @@ def test_a_larger_weight_preserves_the_muscle_volume_more(box: VentricularMesh) 
 
     assert growth(0.0) == pytest.approx(1.06**3, abs=0.01)
     assert growth(1.0) == pytest.approx(1.0, abs=0.02)
+
+
+def test_the_stiffness_weighs_second_derivatives_in_metres(
+    box: VentricularMesh, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """u_x = k x^2 / 2 costs s k^2 for each voxel, k in 1/m and s in m^2, whatever the voxels' size."""
+    terms: list[tuple[Lattice, Bending]] = []
+
+    def bending(lattice: Lattice, stiffness: float) -> Bending:
+        terms.append((lattice, Bending(lattice, stiffness)))
+        return terms[-1][1]
+
+    monkeypatch.setattr(module, "Bending", bending)
+    k, settings = 3.0, replace(STIFF, levels=((4, 0),))
+    track(imaged(nothing), box, settings)
+    lattice, term = terms[0]
+    knots = settings.knots / VOXEL
+    x = knots * (np.arange(lattice.zeros().shape[1]) - 1.0)
+    bent = lattice.zeros().astype(float)
+    bent[0] = (0.5 * k * VOXEL * (x**2 - knots**2 / 3.0))[:, None, None]
+    expected = settings.stiffness * k**2 * np.prod(lattice.shape)
+    assert term.linearise(bent).value == pytest.approx(expected, rel=1e-4)
 
 
 def other_tissue() -> ImageSequence:

@@ -13,7 +13,27 @@ HELD_OUT_MUTANTS = (
         HELD_OUT,
         ("every cause helps on held-out data", "return self.log_likelihood_gain() > 0.0", "return True"),
         ("a cause gains where it predicts worse", "return extended - baseline", "return baseline - extended"),
-        ("the error ratio upside down", "sums[1].sum() / sums[0].sum()", "sums[0].sum() / sums[1].sum()"),
+    ),
+    *changes(
+        "discovery/inference/error_ratio.py",
+        "tests/discovery/inference/test_error_ratio.py",
+        (
+            "the error ratio upside down",
+            "np.sqrt(squares[1] / squares[0])",
+            "np.sqrt(squares[0] / squares[1])",
+        ),
+        ("an interval of 68 %", "LEVEL = 0.95", "LEVEL = 0.68"),
+        (
+            "neighbouring errors count as independent",
+            "np.mean(CORRELATIONS[:, None, None] ** (2.0 * lags), axis=(1, 2))",
+            "np.full(20, 1.0 / steps.size)",
+        ),
+        ("the noise of both errors counts twice", "(1.0 - shared) * stdtrit", "stdtrit"),
+        (
+            "segments count as independent",
+            "return float(np.clip(trace**2",
+            "return float(segments + 0.0 * np.clip(trace**2",
+        ),
     ),
     *changes(
         "discovery/sphere_model/held_out.py",

@@ -8,14 +8,20 @@ REFIT_MUTANTS = (
         "tests/discovery/refit/test_linear_refit.py",
         (
             "the evidence of a refit ignores the prior",
-            "float(-descent.objective + volume + kept)",
-            "float(-descent.objective + kept)",
+            "gradient @ step + volume + kept)",
+            "gradient @ step + kept)",
         ),
         (
             "half the prior of an amplitude is lost",
-            "float(-descent.objective + volume + kept)",
-            "float(-descent.objective + volume)",
+            "gradient @ step + volume + kept)",
+            "gradient @ step + volume)",
         ),
+        (
+            "an amplitude at its bound counts as a minimum",
+            "volume, kept = laplace(descent.x + step,",
+            "volume, kept = laplace(descent.x,",
+        ),
+        ("the slope at a bound adds nothing", "+ 0.5 * gradient @ step", ""),
         (
             "renewed slopes are thrown away",
             "known = np.where(np.isnan(fitted), fit.slopes, fitted)",

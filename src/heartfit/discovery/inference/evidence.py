@@ -10,11 +10,11 @@ Laplace's approximation of the evidence is exact for a linear model. About any p
 .. math:: H = I + J^T \Sigma^{-1} J, \quad m = x + H^{-1} g, \quad g = J^T \Sigma^{-1} r - x,
 
 .. math:: \ln Z = \ln N(r; 0, \Sigma) - \tfrac12 |x|^2 + \tfrac12 g^T H^{-1} g - \tfrac12 \ln |H|
-          + \sum_{a \ge 0} \ln 2 \Phi(m_a / \sigma_a),
+          + \ln 2^k P(a \ge 0),
 
-the last sum over the one-sided coordinates with their posterior standard deviations: it accounts for the part of the
-posterior beyond the bound, at most a factor 2. An amplitude held at 0 by its bound has m_a < 0, a posterior that the
-bound cuts to its tail. Z is averaged over the levels of the noise. Two one-sided coordinates count as independent.
+the last term for the k one-sided coordinates a: the share of the posterior within their bounds, see
+:mod:`heartfit.discovery.inference.orthant`, at most a factor 2 of each. An amplitude held at 0 by its bound has
+m_a < 0, a posterior that the bound cuts to its tail. Z is averaged over the levels of the noise.
 
 References: Kass and Raftery 1995, doi:10.1080/01621459.1995.10476572.
 """
@@ -23,12 +23,13 @@ from dataclasses import dataclass
 from functools import reduce
 
 import numpy as np
-from scipy.special import log_ndtr, logsumexp, ndtr, ndtri
+from scipy.special import logsumexp, ndtr, ndtri
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Whitening
 from heartfit.discovery.inference.descent import EXPENSIVE, Descent, InverseProblem, Schedule
 from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
+from heartfit.discovery.inference.orthant import log_share
 
 SIMULATION_LIMIT = 600
 """Simulations after which a fit is given up: three times the number that most fits from the prior mean take."""
@@ -149,14 +150,14 @@ def posterior(
 def laplace(mode: Floats, covariance: Floats, one_sided: np.ndarray) -> tuple[Floats, Floats]:
     r"""Logarithms (...,) of the posterior's volume, and of the part of it within the bounds over that of the prior.
 
-    .. math:: \tfrac12 \ln |C|, \qquad \sum_{a \ge 0} \ln 2 \Phi(m_a / \sigma_a)
+    .. math:: \tfrac12 \ln |C|, \qquad \ln 2^k P(a \ge 0)
 
-    at modes m (..., d) with covariances C (..., d, d), the prior being N(0, I), half-normal where ``one_sided`` (d,).
-    Added to ln p(y, m) without the prior's normalisation they give ln Z.
+    at modes m (..., d) without bounds, with covariances C (..., d, d), the prior being N(0, I), half-normal where
+    ``one_sided`` (d,). Added to ln p(y, m) without the prior's normalisation they give ln Z.
     """
-    sd = np.sqrt(np.diagonal(covariance, axis1=-2, axis2=-1))
-    kept: Floats = (log_ndtr(mode / sd) + np.log(2.0))[..., one_sided].sum(axis=-1)
-    return 0.5 * np.linalg.slogdet(covariance)[1], kept
+    bounded = np.flatnonzero(one_sided)
+    share = log_share(mode[..., bounded], covariance[..., bounded[:, None], bounded])
+    return 0.5 * np.linalg.slogdet(covariance)[1], share + bounded.size * np.log(2.0)
 
 
 def _level_combinations(whitening: Whitening, residual: Floats, jacobian: Floats) -> tuple[Floats, Floats]:

@@ -10,10 +10,12 @@ no step was taken the first ones are those of the prior mean. The end is the est
 covariance :math:`C = (I + A^T R^{-1} A)^{-1}` of the slopes there. An extension starts where the model without it
 started and where it ended, with the slopes there and one more beat for each further unknown. Laplace's approximation
 
-.. math:: \ln Z = -\tfrac12 r^T R^{-1} r - \tfrac12 |x|^2 + \tfrac12 \ln |C|
-          + \sum_{a \ge 0} \ln 2 \Phi(x_a / \sigma_a) + \mathrm{const}
+.. math:: \ln Z = -\tfrac12 r^T R^{-1} r - \tfrac12 |x|^2 + \tfrac12 g^T C g + \tfrac12 \ln |C|
+          + \ln 2^k P(a \ge 0) + \mathrm{const}
 
-compares extensions that were fitted to the same samples; the sum is over amplitudes whose sign is known.
+compares extensions that were fitted to the same samples. The gradient :math:`g = A^T R^{-1} r - x` does not vanish
+where an amplitude is held at its bound; P is the share of the posterior N(x + C g, C) in which the k amplitudes of
+known sign are not negative, see :mod:`heartfit.discovery.inference.evidence`.
 """
 
 from collections.abc import Mapping
@@ -206,7 +208,9 @@ def _descend(
     descent = Descent(problem, EXPENSIVE, start, predicted, slopes)
     descent.run(most)
     covariance = descent.covariance()
-    volume, kept = laplace(descent.x, covariance, extension.one_sided)
+    gradient = problem.normal(descent.x, descent.predicted, descent.jacobian)[0]
+    step = covariance @ gradient
+    volume, kept = laplace(descent.x + step, covariance, extension.one_sided)
     return Refit(
         extension.names,
         descent.x,
@@ -214,7 +218,7 @@ def _descend(
         extension.parameters(descent.x),
         target.misfit(descent.predicted),
         descent.objective,
-        float(-descent.objective + volume + kept),
+        float(-descent.objective + 0.5 * gradient @ step + volume + kept),
         target.values().size,
         forward.simulations,
         descent.converged,

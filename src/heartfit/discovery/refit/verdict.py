@@ -8,12 +8,12 @@ import numpy as np
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.inference.error_ratio import error_ratio
 from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.model import ObservedBeat
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Refitted, Trace
-from heartfit.discovery.sphere_model.held_out import error_ratio
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain, Refitted, Trace
 from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.observation.curve import Curve
@@ -48,11 +48,11 @@ class Proof:
         simulated = (beat.motion.resample(times) for beat in (self.baseline, self.extended))
         motions = (self.measured, *simulated)
         measured, *fits = (segment_strain(self.mesh, motion) for motion in motions)
-        phase = np.repeat(times / self.measured.period, measured.shape[2])
+        frames = np.repeat(times, measured.shape[2])
         for name in STRAINS:
             direction = DIRECTIONS.index(name)
             before, after = ((measured - strain)[:, direction].ravel() for strain in fits)
-            yield _gain(f"{name} strain", "never fitted", phase, before, after)
+            yield _gain(f"{name} strain", "never fitted", frames, before, after)
 
     def helps(self) -> bool:
         r"""Return True if the extension brings all held-out curves together nearer to the measurement.
@@ -87,17 +87,13 @@ def curve_gains(
     case: MeasuredCase, baseline: Mapping[str, Curve], extended: Mapping[str, Curve]
 ) -> Iterator[Gain]:
     """Yield the gain on the held-out part of each curve."""
-    period = case.curves["lv_volume"].period
     for name, held in case.split.held.items():
         before, after = (held.values - curves[name](held.times) for curves in (baseline, extended))
-        fitted_too = name in case.split.fitted
-        yield _gain(
-            name, HELD_OUT_NOTES[name] if fitted_too else "never fitted", held.times / period, before, after
-        )
+        yield _gain(name, HELD_OUT_NOTES[name], held.times, before, after)
 
 
-def _gain(name: str, on: str, phase: Floats, before: Floats, after: Floats) -> Gain:
-    ratio, interval = error_ratio(phase, before, after)
+def _gain(name: str, on: str, times: Floats, before: Floats, after: Floats) -> Gain:
+    ratio, interval = error_ratio(times, before, after)
     baseline, extended = (float(np.sqrt(np.mean(error**2))) for error in (before, after))
     return Gain(name, on, baseline, extended, ratio, interval)
 
@@ -109,7 +105,8 @@ Z_95 = 1.96
 class TriedExtension:
     """Refits of the baseline and of an extension; kept: effects that helped; simulations: beats of all refits.
 
-    final: coordinates of the extension given both halves of the samples, None where they are not known.
+    final: coordinates of the extension given both halves of the samples, None where they are not known; fits: of the
+    curves about the extension.
     """
 
     extension: Extension
@@ -118,6 +115,7 @@ class TriedExtension:
     kept: tuple[str, ...]
     simulations: int
     final: Gaussian | None = None
+    fits: tuple[CurveFit, ...] = ()
 
     def refitted(self, ranking: Mapping[str, float]) -> Refitted:
         """Return the result in the form of a diagnosis; ranking: evidence of each mechanism in the search."""
@@ -129,6 +127,7 @@ class TriedExtension:
             self.simulations,
             self.baseline.converged and self.extended.converged,
             tuple(causes_of(self.extension, self.final, ranking)) if self.final else (),
+            self.fits,
         )
 
 
@@ -153,8 +152,13 @@ def _candidates(diagnosis: Diagnosis) -> tuple[Cause, ...]:
     return diagnosis.candidate.causes if diagnosis.candidate else ()
 
 
-def apply_proof(diagnosis: Diagnosis, tried: TriedExtension, proof: Proof) -> Diagnosis:
-    """Return the diagnosis with amplitudes and gains in three dimensions, without mechanisms that do not help."""
+def apply_proof(
+    diagnosis: Diagnosis, tried: TriedExtension, proof: Proof, fits: Sequence[CurveFit] = ()
+) -> Diagnosis:
+    """Return the diagnosis with amplitudes and gains in three dimensions, without mechanisms that do not help.
+
+    fits: of the curves about the model without an extension.
+    """
     refitted = tried.refitted(diagnosis.ranking) if tried.extension.added else None
     causes = {cause.name: cause for cause in refitted.extension} if refitted else {}
     candidate = tuple(causes.get(cause.name, cause) for cause in _candidates(diagnosis))
@@ -166,6 +170,7 @@ def apply_proof(diagnosis: Diagnosis, tried: TriedExtension, proof: Proof) -> Di
         simulations=diagnosis.simulations + tried.simulations,
         traces=proof.traces(),
         refitted=refitted,
+        fits=tuple(fits),
     )
     return withdraw_unhelpful(known, tried.kept)
 

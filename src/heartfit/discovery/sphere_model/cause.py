@@ -36,7 +36,7 @@ class UnnamedCandidate:
 class Gain:
     """Root mean square errors [SI] of a held-out curve: ``none`` without and ``extended`` with the cause.
 
-    ratio: extended over none, with a 95 % interval over the phases of the beat; on: description of the held-out data.
+    ratio: extended over none, with its 95 % interval; on: description of the held-out data.
     """
 
     curve: str
@@ -45,6 +45,25 @@ class Gain:
     extended: float
     ratio: float
     interval: tuple[float, float]
+
+
+SMALLEST_P = 0.01
+"""Probability of a larger chi-squared below which a model misses a curve by more than its noise."""
+
+
+@dataclass(frozen=True)
+class CurveFit:
+    """Chi-squared of all samples of a curve about a refit, its degrees of freedom, and the probability p of more."""
+
+    curve: str
+    chi_squared: float
+    freedom: float
+    p: float
+
+    @property
+    def within_noise(self) -> bool:
+        """True if the model misses the curve by no more than its noise."""
+        return self.p > SMALLEST_P
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +156,8 @@ class Refitted:
 
     extension: the added causes with refitted amplitudes; ln_bayes_factor: of the two refits; none, extended: parameters
     [SI] by name; simulations: number of 3-D beats; converged: both refits converged; from_all_samples: the added causes
-    with their amplitudes given both halves of the samples, after the second has judged; empty where not computed.
+    with their amplitudes given both halves of the samples, after the second has judged; empty where not computed. fits:
+    of the curves about the extended model, empty where not all slopes are known.
     """
 
     extension: tuple[Cause, ...]
@@ -147,6 +167,7 @@ class Refitted:
     simulations: int
     converged: bool
     from_all_samples: tuple[Cause, ...] = ()
+    fits: tuple[CurveFit, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,6 +217,7 @@ class Diagnosis:
       one for each; both empty where no place is detected.
     - strokes: of both ventricles, None without a right volume.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
+    - fits: of the curves about the 3-D model without a cause, empty where none was refitted.
     """
 
     verdict: Verdict
@@ -222,6 +244,7 @@ class Diagnosis:
     acting: tuple[ActingPlace, ...] = ()
     functions: tuple[PlaceFunction, ...] = ()
     strokes: Strokes | None = None
+    fits: tuple[CurveFit, ...] = ()
     candidate: UnnamedCandidate | None = None
 
 

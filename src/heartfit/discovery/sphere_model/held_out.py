@@ -3,9 +3,6 @@
 The other half was kept from the search, and the models that it fitted predict it. Another condition: the fitted model
 beats at the rate of that condition, and only its loading, the atrial pressure and the peripheral resistance, is
 refitted.
-
-The interval of the error ratio comes from a bootstrap over eighths of the beat: errors of neighbouring samples are not
-independent.
 """
 
 from collections.abc import Callable, Mapping
@@ -17,6 +14,7 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.data import Data, Whitening
+from heartfit.discovery.inference.error_ratio import error_ratio
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
 from heartfit.discovery.sphere_model.cause import Gain
 from heartfit.discovery.sphere_model.forward_model import SphereForwardModel, hypothesis
@@ -28,8 +26,6 @@ from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 LOADING = {"circulation.left_atrium": 0.3, "circulation.systemic.R_p": 0.3}
 RIGHT_LOADING = {"circulation.right_atrium": 0.3, "circulation.pulmonary_tree.R_p": 0.3}
 """Parameters that another condition may change, with the standard deviations of the logarithm of the change."""
-PHASE_PARTS, BOOTSTRAP_DRAWS = 8, 2000
-"""Parts of the beat and random draws of the bootstrap."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,19 +57,9 @@ class HeldOutPrediction:
     def _gain(self, index: int) -> Gain:
         block, rows = self.data.blocks[index], self.data.rows[index]
         errors = [(self.data.values - predicted)[rows] for predicted in (self.baseline, self.extended)]
-        ratio, interval = error_ratio(np.mod(block.times, block.period) / block.period, *errors)
+        ratio, interval = error_ratio(np.mod(block.times, block.period), *errors)
         before, after = (float(np.sqrt(np.mean(error**2))) for error in errors)
         return Gain(block.curve, self.on, before, after, ratio, interval)
-
-
-def error_ratio(phase: Floats, baseline: Floats, extended: Floats) -> tuple[float, tuple[float, float]]:
-    """Ratio of the root mean square errors (k,), extended over baseline, and its 95 % interval over the phases."""
-    part = np.minimum((phase * PHASE_PARTS).astype(int), PHASE_PARTS - 1)
-    sums = np.array([np.bincount(part, error**2, PHASE_PARTS) for error in (baseline, extended)])
-    drawn = np.random.default_rng(0).integers(PHASE_PARTS, size=(BOOTSTRAP_DRAWS, PHASE_PARTS))
-    totals = np.maximum(sums[:, drawn].sum(axis=2), np.finfo(float).tiny)
-    low, high = np.quantile(np.sqrt(totals[1] / totals[0]), [0.025, 0.975]).tolist()
-    return float(np.sqrt(sums[1].sum() / sums[0].sum())), (low, high)
 
 
 Extension = Callable[[SphereForwardModel], Hypothesis]
