@@ -39,7 +39,7 @@ SAME_PLACE = {
 
 
 OTHER_VALVES = replace(VALVES, pulmonary=OrificeValve(area=2.2e-4))
-"""At the peak of its flow the pulmonary orifice takes a large share of the right pressure, which no conductance does."""
+"""The pulmonary orifice takes a large share of the right pressure at the peak of its flow, as no conductance does."""
 
 
 def beat_of(heart: Heart) -> Beat:
@@ -75,7 +75,7 @@ def test_a_sound_heart_with_other_valves_is_explained_in_every_curve(seed: int) 
 
 @pytest.mark.parametrize("part", SAME_PLACE)
 def test_what_is_free_of_the_left_circulation_is_free_of_the_right_one(part: str) -> None:
-    """But for the peripheral resistance, which a volume does not show: the left pressure shows that of the left side."""
+    """But for the peripheral resistance, which a volume alone does not show."""
     left = [path for one in HEART_PARAMETERS for path in one.paths if path.startswith(f"circulation.{part}")]
     right = {path for one in RIGHT_PARAMETERS for path in one.paths}
     expected = {path.replace(part, SAME_PLACE[part]) for path in left if not path.endswith("R_p")}

@@ -30,7 +30,7 @@ RIGHT_PARAMETERS = (
     FreeParameter(("circulation.right_atrium",), 0.25),
     FreeParameter(("AtrialKick.right",), 0.3),
 )
-"""Unknowns of the right ventricle, free where its volume was measured: as of the left one, those of its muscle, arteries,
+"""Unknowns of the right ventricle, free where its volume was measured: as on the left those of its muscle, arteries,
 valves and atrium. A heart without a delay keeps none: its prior is log-normal. The peripheral resistance and the
 stiffness are left out: a volume alone does not decide them."""
 
