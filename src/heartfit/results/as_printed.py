@@ -119,7 +119,7 @@ def _block(
         hearts = {case: of_heart[name] for case, of_heart in values.items() if name in of_heart}
         unit, scale = PAPER_UNITS.get(units[name], (units[name], 1.0))
         of_volunteers = [value for case, value in hearts.items() if case in groups.volunteers]
-        digits = _digits((np.mean(of_volunteers) if of_volunteers else next(iter(hearts.values()))) / scale)
+        digits = _digits(float(np.mean(of_volunteers or list(hearts.values())[:1])) / scale)
         cells = {
             case: _marked(_decimals(value / scale, digits), name in long.get(case, {}))
             for case, value in hearts.items()
