@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from heartfit.discovery.inference.decide import BesideProcess
-from heartfit.discovery.sphere_model.cause import UnnamedCandidate
-from heartfit.discovery.sphere_model.cause import CurveFit
+from heartfit.discovery.sphere_model.cause import CurveFit, UnnamedCandidate
 from heartfit.results.discovery import DiscoveryResult, discovery_table, printed_findings
 from heartfit.synthetic.campaign import Effect
 from tests.printed import numbers_in
