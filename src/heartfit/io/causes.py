@@ -89,6 +89,7 @@ class CauseFile:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
+    read_twice: Mapping[str, float] = field(default_factory=dict)
     made_by: str = ""
 
     @classmethod

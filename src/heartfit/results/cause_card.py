@@ -16,7 +16,7 @@ from heartfit.discovery.sphere_model.cause import (
 )
 from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.results.acting_places import acting_section, acting_sentence, separating_measurement
-from heartfit.results.text import AMPLITUDE_UNITS, printed_curve_unit
+from heartfit.results.text import AMPLITUDE_UNITS, printed_curve_unit, printed_ratio
 
 CURVES = {
     "lv_volume": "left ventricular volume",
@@ -77,9 +77,10 @@ def _mechanism_names(diagnosis: Diagnosis) -> str:
 def markdown_card(diagnosis: Diagnosis, title: str) -> str:
     """Return the card in Markdown: verdict, misfit, evidence, alternatives, next measurement and held-out error."""
     misfits = [f"- {line}" for line in departure_sentences(diagnosis)]
-    misfits += [f"- {line}" for line in unsearched_sentences(diagnosis)]
+    misfits += [f"- {line}" for line in (*unsearched_sentences(diagnosis), *reading_sentences(diagnosis))]
     parts = [
         f"# {title}\n\n**{verdict_sentence(diagnosis)}**",
+        *objection_sentences(diagnosis),
         *([_warnings(diagnosis.warnings)] if diagnosis.warnings else []),
         "## Misfit of the simulation\n\n" + "\n".join(misfits),
         *([structure_text(diagnosis)] if diagnosis.structural_scale else []),
@@ -96,6 +97,18 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
         f"Simulated beats: {diagnosis.simulations}.",
     ]  # fmt: skip
     return "\n\n".join(parts) + "\n"
+
+
+def objection_sentences(diagnosis: Diagnosis) -> list[str]:
+    """Return one sentence for each held-out curve that the named mechanism makes worse beyond chance."""
+    if not diagnosis.mechanisms:
+        return []
+    return [
+        f"Against it: with it the {CURVES.get(gain.curve, gain.curve)} ({gain.on}) fits worse, error ratio "
+        f"{printed_ratio(gain.ratio, gain.interval)}."
+        for gain in diagnosis.gain
+        if gain.objects
+    ]
 
 
 def _warnings(warnings: Iterable[str]) -> str:
@@ -186,6 +199,16 @@ def unsearched_sentences(diagnosis: Diagnosis) -> list[str]:
     """Return one sentence per recorded curve that the search left out, with the reason."""
     return [
         f"{CURVES[name]}: not searched, because {reason}." for name, reason in diagnosis.unsearched.items()
+    ]
+
+
+def reading_sentences(diagnosis: Diagnosis) -> list[str]:
+    """Return one sentence per curve that was read twice: its noise, and what the two readings share."""
+    return [
+        f"{CURVES[name]}: read twice; the difference of both readings gives a noise of {deviation / size:.1f} {unit}, "
+        "in which an error that they share, as of the length of the cavity, does not show."
+        for name, deviation in diagnosis.read_twice.items()
+        for unit, size in [printed_curve_unit(name)]
     ]
 
 

@@ -38,6 +38,11 @@ class Gain:
     ratio: float
     interval: tuple[float, float]
 
+    @property
+    def objects(self) -> bool:
+        """True if the cause makes the curve worse beyond chance."""
+        return self.interval[0] > 1.0
+
 
 @dataclass(frozen=True, eq=False)
 class Trace:
@@ -186,6 +191,7 @@ class Diagnosis:
     - acting: of an unknown effect the regions on which it may act, the most probable first; functions: what acts there,
       one for each; both empty where no place is detected.
     - strokes: of both ventricles, None without a right volume.
+    - read_twice: standard deviation of the noise [SI] of curves that were read twice.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
     """
 
@@ -213,6 +219,7 @@ class Diagnosis:
     acting: tuple[ActingPlace, ...] = ()
     functions: tuple[PlaceFunction, ...] = ()
     strokes: Strokes | None = None
+    read_twice: Mapping[str, float] = field(default_factory=dict)
 
 
 CLEAR_DEVIATIONS = 2.0

@@ -9,6 +9,8 @@ from heartfit.results.cause_card import (
     gain_subject,
     gains_text,
     next_measurement_text,
+    objection_sentences,
+    reading_sentences,
     self_test_sentence,
     spaced_name,
     unsearched_sentences,
@@ -47,7 +49,11 @@ def cause_card(diagnosis: Diagnosis, title: str) -> CauseCard:
         title=title,
         verdict=diagnosis.verdict,
         sentence=verdict_sentence(diagnosis),
-        misses=[*departure_sentences(diagnosis), *unsearched_sentences(diagnosis)],
+        misses=[
+            *departure_sentences(diagnosis),
+            *unsearched_sentences(diagnosis),
+            *reading_sentences(diagnosis),
+        ],
         ranking=[
             (spaced_name(name), value) for name, value in list(diagnosis.ranking.items())[:RANKING_ROWS]
         ],
@@ -68,6 +74,7 @@ def _remarks(diagnosis: Diagnosis) -> list[str]:
     refitted = diagnosis.refitted
     convergence = {True: "Both refits converged.", False: "A refit had not converged at its last step."}
     return [
+        *objection_sentences(diagnosis),
         *([self_test_sentence(diagnosis)] if diagnosis.self_test is not None else []),
         *([convergence[refitted.converged]] if refitted else []),
         f"Simulated beats: {diagnosis.simulations}.",
