@@ -28,7 +28,7 @@ rule all:
 
 
 # Further targets, made only on request:
-#   fetch_measured_heart   download the published heart of patient1 into resources/bivme_patient1
+#   fetch_measured_heart   download the fit of patient1 as published into resources/bivme_patient1
 #   discover               search and refit the cases of `discovery.cases`; config/measured_heart.yaml has the measured heart
 #   check_numbers          compare the tables with the stored ones of resources/reference
 #   discovery_benchmark    diagnose planted effects in spheres and in ventricles, score the diagnoses, write the pages

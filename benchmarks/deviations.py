@@ -30,7 +30,7 @@ from heartfit.io.files import write_text
 from heartfit.observation.operator import PressureFeatures
 from heartfit.study.study import Study
 
-SETTINGS = ("paper", "physical")
+SETTINGS = ("locking", "physical")
 VICINITY, FAR, PATIENT = "volunteer1", "volunteer6", "lbbb1"
 """A volunteer near the mean of the prior, the one farthest from it, and a patient with a fitted map of activation."""
 NUMBERS = (*VOLUMES, *PressureFeatures.names, FILLED)
@@ -114,8 +114,8 @@ def calibration_rows(near: Ventricles, far: Ventricles) -> Rows:
     steps = (LOGARITHMIC, ADDITIVE)
     runs = (
         (near, "physical", (*steps, NOT_UNLOADED, STARLING)),
-        (near, "paper", (*steps, NOT_UNLOADED)),
-        (far, "paper", steps),
+        (near, "locking", (*steps, NOT_UNLOADED)),
+        (far, "locking", steps),
     )
     for ventricles, setting, variants in runs:
         fits = calibrations(ventricles, setting, variants)

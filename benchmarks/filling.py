@@ -105,8 +105,8 @@ def _cavity_ranges() -> Mapping[str, tuple[float, float, str]]:
 
 def measured_volume(study: Study, case: Case) -> Curve:
     """Left ventricular volume of the measured heart at its frames."""
-    (folder, *_) = (ROOT / folder for folder in study.measured_heart if (ROOT / folder).is_dir())
-    table = read_published(folder / "volumes.csv")
+    assert study.measured_heart is not None
+    table = read_published(ROOT / study.measured_heart / "volumes.csv")
     return Curve.of_volume(table["time_s"], 1e-6 * table["lv_volume_ml"], case.period)
 
 

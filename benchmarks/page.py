@@ -12,7 +12,7 @@ from benchmarks.job import Job
 from benchmarks.newton import Newton
 from heartfit.core.pages import render_page, table_row
 
-ELEMENTS = {"physical": "mixed", "paper": "p1"}
+ELEMENTS = {"physical": "mixed", "locking": "p1"}
 Cost = dict[str, float]
 
 

@@ -57,6 +57,7 @@ PRINTED = {
     "study_table2": "table2_as_printed",
     "study_claims": "claims",
     "study_discovery": "discovery",
+    "study_plausibility": "plausibility",
 }
 """Stored tables that a study prints, and their names in its folder of tables."""
 NORMAL = "normal"
@@ -67,9 +68,7 @@ PRINTED_OF_NORMAL = {
     "normal_patients": "specificity_claims",
 }
 """The same for the second cohort."""
-OF_VOLUNTEERS = (
-    "of the volunteers$|over that after calibration$|healthy mean$|^(?:mean|largest) error of [Vq]"
-)
+OF_VOLUNTEERS = "of the volunteers$|over that after calibration$|^(?:mean|largest) error of [Vq]"
 """Quantities of the claims that the second cohort decides."""
 FRACTION = re.compile(r"\d+\.\d+")
 """Numbers that a table stores with all digits and a page prints with two decimals."""
@@ -177,10 +176,19 @@ def printed(table: Path, stem: str = "") -> Rows:
         frame = frame[decided & frame["quantity"].str.contains(OF_VOLUNTEERS)]
     if stem == "normal_patients":
         frame = frame.map(lambda cell: f"{float(cell):.2f}" if FRACTION.fullmatch(cell) else cell)
+    if stem == "study_plausibility":
+        frame = of_the_measured_heart(frame)
     if {"case", "setting", "text"} <= {*frame}:
         frame = findings_by_case(frame)
     shown = without_repeats(frame, STATED_ONCE.get(table.stem, ()))
     return [list(shown.columns), *shown.to_numpy().tolist()]
+
+
+def of_the_measured_heart(frame: pd.DataFrame) -> pd.DataFrame:
+    """The numbers of the measured heart under the setting without locking, a row for each, with one decimal."""
+    (row,) = frame[(frame["case"] == "patient1") & (frame["setting"] == "physical")].to_dict("records")
+    numbers = {name: f"{float(cell):.1f}" for name, cell in row.items() if FRACTION.search(cell)}
+    return pd.DataFrame(numbers.items(), columns=["beside the observations", "calibrated beat"])
 
 
 def findings_by_case(frame: pd.DataFrame) -> pd.DataFrame:

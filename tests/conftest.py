@@ -21,7 +21,7 @@ settings.register_profile(
 )  # how long an example takes is no property of the code
 settings.load_profile("shared machine")
 
-MEASURED_HEART = ("../shared/data/bivme_patient1", "resources/bivme_patient1")
+PUBLISHED_HEART = ("../shared/data/bivme_patient1", "resources/bivme_patient1")
 PHYSIOBLOCKS = ("../shared/data/physioblocks_bcs0d", "resources/physioblocks_bcs0d")
 LAST_CYCLE = "spherical_heart_last_cycle_1kHz.csv"
 DESELECTED = pytest.StashKey[dict[str, int]]()
@@ -77,14 +77,21 @@ def _first_folder(places: tuple[str, ...], content: str) -> Path | None:
     return next((root / place for place in places if (root / place / content).exists()), None)
 
 
-REQUIRED_DATA = {"measured": (MEASURED_HEART, "template"), "physioblocks": (PHYSIOBLOCKS, LAST_CYCLE)}
+REQUIRED_DATA = {"published": (PUBLISHED_HEART, "vtk_ED_ES"), "physioblocks": (PHYSIOBLOCKS, LAST_CYCLE)}
 """Data that tests with a marker need, by marker: possible folders, and a file in them."""
 
 
 @pytest.fixture(scope="session")
 def measured_heart_folder() -> Path:
-    folder = _first_folder(*REQUIRED_DATA["measured"])
-    assert folder is not None, "a test that needs the measured heart must carry the marker `measured`"
+    """The measured heart as it is shipped."""
+    return Path(__file__).parents[1] / "resources" / "measured_heart"
+
+
+@pytest.fixture(scope="session")
+def published_heart_folder() -> Path:
+    """The measured heart as it was published, with its whole images and surfaces."""
+    folder = _first_folder(*REQUIRED_DATA["published"])
+    assert folder is not None, "a test that needs the published heart must carry the marker `published`"
     return folder
 
 

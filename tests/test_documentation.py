@@ -60,7 +60,9 @@ def commands_of_study(text):
     """Commands of study.py that start a line of a text, `run` where none is named."""
     return {
         command or "run"
-        for command in re.findall(r"^ *(?:step )?python3 study\.py ?(\w*)", text, re.MULTILINE)
+        for command in re.findall(
+            r"^ *(?:step )?(?:in_bare_clone )?python3 study\.py ?(\w*)", text, re.MULTILINE
+        )
     }
 
 
@@ -68,4 +70,5 @@ def test_the_readme_and_ci_give_commands_that_exist_and_both_run_the_tests():
     known = set(re.findall(r'^    "(\w+)": \w+,$', (ROOT / "study.py").read_text(), re.MULTILINE))
     readme, ci = (commands_of_study((ROOT / name).read_text()) for name in ("README.md", ".ci/run"))
     assert {"run", "test"} <= readme & ci
+    assert "smoke" in ci
     assert (readme | ci) - known == set()

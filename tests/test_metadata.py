@@ -15,6 +15,19 @@ def test_the_citation_is_of_this_version_and_licence():
     assert (str(cited["version"]), cited["license"]) == (PROJECT["version"], PROJECT["license"])
 
 
+def test_the_shipped_heart_is_cited_under_the_licence_beside_it():
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text())["references"]
+    (data,) = (reference for reference in cited if reference["type"] == "data")
+    folder = ROOT / "resources" / "measured_heart"
+    assert data["license"] == "Apache-2.0"
+    assert "Apache License" in (folder / "LICENSE").read_text().splitlines()[0]
+    source = (folder / "README.md").read_text()
+    assert data["commit"] in source
+    assert data["repository-code"] in source
+    address = (ROOT / "workflow" / "rules" / "geometry.smk").read_text()
+    assert data["commit"] in address
+
+
 def test_the_workflow_catalog_finds_its_required_files():
     usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
     assert {"mandatory-flags", "software-stack-deployment", "report"} <= usage.keys()

@@ -65,31 +65,65 @@ def test_the_lock_names_no_address():
     assert "://" not in (ROOT / "requirements.lock").read_text()
 
 
+STUDY, HEART = [], ["config/measured_heart.yaml"]
+COARSE, COARSE_HEART = ["config/smoke.yaml"], [*HEART, "config/measured_heart_smoke.yaml"]
+
+
 @pytest.mark.parametrize(
-    ("arguments", "codes", "expected"),
+    ("command", "arguments", "codes", "expected"),
     [
-        ([], [0, 0, 0], [[], ["check_numbers"], ["discover", "check_discovered"]]),
-        ([], [0, 1, 0], [[], ["check_numbers"], ["discover", "check_discovered"]]),
-        ([], [1], [[]]),
-        (["--configfile", "config/smoke.yaml"], [0], [["--configfile", "config/smoke.yaml"]]),
+        ("run", [], [0, 0, 0], [STUDY, STUDY, HEART]),
+        ("run", [], [0, 1, 0], [STUDY, STUDY, HEART]),
+        ("run", [], [1], [STUDY]),
+        ("smoke", [], [0, 0, 0], [COARSE, COARSE, COARSE_HEART]),
+        ("run", ["--configfile", "config/smoke.yaml"], [0], [COARSE]),
     ],
-    ids=["the whole study", "one that drifted", "a failed one", "with arguments"],
+    ids=["the whole study", "one that lost a finding", "a failed one", "a coarse one", "with arguments"],
 )
 def test_the_measured_heart_follows_the_study_and_its_card_is_printed(
-    study, tmp_path, monkeypatch, capsys, arguments, codes, expected
+    study, tmp_path, monkeypatch, capsys, command, arguments, codes, expected
 ):
     monkeypatch.setattr(study, "ROOT", tmp_path)
-    monkeypatch.setattr(study, "DISCOVERED", tmp_path)
     calls, outcomes = [], iter(codes)
-    monkeypatch.setattr(
-        study, "snakemake", lambda arguments: calls.append([*arguments][:2]) or next(outcomes)
-    )
+
+    def snakemake(arguments, left_out=None):
+        calls.append([*arguments])
+        if left_out is not None:
+            left_out.add("mine left out: no data")
+        return next(outcomes)
+
+    monkeypatch.setattr(study, "snakemake", snakemake)
     monkeypatch.setattr(study, "duration", lambda: "29")
+    folders = {
+        "run": ("results", "results/measured_heart"),
+        "smoke": ("results/smoke", "results/measured_heart_smoke"),
+    }[command]
     for file in ("patient1/discovery/physical/cause.md", "tables/patient1_physical_extension.md"):
-        (tmp_path / file).parent.mkdir(parents=True)
-        (tmp_path / file).write_text(f"text of {file}")
-    assert study.run(arguments) == max(codes)
-    assert calls == expected
+        (tmp_path / folders[1] / file).parent.mkdir(parents=True)
+        (tmp_path / folders[1] / file).write_text(f"text of {file}")
+    for folder in folders:
+        (tmp_path / folder / "tables").mkdir(parents=True, exist_ok=True)
+        (tmp_path / folder / study.AGREEMENT).write_text(f"The tables of {folder} agree.\n")
+    assert getattr(study, command)(arguments) == max(codes)
+    assert [[text for text in call if text.endswith(".yaml")] for call in calls] == expected
+    targets = [[text for text in call if text.startswith(("check", "discover"))] for call in calls]
+    assert targets == [[], ["check_numbers"], ["discover", "check_discovered"]][: len(codes)]
     printed = capsys.readouterr().out
     assert ("text of patient1/discovery" in printed) == (len(codes) == 3)
     assert ("text of tables/patient1" in printed) == (len(codes) == 3)
+    last = printed.splitlines()[-3:]
+    expected_last = [
+        "mine left out: no data",
+        *(f"{folder}: The tables of {folder} agree." for folder in folders),
+    ]
+    assert (last == expected_last) == (len(codes) == 3)
+
+
+def test_lines_on_what_is_left_out_are_collected(study, monkeypatch):
+    lines = (
+        "print('mine left out: no data'); print('1 of 2 steps (50%) done'); print('mine left out: no data')"
+    )
+    monkeypatch.setattr(study, "tool", lambda *arguments: [sys.executable, "-c", lines])
+    left_out = set()
+    assert study.snakemake([], left_out) == 0
+    assert left_out == {"mine left out: no data"}

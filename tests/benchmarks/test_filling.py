@@ -106,7 +106,6 @@ def test_every_normal_range_of_filling_has_its_source() -> None:
     assert table[["source", "url", "status"]].notna().all(axis=None)
 
 
-@pytest.mark.measured
 def test_the_measured_volume_has_a_dip(measured_heart_folder) -> None:
     study = read_study([ROOT / "config" / "config.yaml"])
     (case,) = (case for case in read_cases(ROOT / study.cases) if case.case == filling.CASE)

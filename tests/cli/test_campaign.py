@@ -34,7 +34,7 @@ def test_the_page_shows_what_the_command_prints(capsys):
 
 def test_an_unknown_setting_is_refused(capsys):
     assert main(["plan", "--setting", "fisical"]) == 2
-    assert "no setting 'fisical'; known are paper, physical" in capsys.readouterr().err
+    assert "no setting 'fisical'; known are locking, physical" in capsys.readouterr().err
 
 
 def test_a_plan_without_costs_names_the_command_that_writes_them(capsys, tmp_path):

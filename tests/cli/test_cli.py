@@ -33,7 +33,7 @@ def test_pages_are_printed(capsys):
     [
         (["check", "--config", "nowhere.yaml"], "nowhere.yaml: no such file"),
         (["simulate", "nowhere.vtu"], "nowhere.vtu: no such file"),
-        (["simulate", "x.vtu", "--setting", "fysical"], "known are paper, physical"),
+        (["simulate", "x.vtu", "--setting", "fysical"], "known are locking, physical"),
         (["simulate", "x.vtu", "--set", "sigma0=1"], "nearest are"),
         (["simulate", "x.vtu", "--set", "sigma_0"], "expected NAME=VALUE"),
         (["diagnose", "nowhere.csv"], "nowhere.csv: no such file"),
@@ -86,7 +86,7 @@ def test_a_beat_imports_no_library_that_it_does_not_use(imports: str) -> None:
 
 
 def test_check_lists_what_is_left_out(tmp_path, capsys):
-    (tmp_path / "no_heart.yaml").write_text(f"measured_heart: ['{tmp_path}/nowhere']\n")
+    (tmp_path / "no_heart.yaml").write_text(f"measured_heart: {tmp_path}/nowhere\n")
     assert cli.main(["check", "--config", "config/config.yaml", str(tmp_path / "no_heart.yaml")]) == 0
     assert "patient1 left out" in capsys.readouterr().out
 

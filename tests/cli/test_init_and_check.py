@@ -128,7 +128,6 @@ def test_the_pressure_at_the_trigger_is_the_filling_pressure(project, pressure, 
     )
 
 
-@pytest.mark.measured
 def test_a_measured_heart_is_described(project, capsys, measured_heart_folder):
     folder = str(measured_heart_folder.resolve())
     assert main(["init", "heart1", "--fit", folder, "--conduction", "healthy"]) == 0

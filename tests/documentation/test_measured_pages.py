@@ -48,10 +48,26 @@ def test_every_stored_result_is_printed(pages):
         assert file.read_text().startswith("# made by: "), file.name
 
 
+PRINTED_VALUE = re.compile(r"(\w+)\('([^']+)'(?:, (\d+))?")
+
+
+def test_a_stored_value_has_the_same_digits_on_every_page(pages):
+    """README and pages once printed one number as 2.001, 2.2 and 2.0."""
+    digits = {}
+    for name in pages.PAGES:
+        for stem, quantity, decimals in PRINTED_VALUE.findall(
+            (ROOT / "docs" / "templates" / f"{name}.md.j2").read_text()
+        ):
+            digits.setdefault((stem, quantity), set()).add(decimals)
+    assert len(digits) >= 150
+    assert not {value: ways for value, ways in digits.items() if len(ways) > 1}
+    assert digits["study", "patient1 physical q_max"] == {"1"}, "not as stored"
+
+
 def test_a_number_changed_by_hand_is_detected(pages, tmp_path, monkeypatch):
     page = tmp_path / "study.md"
     text = pages.PAGES["study"].read_text()
-    (row,) = re.findall(r"^\| ours, `paper` \|.*$", text, re.MULTILINE)
+    (row,) = re.findall(r"^\| ours, `locking` \|.*$", text, re.MULTILINE)
     other = row.replace("| 1.7 |", "| 1.6 |", 1)
     page.write_text(text.replace(row, other))
     monkeypatch.setitem(pages.PAGES, "study", page)
@@ -62,16 +78,16 @@ def test_a_number_changed_by_hand_is_detected(pages, tmp_path, monkeypatch):
 def test_numbers_of_a_study_are_stored(pages, tmp_path):
     numbers = tmp_path / "numbers.csv"
     numbers.write_text(
-        "# made by heartfit\ntable,setting,case,quantity,value\ntable1,paper,mean of 7,V_min,1.23456\n"
-        "table1,paper,volunteer1,failed points,0 of 9\n"
+        "# made by heartfit\ntable,setting,case,quantity,value\ntable1,locking,mean of 7,V_min,1.23456\n"
+        "table1,locking,volunteer1,failed points,0 of 9\n"
     )
     rows = [
-        ["V_min", "9", "%", "table1/paper/mean of 7/V_min", "old"],
-        ["q_max", "8", "%", "table1/paper/mean of 7/q_max", "old"],
+        ["V_min", "9", "%", "table1/locking/mean of 7/V_min", "old"],
+        ["q_max", "8", "%", "table1/locking/mean of 7/q_max", "old"],
         ["duration", "29", "min", "", "old"],
     ]
     assert pages.renewed(rows, numbers, "new") == [
-        ["V_min", "1.235", "%", "table1/paper/mean of 7/V_min", "new"],
+        ["V_min", "1.235", "%", "table1/locking/mean of 7/V_min", "new"],
         *rows[1:],
     ]
 
@@ -81,11 +97,11 @@ def test_printed_tables_of_a_study_are_stored_with_each_quote_once(pages, tmp_pa
     stated = "4.3,about 25%,error of q_max,about 25,%"
     claims.write_text(
         "# made by heartfit\nplace,quote,quantity,paper,unit,setting,ours\n"
-        f"{stated},paper,1.50\n{stated},physical,nan\n"
+        f"{stated},locking,1.50\n{stated},physical,nan\n"
     )
     assert pages.printed(claims) == [
         ["place", "quote", "quantity", "paper", "unit", "setting", "ours"],
-        ["4.3", "about 25%", "error of q_max", "about 25", "%", "paper", "1.50"],
+        ["4.3", "about 25%", "error of q_max", "about 25", "%", "locking", "1.50"],
         ["", "", "", "", "", "physical", "nan"],
     ]
 

@@ -33,7 +33,6 @@ def published(measured_heart_folder: Path) -> np.ndarray:
     return table[:, 1:4] * [1.0, MILLILITRE, MILLILITRE]
 
 
-@pytest.mark.measured
 def test_the_left_ventricle_has_the_published_mass(
     mesh: VentricularMesh, measured_heart_folder: Path
 ) -> None:
@@ -45,7 +44,6 @@ def test_the_left_ventricle_has_the_published_mass(
     assert 1.05 * left / MILLILITRE == pytest.approx(published, rel=0.07)
 
 
-@pytest.mark.measured
 def test_the_surfaces_enclose_the_published_volumes(heart: MeasuredHeart, published: np.ndarray) -> None:
     cavities = [Cavity.from_endocardium(heart.surface, name) for name in CAVITIES]
     volumes = [[cavity.volume(phase) for cavity in cavities] for phase in heart.positions]
@@ -55,7 +53,6 @@ def test_the_surfaces_enclose_the_published_volumes(heart: MeasuredHeart, publis
     assert heart.surface.volume() == pytest.approx(177.93 * MILLILITRE, rel=1e-4)
 
 
-@pytest.mark.measured
 def test_the_carried_mesh_keeps_the_published_volumes(
     heart: MeasuredHeart, mesh: VentricularMesh, published: np.ndarray
 ) -> None:

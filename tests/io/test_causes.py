@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from heartfit.core.errors import InputError
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, FittedModel, Gain, Trace
+from heartfit.discovery.inference.decide import BesideProcess
+from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, FittedModel, Gain, Trace, UnnamedCandidate
 from heartfit.io.causes import (
     SHARED,
     TraceFile,
@@ -105,6 +106,7 @@ SEARCHED = replace(
         FittedModel(("MitralRegurgitation", "SlowRelaxation"), 1e-17, 1.0, 25),
     ),
     samples=97,
+    candidate=UnnamedCandidate(DIAGNOSIS.mechanisms, BesideProcess(12.0, -1.4, 0.1, 2.0, 4.0)),
 )
 
 

@@ -276,10 +276,9 @@ def test_an_empty_folder_is_refused(tmp_path: Path) -> None:
         read_images(tmp_path)
 
 
-@pytest.mark.measured
 def test_the_measured_cine_is_where_and_when_it_was_taken(measured_heart_folder: Path) -> None:
-    cine = read_images(measured_heart_folder / "cine" / "sax_cine_6slices_25phases.nii.gz")
+    cine = read_images(measured_heart_folder / "cine" / "sax")
     assert cine.voxels.shape == (25, 6, 208, 256)
     assert cine.grid.spacing == pytest.approx([1.40625e-3, 1.40625e-3, 17.7e-3], rel=1e-5)
-    assert cine.period == pytest.approx(0.829, rel=1e-5)
+    assert cine.period == pytest.approx(0.829, abs=5e-4)
     assert np.linalg.det(cine.grid.direction) == pytest.approx(1.0)

@@ -28,16 +28,16 @@ def test_a_job_run_by_several_studies_counts_in_the_first(tmp_path):
 
 
 def test_files_are_counted_by_case_and_setting(tmp_path):
-    results = study(tmp_path, heart1__build_mesh=5.0, heart1__paper__compare_case=1.0)
+    results = study(tmp_path, heart1__build_mesh=5.0, heart1__locking__compare_case=1.0)
     counts = {(footprint.per, footprint.kind): footprint.files for footprint in measured_footprints(results)}
     assert counts == {("case", "measured"): 1.0, ("setting", "measured"): 1.0}
 
 
 def test_sums_are_files_of_what_they_are_sums_of(tmp_path):
-    results = study(tmp_path, heart1__build_mesh=5.0, heart1__paper__compare_case=1.0)
+    results = study(tmp_path, heart1__build_mesh=5.0, heart1__locking__compare_case=1.0)
     for beat in ("0.json", "1.json"):
         for folder in (results, results / ".sums"):
-            file = folder / "heart1" / "paper" / "calibration" / "beats" / beat
+            file = folder / "heart1" / "locking" / "calibration" / "beats" / beat
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text("{}")
     counts = {(footprint.per, footprint.kind): footprint.files for footprint in measured_footprints(results)}
@@ -47,7 +47,7 @@ def test_sums_are_files_of_what_they_are_sums_of(tmp_path):
 def test_files_of_another_study_within_the_folder_do_not_count(tmp_path):
     results = study(tmp_path, heart1__build_mesh=5.0)
     other = study(tmp_path / "other", heart2__build_mesh=5.0)
-    beat = other / "heart2" / "paper" / "calibration" / "beats" / "0.json"
+    beat = other / "heart2" / "locking" / "calibration" / "beats" / "0.json"
     beat.parent.mkdir(parents=True)
     beat.write_text("{}")
     counts = {(footprint.per, footprint.kind): footprint.files for footprint in measured_footprints(results)}

@@ -55,14 +55,12 @@ def copy(measured_heart_folder: Path, tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.mark.measured
 def test_the_copy_is_read_as_the_original(copy: Path, measured_heart_folder: Path) -> None:
     here, there = read_measured_heart(copy), read_measured_heart(measured_heart_folder)
     assert np.array_equal(here.positions, there.positions)
     assert here.at(9).volume() == pytest.approx(159.5e-6, rel=1e-3)
 
 
-@pytest.mark.measured
 @pytest.mark.parametrize(
     ("spoil", "what"),
     [

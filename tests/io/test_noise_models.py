@@ -34,13 +34,13 @@ def test_a_noise_model_round_trip(tmp_path: Path) -> None:
     model = NoiseModel(
         protocol,
         Scatter.from_sample(("V_min", "q_max", "q_min"), 0.1 * sample[:, :3]),
-        Scatter.from_sample([f"phase {k} of 25" for k in range(25)], sample, shrunk=True),
+        {"rv_volume": Scatter.from_sample([f"phase {k} of 25" for k in range(25)], sample, shrunk=True)},
     )
     write_noise_model(tmp_path / "model.json", model, "abc")
     restored = read_noise_model(tmp_path / "model.json")
     assert restored.protocol == protocol
     require_same(restored.observations, model.observations)
-    require_same(restored.curve, model.curve)
+    require_same(restored.curves["rv_volume"], model.curves["rv_volume"])
     assert read_fingerprint(tmp_path / "model.json") == "abc"
 
 

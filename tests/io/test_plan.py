@@ -13,9 +13,9 @@ HEADER = "case\tkind\tperiod_s\tconduction\tqrs_ms\tcatheter\n"
 @pytest.fixture
 def content(tmp_path, request):
     study = yaml.safe_load((request.config.rootpath / ROOT_CONFIG).read_text())
-    study |= {"cases": str(tmp_path / "cases.tsv"), "measured_heart": []}
+    study |= {"cases": str(tmp_path / "cases.tsv"), "measured_heart": None}
     study["sensitivity"]["case"] = "heart1"
-    study["settings"] |= {"paper": None}
+    study["settings"] |= {"locking": None}
     return study
 
 

@@ -17,7 +17,7 @@ COLUMNS = ["table", "setting", "case", "quantity", "value", "unit", "fingerprint
 
 def numbers(folder, **values):
     rows = [
-        ("table1", "paper", case, "V_min", value, "%", "abc", "", "mu=1 Pa.s")
+        ("table1", "locking", case, "V_min", value, "%", "abc", "", "mu=1 Pa.s")
         for case, value in values.items()
     ]
     (folder / "tables").mkdir(parents=True)
@@ -70,19 +70,19 @@ def test_ratios_are_to_the_healthy_of_all_shards(tmp_path):
             row
             for case, (estimate, seed) in ({**volunteers, **others}).items()
             for row in (
-                ("table2", "paper", case, "mu", estimate, "kPa.s", "abc", seed, "mu=1 Pa.s"),
-                ("table2", "paper", case, "mu over mean", estimate / mean, "", "abc", seed, "mu=1 Pa.s"),
+                ("table2", "locking", case, "mu", estimate, "kPa.s", "abc", seed, "mu=1 Pa.s"),
+                ("table2", "locking", case, "mu over mean", estimate / mean, "", "abc", seed, "mu=1 Pa.s"),
             )
         ]
-        rows.append(("table2", "paper", "prior", "mu", 12.0, "kPa.s", "abc", "", ""))
-        rows.append(("table1", "paper", "mean of 2", "V_min", mean, "%", "abc", "", ""))
+        rows.append(("table2", "locking", "prior", "mu", 12.0, "kPa.s", "abc", "", ""))
+        rows.append(("table1", "locking", "mean of 2", "V_min", mean, "%", "abc", "", ""))
         rows.append(
-            ("table3_parameters", "paper", "lbbb1", "mu value", 10.0, "kPa.s", "abc", "8", "mu=1 Pa.s")
+            ("table3_parameters", "locking", "lbbb1", "mu value", 10.0, "kPa.s", "abc", "8", "mu=1 Pa.s")
         )
         rows.append(
             (
                 "table3_parameters",
-                "paper",
+                "locking",
                 "lbbb1",
                 "mu over healthy mean",
                 10.0 / mean,

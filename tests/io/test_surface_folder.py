@@ -91,15 +91,15 @@ def test_open_surfaces_are_joined_at_the_base(
         assert len(heart.surface.surfaces[name]) == len(ventricles.surfaces[name])
 
 
-@pytest.mark.measured
+@pytest.mark.published
 def test_an_epicardium_that_reaches_the_valves_gives_its_rim_to_the_base(
-    tmp_path: Path, measured_heart_folder: Path
+    tmp_path: Path, published_heart_folder: Path
 ) -> None:
-    for file in (measured_heart_folder / "vtk_ED_ES").glob("*_000.vtk"):
+    for file in (published_heart_folder / "vtk_ED_ES").glob("*_000.vtk"):
         for phase in range(PHASES):
             (tmp_path / file.name.replace("000", f"{phase:03d}")).symlink_to(file)
     write_notes(tmp_path)
-    surface, fitted = read_surfaces(tmp_path).surface, read_measured_heart(measured_heart_folder).surface
+    surface, fitted = read_surfaces(tmp_path).surface, read_measured_heart(published_heart_folder).surface
     assert surface.volume() == pytest.approx(fitted.volume(), rel=1e-6)
     assert [len(part) for part in surface.surfaces.values()] == [
         len(part) for part in fitted.surfaces.values()

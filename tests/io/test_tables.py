@@ -20,11 +20,12 @@ from heartfit.io.tables import (
 )
 from heartfit.results.text import NOTES, render_table, render_tables
 
-TABLE = pd.DataFrame({"setting": ["paper"], "case": ["a_b"], "sigma_0 (kPa)": [240.0]})
+TABLE = pd.DataFrame({"setting": ["locking"], "case": ["a_b"], "sigma_0 (kPa)": [240.0]})
 
 
 @pytest.mark.parametrize(
-    ("suffix", "content"), [("csv", "paper,a_b,240"), ("md", "| paper "), ("tex", r"$\sigma_{0}$ (kPa) \\")]
+    ("suffix", "content"),
+    [("csv", "locking,a_b,240"), ("md", "| locking "), ("tex", r"$\sigma_{0}$ (kPa) \\")],
 )
 def test_the_suffix_decides(tmp_path: Path, suffix: str, content: str) -> None:
     write_table(tmp_path / f"table.{suffix}", render_table(TABLE))

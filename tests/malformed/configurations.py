@@ -22,7 +22,7 @@ def whole(name: str, old: str, new: str, message: str) -> Malformed:
 
 
 def setting(name: str, text: str, message: str) -> Malformed:
-    return over(name, f"settings: {{paper: {{{text}}}}}", message)
+    return over(name, f"settings: {{locking: {{{text}}}}}", message)
 
 
 MALFORMED = [
@@ -101,9 +101,10 @@ MALFORMED = [
     over("a list for a number", "mesh: {edge_length: [0.01]}\n", "edge_length"),
     over("a number for a table", "mesh: 0.01\n", "mesh = 0.01"),
     over("nothing for a table", "mesh:\n", "mesh = None"),
-    over("a list for a table", "settings: [paper]\n", "settings"),
-    over("a table for a list", "measured_heart: {a: b}\n", "measured_heart"),
-    over("text for a list", "measured_heart: heart\n", "measured_heart"),
+    over("a list for a table", "settings: [locking]\n", "settings"),
+    over("a table for a list", "discovery: {trials: {a: b}}\n", "trials"),
+    over("text for a list", "discovery: {trials: MitralRegurgitation}\n", "trials"),
+    over("a list for a folder", "measured_heart: [heart]\n", "measured_heart"),
     over("a fraction for a count", "numerics: {max_beats: 2.5}\n", "max_beats"),
     over("a truth for a number", "cohort: {heart: {sigma_0: yes}}\n", "sigma_0"),
     over("a truth among numbers", "sphere_study: {noise: {q_min: yes}}\n", "q_min: True says yes or no"),

@@ -18,7 +18,7 @@ CONFIGURATION = (
     (ROOT / "config" / "config.yaml")
     .read_text(encoding="utf-8")
     .replace("cases: config/cases.tsv", "cases: cases.tsv")
-    .replace("../shared/data/bivme_patient1", "heart")
+    .replace("measured_heart: resources/measured_heart", "measured_heart: heart")
 )
 CASES = (
     "case\tkind\tperiod_s\tseed\tconduction\tqrs_ms\tcatheter\tedv_ml\twall_thickness_mm\tsphericity\trv_edv_ml"

@@ -16,7 +16,6 @@ def left_volume(measured_heart_folder: Path) -> dict[str, Curve]:
     return {"lv_volume": Curve.of_volume(table["time_s"], 1e-6 * table["lv_volume_ml"], 0.829)}
 
 
-@pytest.mark.measured
 def test_the_default_operator_is_the_raw_one(left_volume: dict[str, Curve]) -> None:
     observations = observe_measured(left_volume, operators(left_volume)).observations
     values = [1e6 * observation.value for observation in observations]
@@ -25,12 +24,10 @@ def test_the_default_operator_is_the_raw_one(left_volume: dict[str, Curve]) -> N
     assert noise == pytest.approx([0.027, 0.085, 0.08], abs=0.01)
 
 
-@pytest.mark.measured
 def test_frames_are_scattered_by_about_two_millilitres(left_volume: dict[str, Curve]) -> None:
     assert frame_noise(left_volume["lv_volume"]) == pytest.approx(1.9e-6, abs=0.1e-6)
 
 
-@pytest.mark.measured
 def test_a_wide_window_of_fourth_order_agrees_with_the_raw_one_at_half_the_noise(
     left_volume: dict[str, Curve],
 ) -> None:

@@ -23,7 +23,7 @@ PROTOCOL = {"snr": 30.0, "slice_thickness": 0.008}
 def test_the_mean_unsigned_error_is_that_of_normal_draws(bias: float, sd: float) -> None:
     scatter = Scatter(("q_max",), 20, np.array([bias]), np.array([[sd**2]]))
     drawn = bias + sd * np.random.default_rng(0).standard_normal(10**6)
-    assert NoiseModel({}, scatter, scatter).mean_unsigned_error("q_max") == pytest.approx(
+    assert NoiseModel({}, scatter, {"lv_volume": scatter}).mean_unsigned_error("q_max") == pytest.approx(
         np.abs(drawn).mean(), rel=3e-3
     )
 
@@ -65,9 +65,13 @@ def test_planted_bias_and_covariance_are_recovered_within_their_sampling_error()
     assert (np.abs(estimated.observations.covariance - SPREAD) < 3.0 * error).all()
     wave = np.sin(np.pi * np.arange(FRAMES) / FRAMES)
     sd = wave * np.hypot(0.02, 0.005)
-    assert (np.abs(estimated.curve.mean - 0.03 * wave) <= 3.0 * sd / np.sqrt(1000) + 1e-15).all()
-    assert estimated.curve.sd == pytest.approx(sd, rel=3.0 / np.sqrt(2000), abs=1e-15)
-    together = estimated.curve.covariance[3, 6] / (estimated.curve.sd[3] * estimated.curve.sd[6])
+    assert (
+        np.abs(estimated.curves["lv_volume"].mean - 0.03 * wave) <= 3.0 * sd / np.sqrt(1000) + 1e-15
+    ).all()
+    assert estimated.curves["lv_volume"].sd == pytest.approx(sd, rel=3.0 / np.sqrt(2000), abs=1e-15)
+    together = estimated.curves["lv_volume"].covariance[3, 6] / (
+        estimated.curves["lv_volume"].sd[3] * estimated.curves["lv_volume"].sd[6]
+    )
     assert together == pytest.approx(0.02**2 / (0.02**2 + 0.005**2), abs=0.01)
 
 
@@ -93,6 +97,31 @@ def test_the_known_error_is_subtracted_exactly() -> None:
     for name, (low, high) in known.interval(fresh.measured).items():
         assert low == pytest.approx(fresh.true.observations[name])
         assert high == pytest.approx(fresh.true.observations[name])
+
+
+def test_each_volume_is_corrected_by_the_error_of_its_own_ventricle() -> None:
+    """The right volume errs by the opposite of the left one."""
+
+    def with_right(drawn: Pair) -> Pair:
+        left, true = (one.curves["lv_volume"] for one in (drawn.measured, drawn.true))
+        right = replace(true, values=true.values + 2.0 * (left.values - true.values))
+        readings = [
+            replace(one, curves={"lv_volume": one.curves["lv_volume"], "rv_volume": shown})
+            for one, shown in ((drawn.true, right), (drawn.measured, left))
+        ]
+        return Pair(*readings)
+
+    estimated = NoiseModel.from_pairs([with_right(pair(seed)) for seed in range(40)], PROTOCOL, FRAMES)
+    fresh = with_right(pair(77))
+    error = {
+        name: estimated.corrected_curve(fresh.measured.curves[name], name).values
+        - fresh.true.curves[name].values
+        for name in estimated.curves
+    }
+    assert error["rv_volume"] == pytest.approx(-error["lv_volume"], rel=1e-6, abs=1e-12)
+    covered = coverage(estimated, [with_right(pair(seed)) for seed in range(100, 160)])
+    assert covered["rv_volume"].covered == pytest.approx(covered["lv_volume"].covered)
+    assert covered["rv_volume"].covered > 0.9
 
 
 def test_a_shrunken_motion_has_the_same_error_for_every_heart() -> None:
@@ -139,8 +168,12 @@ def test_few_sequences_widen_intervals_by_their_number() -> None:
     assert (low + high) / 2.0 == pytest.approx(few.corrected(reading)["V_min"])
     assert high - low == pytest.approx(2.0 * stroke * scatter.half_width()[0], rel=1e-12, abs=0.0)
     low_curve, high_curve = few.curve_interval(volume)
-    assert high_curve - low_curve == pytest.approx(2.0 * stroke * few.curve.half_width(), abs=1e-12)
-    assert few.curve_covariance(volume) == pytest.approx(stroke**2 * few.curve.predictive, rel=1e-12, abs=0.0)
+    assert high_curve - low_curve == pytest.approx(
+        2.0 * stroke * few.curves["lv_volume"].half_width(), abs=1e-12
+    )
+    assert few.curve_covariance(volume) == pytest.approx(
+        stroke**2 * few.curves["lv_volume"].predictive, rel=1e-12, abs=0.0
+    )
 
 
 def test_a_peak_pressure_is_compared_with_the_range_of_the_pressure() -> None:

@@ -73,7 +73,7 @@ def test_the_worst_is_named_with_its_sign(beat: dict[str, Curve], measured: dict
 def test_the_noise_model_gives_bias_and_deviation_of_each_phase(measured: dict[str, Curve]) -> None:
     bias, sd = np.linspace(0.0, 0.1, 25), np.linspace(0.0, 0.04, 25)
     scatter = Scatter(tuple(map(str, range(25))), 20, bias, np.diag(sd**2))
-    model = NoiseModel({}, scatter, scatter)
+    model = NoiseModel({}, scatter, {"lv_volume": scatter})
     (volume,) = residuals({"lv_volume": measured["lv_volume"]}, {}, [model])
     stroke = np.ptp(measured["lv_volume"].values)
     assert volume.measured == pytest.approx(measured["lv_volume"].values - stroke * bias)

@@ -38,10 +38,11 @@ def test_noise_of_the_curve_and_roughness_of_the_simulation_add_up(
     assert left.noise == pytest.approx(np.full(25, np.hypot(estimated, roughness)))
 
 
-def test_a_noise_model_corrects_volumes_and_leaves_pressures() -> None:
+def test_a_noise_model_corrects_each_volume_by_its_own_error_and_leaves_pressures() -> None:
     bias, sd = np.linspace(0.0, 0.1, 25), np.linspace(0.0, 0.04, 25)
     scatter = Scatter(tuple(map(str, range(25))), 24, bias, np.diag(sd**2))
-    model = NoiseModel({}, scatter, scatter)
+    less = replace(scatter, mean=0.5 * bias, covariance=0.25 * scatter.covariance)
+    model = NoiseModel({}, scatter, {"lv_volume": less, "rv_volume": scatter})
     curve, noise = unbiased_with_noise("rv_volume", VOLUME, [model])
     stroke = np.ptp(VOLUME.values)
     assert curve.values == pytest.approx(VOLUME.values - stroke * bias)

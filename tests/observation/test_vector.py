@@ -18,7 +18,9 @@ PERIOD, TRIGGER = 0.8, 0.18
 BIAS = np.array([0.05, -0.2, -0.1])
 SPREAD = np.array([[2.0, -1.0, -1.0], [-1.0, 8.0, 4.0], [-1.0, 4.0, 6.0]]) * 1e-3
 MODEL = NoiseModel(
-    {}, Scatter(("V_min", "q_max", "q_min"), 24, BIAS, SPREAD), Scatter(("0",), 24, np.zeros(1), np.eye(1))
+    {},
+    Scatter(("V_min", "q_max", "q_min"), 24, BIAS, SPREAD),
+    {"lv_volume": Scatter(("0",), 24, np.zeros(1), np.eye(1))},
 )
 
 

@@ -127,8 +127,8 @@ def test_a_parameter_of_zero_needs_a_median() -> None:
 def test_the_study_fits_both_ventricles_of_the_measured_heart_alone(config: dict) -> None:
     study = Study.model_validate(config)
     cases = {case.case: case for case in read_cases(ROOT / study.cases)}
-    assert study.settings_of(cases["patient1"]) == ("paper", "physical", "paper_twice", "biventricular")
-    assert study.settings_of(cases["volunteer1"]) == study.common_settings() == ("paper", "physical")
+    assert study.settings_of(cases["patient1"]) == ("locking", "physical", "locking_twice", "biventricular")
+    assert study.settings_of(cases["volunteer1"]) == study.common_settings() == ("locking", "physical")
     assert study.curves_besides(cases["patient1"]) == ("rv_volume",)
     assert study.curves_besides(cases["volunteer1"]) == ()
     assert study.perturbed_as("biventricular") == "physical"
@@ -140,7 +140,7 @@ def test_settings_of_some_cases_come_last_in_whichever_order_files_state_them(co
     config["settings"] = dict(reversed(config["settings"].items()))
     study = Study.model_validate(config)
     assert [study.settings[name].cases is None for name in study.settings] == [True, True, False, False]
-    assert study.perturbed_as("paper_twice") == "paper"
+    assert study.perturbed_as("locking_twice") == "locking"
 
 
 def test_a_right_volume_of_virtual_images_is_refused(config: dict, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -20,7 +20,7 @@ UNITS = {
 
 def calibrated(
     case: str,
-    setting: str = "paper",
+    setting: str = "locking",
     errors: float | Mapping[str, float] = 2.0,
     ratios: Mapping[str, float] | None = None,
     pressure: bool = False,

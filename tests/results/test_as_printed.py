@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from heartfit.io.tables import read_published
-from heartfit.results.as_printed import printed_errors, printed_parameters
+from heartfit.results.as_printed import PLANTED, PLANTED_RATIOS, printed_errors, printed_parameters
 from heartfit.results.case import FingerprintMismatchError, Groups
 from heartfit.results.errors import PAPER
 from heartfit.results.text import to_latex
@@ -39,8 +39,8 @@ def test_the_papers_rows_are_those_of_its_print() -> None:
 
 def test_our_errors_stand_below_one_block_a_setting() -> None:
     table = printed_errors(CASES, ERRORS, GROUPS)
-    assert table["setting"].tolist() == [PAPER] * 3 + ["paper"] * 3 + ["physical"] * 3
-    ours = table[table["setting"] == "paper"].set_index("Volunteers")
+    assert table["setting"].tolist() == [PAPER] * 3 + ["locking"] * 3 + ["physical"] * 3
+    ours = table[table["setting"] == "locking"].set_index("Volunteers")
     assert ours.index.tolist() == ["V_min", "q_max", "q_min"]
     assert ours.loc["q_min", ["1", "2", "3", "Mean", "real"]].tolist() == [
         "10.00",
@@ -56,7 +56,7 @@ def test_our_errors_stand_below_one_block_a_setting() -> None:
 
 def test_our_parameters_have_the_papers_units_and_order_and_three_digits_below_one() -> None:
     table = printed_parameters(CASES, PARAMETERS, GROUPS)
-    ours = table[table["setting"] == "paper"].set_index("Volunteers")
+    ours = table[table["setting"] == "locking"].set_index("Volunteers")
     assert ours.index.tolist() == ["sigma_0 (MPa)", "mu (MPa.s)", "K (MPa)", "R_p (MPa.s/m^3)"]
     assert ours.loc["sigma_0 (MPa)", ["1", "2", "Mean"]].tolist() == ["0.300", "0.450", "0.38"]
     assert ours.loc["mu (MPa.s)", ["1", "Mean"]].tolist() == ["0.0150", "0.015"]
@@ -65,6 +65,30 @@ def test_our_parameters_have_the_papers_units_and_order_and_three_digits_below_o
     assert ours.loc["R_p (MPa.s/m^3)", ["1", "Mean"]].tolist() == ["110.00", "110.0"]
     physical = table[table["setting"] == "physical"]
     assert physical["Volunteers"].tolist()[2] == "c_1 (MPa)", "in the place of K"
+
+
+def test_what_was_planted_in_the_virtual_volunteers_stands_above_the_estimates() -> None:
+    truths = {
+        "volunteer1": {"sigma_0": 286e3, "mu": 11e3, "K": 1e6, "c_1": 5.5e3, "R_p": 95e6, "alpha": 8.0},
+        "volunteer2": {"sigma_0": 194e3, "mu": 11e3, "K": 1e6, "c_1": 4.0e3, "R_p": 131e6, "alpha": 8.0},
+        "sick": {"sigma_0": 1e3},
+    }
+    table = printed_parameters(CASES, PARAMETERS, GROUPS, truths)
+    assert table["setting"].unique().tolist() == [PAPER, PLANTED_RATIOS, "locking", "physical"]
+    planted = table[table["setting"] == PLANTED_RATIOS].set_index("Volunteers")
+    assert planted.index.tolist() == ["sigma_0 (MPa)", "mu (MPa.s)", "c_1 (MPa)", "R_p (MPa.s/m^3)"], (
+        "K has no truth"
+    )
+    assert planted.loc["sigma_0 (MPa)", ["1", "2", "3", "Mean", "real"]].tolist() == [
+        "0.286",
+        "0.194",
+        "",
+        "0.24",
+        "",
+    ]
+    assert planted.loc["R_p (MPa.s/m^3)", ["1", "Mean"]].tolist() == ["95.00", "113.0"]
+    drawn = printed_parameters(CASES, PARAMETERS, GROUPS, truths, planted_ratios=False)
+    assert drawn["setting"].unique().tolist() == [PAPER, PLANTED, "locking", "physical"]
 
 
 def test_a_failed_beat_is_named_and_not_in_the_mean() -> None:

@@ -66,7 +66,7 @@ def test_coverage_counts_hearts_with_a_truth(cohort):
 
 
 def test_no_estimate_is_held_against_a_true_K():
-    table = cards([("v", "paper")], [None], [None], {"v": {"K": 1.0, "mu": 2.0}})  # type: ignore[list-item]
+    table = cards([("v", "locking")], [None], [None], {"v": {"K": 1.0, "mu": 2.0}})  # type: ignore[list-item]
     assert table[0].truth == {"mu": 2.0}
 
 

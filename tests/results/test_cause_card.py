@@ -5,12 +5,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model.cause import Cause, Change, Diagnosis, Gain, Trace, departures
+from heartfit.discovery.inference.decide import BesideProcess
+from heartfit.discovery.sphere_model.cause import (
+    Cause,
+    Change,
+    CurveFit,
+    Diagnosis,
+    Gain,
+    Trace,
+    UnnamedCandidate,
+    departures,
+)
 from heartfit.discovery.sphere_model.recording import UNSEARCHED
 from heartfit.observation.beat import BeatPhases
 from heartfit.results.cause_card import (
     CURVES,
     alternatives_text,
+    candidate_sentence,
     departure_sentence,
     markdown_card,
     mechanism_with_size,
@@ -93,6 +104,21 @@ def test_a_departing_curve_outside_the_search_is_excepted():
     assert [numbers_in(title) for title in titles] == [[4.7], [4.7]]
 
 
+def test_a_curve_that_the_refit_explains_is_not_excepted_and_the_card_says_so():
+    departing = diagnosis(
+        "none", traces=(replace(TRACE, curve="rv_volume"),), unsearched={"rv_volume": "no right side"}
+    )
+    within, beyond = (
+        replace(departing, fits=(CurveFit("rv_volume", chi_squared, 24.0, p),))
+        for chi_squared, p in ((20.0, 0.7), (60.0, 6e-5))
+    )
+    assert CURVES["rv_volume"] not in verdict_sentence(within)
+    assert CURVES["rv_volume"] in verdict_sentence(beyond)
+    lines = [bullets(markdown_card(one, "case 1"))[2] for one in (within, beyond)]
+    assert [numbers_in(line) for line in lines] == [[20.0, 24.0, 0.7], [60.0, 24.0, 6e-5]]
+    assert len({line[: line.index("chi")] for line in lines}) == 2
+
+
 def test_units_are_clinical():
     assert {20.0, 10.0, 30.0} <= set(numbers_in(mechanism_with_size(DELAY)))
     assert "ms" in mechanism_with_size(DELAY)
@@ -134,6 +160,27 @@ def test_a_curve_outside_the_search_is_listed_with_the_reason():
     listed = bullets(markdown_card(diagnosis("none", unsearched=UNSEARCHED), "case 1"))
     for curve, reason in UNSEARCHED.items():
         assert [line for line in listed if CURVES[curve] in line and reason in line]
+
+
+BELOW, LEFT = BesideProcess(22.7, -1.4, 1.0, 2.0, 4.0), BesideProcess(22.7, 12.0, 8.5, 2.0, 7.9)
+
+
+@pytest.mark.parametrize(
+    ("beside", "numbers"), [(BELOW, {22.7, 24.1, 2.0, 1.4}), (LEFT, {8.5, 7.9})], ids=["below", "left"]
+)
+@pytest.mark.parametrize("verdict", ["unknown", "insufficient"])
+def test_a_candidate_is_shown_with_the_rule_that_it_breaks_and_not_as_a_name(verdict, beside, numbers):
+    case = diagnosis(verdict, candidate=UnnamedCandidate((LEAK, DELAY), beside))
+    sentence = candidate_sentence(case.candidate)
+    sizes = " ".join(map(mechanism_with_size, (LEAK, DELAY)))
+    assert set(numbers_in(sentence)) - set(numbers_in(sizes)) == numbers
+    assert ("below" in sentence) == (beside is BELOW)
+    named = markdown_card(case, "case 1").split("Candidate, not named")
+    assert len(named) == 2, "stated once"
+    assert spaced_name(DELAY.name) not in named[0]
+    figure = plot_cause(case)
+    assert "Candidate, not named: mitral regurgitation and catheter delay" in figure.get_suptitle()
+    assert labelled(figure.axes[0]) == labelled(plot_cause(diagnosis(verdict)).axes[0]) + 1
 
 
 def test_the_card_lists_alternatives_gains_and_withdrawn_names():

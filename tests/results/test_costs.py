@@ -5,8 +5,8 @@ import pytest
 from heartfit.results.costs import OTHER_STAGE, WHOLE_STUDY, Cost, cost_table, plot_costs, stage_of
 
 COSTS = [
-    Cost("volunteer1/paper/simulate_point_0", 60.0, 55.0, 300.0),
-    Cost("volunteer1/paper/simulate_point_10", 40.0, 38.0, 320.0),
+    Cost("volunteer1/locking/simulate_point_0", 60.0, 55.0, 300.0),
+    Cost("volunteer1/locking/simulate_point_10", 40.0, 38.0, 320.0),
     Cost("templates/generator", 8.0, 7.0, 250.0),
     Cost("make_tables", 0.0, 0.0, 0.0),
 ]
@@ -21,10 +21,10 @@ STAGES = {
     "patient1/register_cine": "registration",
     "lbbb2/physical/simulate_point_14": "calibration",
     "lbbb2/physical/simulate_calibrated": "calibration",
-    "sensitivity/paper/simulate_surroundings": "sensitivity",
+    "sensitivity/locking/simulate_surroundings": "sensitivity",
     "registration_error/baseline/try_7": "registration error",
     "cover_spheres": "spheres",
-    "volunteer1/paper/plot_case": OTHER_STAGE,
+    "volunteer1/locking/plot_case": OTHER_STAGE,
     "make_tables": OTHER_STAGE,
 }
 """Stage of a job by its name."""

@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from heartfit.discovery.inference.decide import BesideProcess
+from heartfit.discovery.sphere_model.cause import UnnamedCandidate
 from heartfit.results.discovery import DiscoveryResult, discovery_table, printed_findings
 from heartfit.synthetic.campaign import Effect
 from tests.results.report.small_report import diagnosis
@@ -96,6 +98,19 @@ def test_a_sound_heart_hides_nothing_and_is_not_extended() -> None:
     assert frame.loc["hidden", "text"] == "nothing"
     assert frame.loc["said after the refit", "text"] == "none"
     assert not [name for name in frame.index if name.startswith(("size", "error ratio", "change"))]
+
+
+def test_a_candidate_is_printed_as_not_named() -> None:
+    causes = diagnosis().mechanisms
+    beside = BesideProcess(12.0, -1.4, 0.0, 2.0, 4.0)
+    unnamed = replace(
+        diagnosis(), verdict="insufficient", mechanisms=(), candidate=UnnamedCandidate(causes, beside)
+    )
+    frame = numbers(DiscoveryResult("patient1", "physical", unnamed, unnamed))
+    expected = "insufficient (candidate, not named: mitral regurgitation)"
+    assert [frame.loc[f"said {when}", "text"] for when in ("by the search", "after the refit")] == [
+        expected
+    ] * 2
 
 
 def test_cases_are_columns_in_print_with_one_row_for_each_finding() -> None:

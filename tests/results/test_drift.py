@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from heartfit.results.drift import DriftError, StoredTables, drift_table, find_moves
+from heartfit.results.drift import StoredTables, drift_table, find_moves
 
 STORED = {
     "table1": pd.DataFrame(
@@ -110,16 +110,33 @@ def test_a_number_drifts_elsewhere_beyond_a_thousandth_and_its_last_digit(value:
         assert not drift.drifted
 
 
-def test_the_message_lists_the_first_cells_with_advice() -> None:
-    before, now = (pd.DataFrame({"x": [str(n + shift) for n in range(30)]}) for shift in (0, 1))
-    drift = StoredTables({"t": before}, HERE, {}).compared({"t": now}, HERE)
-    places = {"tables": "results/tables", "reference": "resources/reference/study"}
-    with pytest.raises(DriftError) as error:
-        drift_table(drift, places)
-    lines = str(error.value).splitlines()
-    assert lines[0] == "30 of 30 cells drifted:"
-    assert lines[-2] == "  and 10 more"
-    assert "heartfit drift results/tables resources/reference/study --renew" in lines[-1]
-    assert len(lines) == 23
-    left_out = drift_table(drift, places, "the measured heart is left out")
-    assert left_out.to_dict("list") == {"not compared": ["the measured heart is left out"]}
+@pytest.mark.parametrize(
+    ("text", "machine", "expected"),
+    [
+        ("1.73412", HERE, "agree with the stored ones: each of 8 cells is the same"),
+        ("1.73413", THERE, "agree with the stored ones: 1 of 8 cells moved"),
+        (
+            "1.8",
+            THERE,
+            "1 of 8 cells lie outside the stored tables, on another processor or software: drift.csv lists",
+        ),
+        (
+            "1.73413",
+            HERE,
+            "1 of 8 cells lie outside the stored tables, on the processor and software of the stored ones",
+        ),
+    ],
+)
+def test_one_line_says_whether_the_tables_agree(text: str, machine: dict[str, str], expected: str) -> None:
+    drift = StoredTables(STORED, HERE, {}).compared(changed("table1", 1, "V_min (%)", text), machine)
+    line = drift.line("drift.csv")
+    assert expected in line
+    assert "\n" not in line
+
+
+def test_a_study_without_some_cases_is_not_compared() -> None:
+    drift = StoredTables(STORED, HERE, {}).compared({}, HERE)
+    reason = "patient1 left out"
+    assert drift_table(drift, reason).to_dict("list") == {"not compared": [reason]}
+    assert drift.line("drift.csv", reason) == f"The tables are not compared with the stored ones: {reason}"
+    assert len(drift_table(drift)) == len(STORED)

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Trace
+from heartfit.discovery.inference.decide import BesideProcess
+from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Trace, UnnamedCandidate
 from heartfit.observation.curve import Curve
 from heartfit.results.extension import extension_table, plot_extension, unseen
 
@@ -65,3 +66,6 @@ def test_the_figure_has_a_row_for_each_ventricle(diagnosis: Diagnosis) -> None:
         "right ventricle, volume (mL)",
     ]
     assert "mitral dynamics" in figure.get_suptitle()
+    candidate = UnnamedCandidate(diagnosis.mechanisms, BesideProcess(22.7, -1.4, 1.0, 2.0, 4.0))
+    unnamed = replace(diagnosis, verdict="insufficient", mechanisms=(), candidate=candidate)
+    assert "mitral dynamics (candidate, not named)" in plot_extension(unnamed, "patient1").get_suptitle()

@@ -18,7 +18,10 @@ LABELS = tuple(f"phase {phase} of {PHASES}" for phase in range(PHASES))
 MODEL = NoiseModel(
     {},
     Scatter(("V_min", "q_max"), 24, np.array([0.2, np.log(0.8)]), np.diag([0.05**2, 0.1**2])),
-    Scatter(LABELS, 24, 0.1 * WAVE, np.diag((0.04 * WAVE) ** 2)),
+    {
+        "lv_volume": Scatter(LABELS, 24, 0.1 * WAVE, np.diag((0.04 * WAVE) ** 2)),
+        "rv_volume": Scatter(LABELS, 24, 0.2 * WAVE, np.diag((0.06 * WAVE) ** 2)),
+    },
 )
 
 
@@ -35,12 +38,15 @@ def pair(shrinkage: float) -> Pair:
 
 
 def test_bias_deviation_and_cover_stand_in_percent() -> None:
-    shares = dict.fromkeys(("V_min", "q_max", "lv_volume"), Share.from_count(23, 24))
+    shares = dict.fromkeys(("V_min", "q_max", "lv_volume", "rv_volume"), Share.from_count(23, 24))
     table = noise_model_table(MODEL, shares).set_index("observation")
     assert table.loc["V_min", ["bias (%)", "sd (%)"]].tolist() == pytest.approx([20.0, 5.0])
     assert table.loc["q_max", ["bias (%)", "sd (%)"]].tolist() == pytest.approx([-20.0, 10.0])
     assert table.loc["LV volume, phase 5 of 10", ["bias (%)", "sd (%)"]].tolist() == pytest.approx(
         [10.0, 4.0]
+    )
+    assert table.loc["RV volume, phase 5 of 10", ["bias (%)", "sd (%)"]].tolist() == pytest.approx(
+        [20.0, 6.0]
     )
     cover = table.loc["V_min", ["covered (%)", "covered, low (%)", "covered, high (%)"]].tolist()
     assert cover == pytest.approx([95.83, 78.88, 99.89], abs=0.01)

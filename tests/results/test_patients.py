@@ -65,12 +65,12 @@ def test_a_long_step_of_a_patient_is_flagged_with_its_errors_and_its_parameter()
 
 def test_a_setting_has_its_own_healthy_mean():
     other = [
-        replace(case, setting="paper", estimate={"sigma_0": 2 * case.estimate["sigma_0"], "K": 1.0})
+        replace(case, setting="locking", estimate={"sigma_0": 2 * case.estimate["sigma_0"], "K": 1.0})
         for case in CASES
     ]
     table = patient_parameters([*CASES, *other], PUBLISHED, GROUPS)
     ratio = table[table["quantity"] == "sigma_0"].groupby("setting")["over healthy mean"].first()
-    assert ratio["paper"] == ratio["physical"] == pytest.approx(0.6)
+    assert ratio["locking"] == ratio["physical"] == pytest.approx(0.6)
 
 
 def test_a_cohort_without_patients_has_the_papers_rows():

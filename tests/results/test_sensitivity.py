@@ -64,7 +64,7 @@ def test_a_row_of_sensitivities_holds_prior_covariance_and_shares() -> None:
 
 def test_sensitivity_to_the_bulk_modulus_is_in_per_cent_per_per_cent() -> None:
     whole = sensitivity()
-    table = bulk_modulus_table({"paper": whole}, {"K": "Pa"})
+    table = bulk_modulus_table({"locking": whole}, {"K": "Pa"})
     assert table["K (kPa)"].tolist() == pytest.approx([1.0])
     assert table["V_min"].tolist() == [whole.slopes[PAPER_PARAMETERS.index("K"), 0]]
 
@@ -118,7 +118,7 @@ def test_figures_are_drawn(tmp_path: Path) -> None:
     heat = plot_sensitivities(example, "volunteer1, physical setting")
     assert len(heat.axes[1].patches) == 4
     assert len(heat.axes[2].patches) == 7
-    bars = plot_sobol(indices(), {"paper": example, "physical": example})
+    bars = plot_sobol(indices(), {"locking": example, "physical": example})
     write_figure(tmp_path / "heat.png", heat)
     write_figure(tmp_path / "sobol.pdf", bars)
 

@@ -69,13 +69,13 @@ def test_errors_stand_beside_their_floor_and_the_paper() -> None:
 
 
 def test_each_setting_has_the_mean_of_its_completed_cases() -> None:
-    cases = [case(factor=1.1), case("b", factor=1.3), case("c", setting="paper", factor=1.5)]
-    failed = replace(case("d", setting="paper"), calibrated={}, root_mean_square={})
+    cases = [case(factor=1.1), case("b", factor=1.3), case("c", setting="locking", factor=1.5)]
+    failed = replace(case("d", setting="locking"), calibrated={}, root_mean_square={})
     table = error_table([*cases, failed], PAPER_ERRORS, HEALTHY)
     means = table[table["case"].str.startswith("mean of")].set_index("setting")
     assert means.loc["physical", "V_min (%)"] == pytest.approx(20)
-    assert means.loc["paper", "V_min (%)"] == pytest.approx(50)
-    assert means.loc["paper", "case"] == "mean of 1"
+    assert means.loc["locking", "V_min (%)"] == pytest.approx(50)
+    assert means.loc["locking", "case"] == "mean of 1"
 
 
 def test_a_fit_below_the_noise_is_flagged_and_patients_are_left_out():
@@ -95,7 +95,7 @@ def test_the_sign_of_an_error_follows_the_magnitude_of_the_observation() -> None
 
 
 def test_parameters_in_printed_units_with_prior_paper_and_truth() -> None:
-    cases = [case(), case("virtual"), case(setting="paper")]
+    cases = [case(), case("virtual"), case(setting="locking")]
     table = parameter_table(cases, PAPER_PARAMETERS, HEALTHY, {"virtual": {"sigma_0": 200e3, "hidden": 1.0}})
     assert table["case"].tolist()[:3] == ["prior", "real", "virtual"]
     assert table["sigma_0 (kPa)"].tolist() == pytest.approx([240, 250, 250, 240, 250, 6490, 5800])
@@ -104,9 +104,10 @@ def test_parameters_in_printed_units_with_prior_paper_and_truth() -> None:
     assert table["sigma_0 sd (%)"].iloc[1] == pytest.approx(9)
     assert table["sigma_0 of truth (%)"].dropna().tolist() == pytest.approx([25])
     assert "R_p of truth (%)" not in table
+    assert table["sigma_0 planted over mean"].dropna().tolist() == [1.0]
     assert table["longest step (prior sd)"].iloc[1] == pytest.approx(np.log(250 / 240) / 0.2)
     sigma = [place for place, column in enumerate(table.columns) if column.startswith("sigma_0")]
-    assert sigma == [4, 5, 6, 7]
+    assert sigma == [4, 5, 6, 7, 8]
     assert table["sigma_0 over mean"].dropna().tolist() == pytest.approx([1, 1, 1, 6.49 / 5.8, 1])
 
 

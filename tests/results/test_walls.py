@@ -44,8 +44,8 @@ def test_a_calibrated_flash_is_that_of_the_file(tmp_path: Path) -> None:
 def test_settings_go_with_their_case_and_a_failed_beat_is_left_out() -> None:
     shapes = [shape(walls(FLASH)), NOTHING, NOTHING, shape(walls(5e-3 * WAVE))]
     measured = [walls(FLASH), walls(5e-3 * WAVE)]
-    cases = walls_by_case(["a", "b"], ["paper", "physical"], measured, measured, shapes)
-    assert [list(motions)[2:] for motions in cases.values()] == [["paper"], ["physical"]]
+    cases = walls_by_case(["a", "b"], ["locking", "physical"], measured, measured, shapes)
+    assert [list(motions)[2:] for motions in cases.values()] == [["locking"], ["physical"]]
 
 
 def test_the_table_has_the_flash_in_mm_and_ms_or_is_empty() -> None:

@@ -46,7 +46,7 @@ def test_the_studies_that_are_shipped_are_valid():
     [
         ((), "mseh", "mesh"),
         (("mesh",), "edge_lenght", "edge_length"),
-        (("settings", "paper"), "elment", "element"),
+        (("settings", "locking"), "elment", "element"),
     ],
 )
 def test_an_unknown_key_names_the_nearest_known_one(content, path, key, meant):
@@ -95,18 +95,18 @@ def test_a_missing_table_is_named(content):
 
 
 def test_a_parameter_is_not_both_estimated_and_fixed(content):
-    content["settings"]["paper"]["heart"] = {"K": 1e6}
+    content["settings"]["locking"]["heart"] = {"K": 1e6}
     assert re.search(r"\bK\b.*estimated.*fixed", complaint(Study, content))
 
 
 def test_a_parameter_without_prior_is_not_estimated(content):
-    content["settings"]["paper"]["estimate"] = ["k_b"]
+    content["settings"]["locking"]["estimate"] = ["k_b"]
     assert re.search(r"\bk_b\b.*\bprior\b", complaint(Study, content))
 
 
 def test_a_parameter_of_either_sign_is_not_estimated(content):
-    content["settings"]["paper"] |= {"mechanisms": ["ImageShrinkage"], "estimate": ["shrinkage"]}
-    content["settings"]["paper"]["prior"] = {"shrinkage": {"sd": 0.3}}
+    content["settings"]["locking"] |= {"mechanisms": ["ImageShrinkage"], "estimate": ["shrinkage"]}
+    content["settings"]["locking"]["prior"] = {"shrinkage": {"sd": 0.3}}
     message = complaint(Study, content)
     assert re.search(r"\bshrinkage\b.*\bnegative\b", message)
 
@@ -211,7 +211,7 @@ def test_a_bad_table_of_cases_is_refused(tmp_path, text, expected):
 
 
 def test_without_the_measured_heart_virtual_cases_remain_and_one_line_reports_it(content, tmp_path):
-    content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": [str(tmp_path / "nowhere")]}
+    content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": str(tmp_path / "nowhere")}
     plan = plan_study(content)
     assert {case.kind for case in plan.cases.values()} == {"virtual", "sealed"}
     assert "patient1" in plan.left_out
@@ -219,7 +219,6 @@ def test_without_the_measured_heart_virtual_cases_remain_and_one_line_reports_it
     assert "\n" not in plan.left_out
 
 
-@pytest.mark.measured
 def test_without_its_images_the_measured_heart_remains_and_one_line_reports_it(
     content, tmp_path, measured_heart_folder
 ):
@@ -228,7 +227,7 @@ def test_without_its_images_the_measured_heart_remains_and_one_line_reports_it(
     (tmp_path / "cine").mkdir()
     timing = measured_heart_folder / "cine" / "timing.json"
     (tmp_path / "cine" / "timing.json").write_text(timing.read_text())
-    content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": [str(tmp_path)]}
+    content |= {"cases": str(ROOT / "config" / "cases.tsv"), "measured_heart": str(tmp_path)}
     plan = plan_study(content)
     assert "patient1" in plan.cases
     assert plan.sources["patient1"].images is None
@@ -240,10 +239,9 @@ def test_without_its_images_the_measured_heart_remains_and_one_line_reports_it(
     assert plan.left_out == ""
 
 
-@pytest.mark.measured
 def test_a_period_that_is_not_the_measured_one_is_refused(content, tmp_path, measured_heart_folder):
     table = tmp_path / "cases.tsv"
-    content |= {"cases": str(table), "measured_heart": [str(measured_heart_folder)]}
+    content |= {"cases": str(table), "measured_heart": str(measured_heart_folder)}
     content["sensitivity"]["case"] = "a"
     table.write_text("case\tkind\tperiod_s\na\tmeasured\t0.829\n")
     assert set(plan_study(content).cases) == {"a"}

@@ -69,23 +69,23 @@ def test_the_page_states_total_and_days():
 
 
 def test_paths_determine_unit_and_kind_of_subject():
-    kinds, settings = {"leak1": "virtual", "mine": "measured"}, {"paper"}
+    kinds, settings = {"leak1": "virtual", "mine": "measured"}, {"locking"}
     places = {
         "kernels.json": ("study", ""),
-        "sensitivity/paper/beats/3.json": ("study", ""),
+        "sensitivity/locking/beats/3.json": ("study", ""),
         "leak1/images/cine.nrrd": ("case", "virtual"),
-        "figures/mine_paper_shape.png": ("setting", "measured"),
+        "figures/mine_locking_shape.png": ("setting", "measured"),
         "tables/mine_cine_wall.csv": ("case", "measured"),
-        "leak1/paper/calibration/beats/12.csv": ("point", "virtual"),
-        "logs/leak1/paper/simulate_point_12.log": ("point", "virtual"),
+        "leak1/locking/calibration/beats/12.csv": ("point", "virtual"),
+        "logs/leak1/locking/simulate_point_12.log": ("point", "virtual"),
     }
     assert {name: unit_of(name, kinds, settings) for name in places} == places
 
 
 def test_footprints_are_means_over_units():
-    beats = [(f"{case}/paper/calibration/beats/{n}.json", 1000) for case in ("a1", "a2") for n in range(9)]
-    logs = [(f"logs/{case}/paper/simulate_point_{n}.log", 500) for case in ("a1", "a2") for n in range(9)]
+    beats = [(f"{case}/locking/calibration/beats/{n}.json", 1000) for case in ("a1", "a2") for n in range(9)]
+    logs = [(f"logs/{case}/locking/simulate_point_{n}.log", 500) for case in ("a1", "a2") for n in range(9)]
     averages = footprints(
-        [*beats, *logs, ("kernels.json", 10)], {"a1": "virtual", "a2": "virtual"}, {"paper"}
+        [*beats, *logs, ("kernels.json", 10)], {"a1": "virtual", "a2": "virtual"}, {"locking"}
     )
     assert averages == [Footprint("point", "virtual", 2.0, 0.0015), Footprint("study", "", 1.0, 1e-5)]

@@ -14,7 +14,7 @@ from heartfit.io.configuration import read_yaml
 from heartfit.study.study import Study
 
 CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
-TWICE = {"like": "paper", "iterations": 2}
+TWICE = {"like": "locking", "iterations": 2}
 
 
 def changed(settings: dict[str, Any]) -> Study:
@@ -25,10 +25,10 @@ def changed(settings: dict[str, Any]) -> Study:
 
 def test_a_second_iteration_starts_at_the_estimate_of_the_same_setting_with_one() -> None:
     study = changed(settings={"again": TWICE})
-    assert study.first_step("again") == "paper"
-    assert study.first_step("paper") == "paper"
-    assert study.settings["again"].estimate == study.settings["paper"].estimate
-    assert study.perturbed_as("again") == "paper", "both use the same perturbed beats"
+    assert study.first_step("again") == "locking"
+    assert study.first_step("locking") == "locking"
+    assert study.settings["again"].estimate == study.settings["locking"].estimate
+    assert study.perturbed_as("again") == "locking", "both use the same perturbed beats"
 
 
 def test_a_second_iteration_needs_a_first_one_for_all_its_cases() -> None:
@@ -37,9 +37,9 @@ def test_a_second_iteration_needs_a_first_one_for_all_its_cases() -> None:
     with pytest.raises(ValidationError, match=r"settings\.again"):
         changed(
             settings={
-                "one": {"like": "paper", "cases": ["v2"]},
+                "one": {"like": "locking", "cases": ["v2"]},
                 "again": {**TWICE, "like": "one"},
-                "paper": None,
+                "locking": None,
             }
         )
 
@@ -51,7 +51,7 @@ def test_a_setting_is_like_a_known_one(like: object) -> None:
 
 
 def test_a_removed_setting_takes_those_like_it_along() -> None:
-    study = changed(settings={"again": TWICE, "paper": None})
+    study = changed(settings={"again": TWICE, "locking": None})
     assert "again" not in study.settings
 
 

@@ -9,11 +9,11 @@ COSTS = [
     Cost("templates/generator", 14.0, 10.0, 300.0),
     Cost("registration_error/baseline/try_7", 9.0, 8.0, 416.0),
     Cost("volunteer1/generate_volunteer", 12.0, 11.0, 527.0),
-    Cost("volunteer1/paper/simulate_point_0", 4.0, 3.0, 270.0),
-    Cost("volunteer1/paper/simulate_point_10", 6.0, 3.0, 300.0),
-    Cost("volunteer1/paper/simulate_point_2", 5.0, 3.0, 280.0),
-    Cost("patient1/paper/simulate_point_0", 16.0, 9.0, 426.4),
-    Cost("patient1/paper/try_mechanism_SeptalLoad", 50.0, 45.0, 390.0),
+    Cost("volunteer1/locking/simulate_point_0", 4.0, 3.0, 270.0),
+    Cost("volunteer1/locking/simulate_point_10", 6.0, 3.0, 300.0),
+    Cost("volunteer1/locking/simulate_point_2", 5.0, 3.0, 280.0),
+    Cost("patient1/locking/simulate_point_0", 16.0, 9.0, 426.4),
+    Cost("patient1/locking/try_mechanism_SeptalLoad", 50.0, 45.0, 390.0),
 ]
 
 

@@ -35,7 +35,7 @@ def test_the_standard_study_hides_an_effect_beside_a_sound_twin():
 
 def test_a_sealed_case_is_calibrated_only_as_it_is_searched():
     assert STUDY.settings_of(CASES["hidden1"]) == STUDY.discovery.settings == ("physical",)
-    assert STUDY.settings_of(CASES["volunteer1"]) == ("paper", "physical")
+    assert STUDY.settings_of(CASES["volunteer1"]) == ("locking", "physical")
 
 
 def test_a_sealed_case_has_the_coarse_mesh_throughout_and_another_one_is_generated_on():

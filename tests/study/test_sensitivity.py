@@ -18,9 +18,9 @@ CONFIG = ROOT / "config" / "config.yaml"
 
 def test_all_fourteen_parameters_are_perturbed_by_one_prior_deviation():
     study = read_study([CONFIG])
-    prior = study.perturbation_setting("paper").gaussian()
+    prior = study.perturbation_setting("locking").gaussian()
     assert prior.names == PAPER_PARAMETERS
-    assert prior.physical()["K"] == pytest.approx(study.settings["paper"].prior["K"].mean)
+    assert prior.physical()["K"] == pytest.approx(study.settings["locking"].prior["K"].mean)
     assert study.perturbation_setting("physical").gaussian().physical()["K"] == pytest.approx(1e6)
     assert study.sensitivity.scaling().spread(14) == pytest.approx(study.sensitivity.step**2)
 

@@ -25,10 +25,9 @@ def steps() -> list[str]:
 
 
 @pytest.fixture
-def project(tmp_path: Path, measured_heart_folder: Path) -> Path:
-    """A copy of the project with the published heart, as fetched, and the commands of an environment."""
+def project(tmp_path: Path) -> Path:
+    """A copy of the project and the commands of an environment."""
     copy_project(tmp_path)
-    (tmp_path / "resources" / "bivme_patient1").symlink_to(measured_heart_folder.resolve())
     return tmp_path
 
 
@@ -50,7 +49,6 @@ def command(step: str) -> list[str]:
 
 
 @pytest.mark.long
-@pytest.mark.measured
 def test_every_step_of_the_page_ends_well(project: Path) -> None:
     environment = environment_of(project)
     for step in steps():

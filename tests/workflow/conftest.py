@@ -11,11 +11,15 @@ import pytest
 from tests.workflow.fork_server import ForkServer
 
 ROOT = Path(__file__).parents[2]
+HEART = Path("resources") / "measured_heart"
 PARTS = ("Snakefile", "workflow", "config", "resources", "profiles", "docs/templates")
 
 
 def copied(folder: Path, *parts: str) -> Path:
-    """Copy parts of the project into a new folder; kernels of a copied library would be compiled again."""
+    """Copy parts of the project without a measured heart, which every plan of a study would read.
+
+    Kernels of a copied library would be compiled again.
+    """
     folder.mkdir()
     for part in parts:
         source = ROOT / part
@@ -24,6 +28,7 @@ def copied(folder: Path, *parts: str) -> Path:
             shutil.copytree(source, folder / part, ignore=ignore)
         else:
             shutil.copy(source, folder / part)
+    shutil.rmtree(folder / HEART)
     return folder
 
 
@@ -50,12 +55,12 @@ class Workflow:
 
     def link_measured_heart(self, folder: Path) -> None:
         """Link the measured heart."""
-        (self.folder / "resources" / "bivme_patient1").symlink_to(folder.resolve())
+        (self.folder / HEART).symlink_to(folder.resolve())
 
     def add_spoilt_heart(self) -> None:
         """Add empty files in the places of a measured heart."""
         for name in ("control_points/frame_000.txt", "template/ETIndicesSorted.txt"):
-            file = self.folder / "resources" / "bivme_patient1" / name
+            file = self.folder / HEART / name
             file.parent.mkdir(parents=True, exist_ok=True)
             file.touch()
 
@@ -94,14 +99,21 @@ def workflow(tmp_path, server):
 
 
 @pytest.fixture(scope="module")
-def drawn(tmp_path_factory):
-    """Workflow with an own library after drawing the sigma points of one case, and these points."""
+def drawing(tmp_path_factory):
+    """Workflow with an own library after drawing the sigma points of one case, these points, and the run."""
     folder = copied(tmp_path_factory.mktemp("drawn") / "project", *PARTS, "src")
     with ForkServer(folder / "src") as server:
         workflow = Workflow(folder, server)
         points = "results/volunteer1/physical/calibration/points.json"
-        assert workflow.snakemake("--cores", "1", points).returncode == 0
-        yield workflow, points
+        run = workflow.snakemake("--cores", "1", points)
+        assert run.returncode == 0
+        yield workflow, points, run
+
+
+@pytest.fixture(scope="module")
+def drawn(drawing):
+    """The same workflow and points."""
+    return drawing[:2]
 
 
 @pytest.fixture(scope="module")

@@ -35,6 +35,19 @@ onstart:
         workflow.scheduler.job_rate_limiter = None
 
 
+def say_what_is_left_out():
+    if PLAN.left_out:
+        logger.warning(PLAN.left_out)
+
+
+onsuccess:
+    say_what_is_left_out()
+
+
+onerror:
+    say_what_is_left_out()
+
+
 STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources
 SETTINGS = list(STUDY.settings)
 COMMON_SETTINGS = list(STUDY.common_settings())

@@ -24,7 +24,6 @@ REFIT_PARAMS = {
     "pressures": filling_pressures_of,
     "scheme": refit_numerics_of,
     "most_steps": DISCOVERY.most_steps,
-    "both": DISCOVERY.both_ventricles,
     "stated": configuration_text(case_of, setting_of, refit_numerics_of, filling_pressures_of, DISCOVERY),
 }
 

@@ -1,7 +1,7 @@
 rule fetch_measured_heart:
     input:
-        manifest="resources/bivme_patient1.tsv",
-        timing="resources/bivme_patient1_timing.json",
+        manifest="resources/measured_heart/published.tsv",
+        timing="resources/measured_heart/cine/timing.json",
     output:
         timing="resources/bivme_patient1/cine/timing.json",
     resources:

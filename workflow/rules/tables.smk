@@ -17,6 +17,7 @@ rule make_tables:
         numbers="<results>/tables/numbers.csv",
     params:
         origin=ORIGIN,
+        planted_ratios=STUDY.cohort.planted_ratios,
         stated=configuration_text(ORIGIN),
     script:
         "../scripts/make_tables.py"
@@ -121,7 +122,8 @@ rule check_numbers:
         study_results(),
         stored_tables,
     output:
-        "<results>/tables/drift.csv",
+        table="<results>/tables/drift.csv",
+        line="<results>/tables/agreement.txt",
     resources:
         mem_mb=500,
         runtime=2,

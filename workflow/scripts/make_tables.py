@@ -24,7 +24,7 @@ tables = {
     "table3": patient_errors(cases, patients, groups),
     "table3_parameters": patient_parameters(cases, patients, groups, truths),
 }
-printed = printed_tables(cases, errors, parameters, groups)
+printed = printed_tables(cases, errors, parameters, groups, truths, snakemake.params.planted_ratios)
 folder = Path(snakemake.output.numbers).parent
 write_tables(folder, render_tables(tables | printed | {"plausibility": plausibility_table(cases)}))
 write_csv(Path(snakemake.output.numbers), numbers_table(tables, cases, origin))

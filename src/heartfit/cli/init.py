@@ -24,7 +24,7 @@ HEAD = """\
 results: results/{case}
 cases: config/{case}.tsv # one row: period of the beat; conduction: healthy, or lbbb with the QRS duration
 settings:
-  paper: null # removes a setting of the study
+  locking: null # removes a setting of the study
   # biventricular: that of full.yaml with `cases: [{case}]`, which fits the volume of the right ventricle, too
 sensitivity:
   case: {case}

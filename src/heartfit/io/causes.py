@@ -17,6 +17,7 @@ from heartfit.discovery.sphere_model.cause import (
     ActingPlace,
     Cause,
     Change,
+    CurveFit,
     Departure,
     Diagnosis,
     FittedModel,
@@ -24,6 +25,7 @@ from heartfit.discovery.sphere_model.cause import (
     PlaceFunction,
     Refitted,
     Trace,
+    UnnamedCandidate,
     departures,
 )
 from heartfit.discovery.sphere_model.strokes import Strokes
@@ -90,6 +92,8 @@ class CauseFile:
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
     read_twice: Mapping[str, float] = field(default_factory=dict)
+    fits: tuple[CurveFit, ...] = ()
+    candidate: UnnamedCandidate | None = None
     made_by: str = ""
 
     @classmethod

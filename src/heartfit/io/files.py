@@ -138,13 +138,16 @@ DOWNLOAD_TIMEOUT = 60
 def fetch(manifest: Path, address: str, folder: Path) -> None:
     """Download the files of a manifest from below `address`, which ends in a slash, into `folder`.
 
-    The manifest has the columns file (path in the folder), source (path below the address) and sha256. Files with the
-    right checksum are kept. Raises InputError for a download with another checksum.
+    Files with the right checksum are kept. Raises InputError for a download with another checksum.
     """
-    with manifest.open(newline="", encoding="utf-8") as lines:
-        rows = list(csv.DictReader((line for line in lines if not line.startswith("#")), delimiter="\t"))
-    for row in rows:
+    for row in read_manifest(manifest):
         _fetch_one(address + row["source"], folder / row["file"], row["sha256"])
+
+
+def read_manifest(manifest: Path) -> list[dict[str, str]]:
+    """Rows of a manifest: file (path in the folder), source (path below the address of a download) and sha256."""
+    with manifest.open(newline="", encoding="utf-8") as lines:
+        return list(csv.DictReader((line for line in lines if not line.startswith("#")), delimiter="\t"))
 
 
 def _fetch_one(address: str, path: Path, sha256: str) -> None:

@@ -151,8 +151,7 @@ def read_measured_heart(folder: Path) -> MeasuredHeart:
 def short_axis_images(folder: Path) -> Path | None:
     """Path of the short-axis cine that the surfaces were fitted to, one frame for each phase; None without it.
 
-    It is `cine/sax*`, a 4-D file or a folder for read_images, with or without a sidecar. It is not published in a form
-    that can be downloaded.
+    It is `cine/sax*`, a 4-D file or a folder for read_images, with or without a sidecar.
     """
     cines = sorted(path for path in (folder / "cine").glob("sax*") if path.suffix != ".json")
     return cines[0] if cines else None

@@ -44,8 +44,8 @@ def outline(content: Mapping[str, Any], where: str = "configuration") -> Plan:
     require_inside(Path(study.results), "results")
     listed = {case.case: case for case in read_cases(Path(study.cases))}
     require_none(_contradictions(study, listed))
-    folder = next((Path(place) for place in study.measured_heart if Path(place).is_dir()), None)
-    usual = None if folder is None else Source.model_validate({"fit": str(folder)})
+    folder = study.measured_heart
+    usual = Source.model_validate({"fit": folder}) if folder and Path(folder).is_dir() else None
     sources = {
         name: with_cine(source)
         for name, case in listed.items()
@@ -126,10 +126,8 @@ def _left_out(
 ) -> str:
     absent = [name for name in listed if name not in cases]
     if absent:
-        return (
-            f"{', '.join(absent)} left out: no measured heart in {' or '.join(study.measured_heart)}; "
-            "`snakemake --cores 1 fetch_measured_heart` brings it"
-        )
+        folder = study.measured_heart or "a folder `measured_heart`"
+        return f"{', '.join(absent)} left out: no data under `sources` nor in {folder}; state them"
     unseen = [name for name, source in sources.items() if source.images is None]
     if unseen:
         return f"registration of images left out: no images of {', '.join(unseen)}, nor a short-axis cine cine/sax*"

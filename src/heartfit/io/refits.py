@@ -27,17 +27,15 @@ def read_attempt(path: Path) -> Attempt:
     return read_record(Path(path), Attempt)
 
 
-def read_measured_case(
-    files: Mapping[str, Any], both: bool = False, reading: Reading = "mean"
-) -> MeasuredCase:
+def read_measured_case(files: Mapping[str, Any], reading: Reading = "mean") -> MeasuredCase:
     """Read a case: measured curves, noise model of its images and second reading, as far as it has them.
 
-    both: a refit fits both ventricles; reading: of a left volume that was read twice.
+    reading: of a left volume that was read twice.
     """
     models = [read_noise_model(Path(model)) for model in files.get("noise", [])]
     seconds = list(map(read_left_volume, files.get("second", [])))
     second = seconds[0] if seconds else None
-    return MeasuredCase.from_curves(read_curves(Path(files["measured"])), models, second, both, reading)
+    return MeasuredCase.from_curves(read_curves(Path(files["measured"])), models, second, reading)
 
 
 def read_left_volume(path: Path) -> Curve:
@@ -47,7 +45,7 @@ def read_left_volume(path: Path) -> Curve:
 
 def read_trial(files: Mapping[str, Any], parameters: Mapping[str, Any]) -> ExtensionTrial:
     """Trial of the refits of a case, by the inputs and parameters of a rule of the workflow."""
-    case, setting = read_measured_case(files, parameters["both"]), parameters["setting"]
+    case, setting = read_measured_case(files), parameters["setting"]
     mesh, motion = read_mesh(Path(files["mesh"])), read_motion(Path(files["registered"]))
     model = Model(mesh, parameters["case"].period, parameters["pressures"], parameters["scheme"])
     return ExtensionTrial(

@@ -32,6 +32,7 @@ MIN_SEQUENCES = 20
 """Fewest sequences from which a model may be estimated."""
 CURVE_PHASES = 25
 """Default number of equidistant phases of the volume curve in a model."""
+VOLUMES = ("lv_volume", "rv_volume")
 CURVE_OF_EXTREMUM = {VolumeFeatures.names[0]: "lv_volume", PressureFeatures.names[0]: "lv_pressure"}
 """Curve whose range scales the error of an observation, by observation; all others are rates."""
 NEGLIGIBLE_SD = 1e-9
@@ -52,13 +53,14 @@ class NoiseModel:
     """Bias and covariance of the errors of one imaging protocol.
 
     protocol: the settings of scanner and registration that the model holds for; observations: scatter of their errors
-    by name; curve: scatter of the error of the volume, one component for each phase, with shrunken correlations;
-    strain: of segments, None if it was not compared. Raises InputError for fewer than MIN_SEQUENCES sequences.
+    by name; curves: scatter of the error of each volume, one component for each phase, with shrunken correlations: that
+    of the thin right wall is another one; strain: of segments, None if it was not compared. Raises InputError for fewer
+    than MIN_SEQUENCES sequences.
     """
 
     protocol: Mapping[str, Setting]
     observations: Scatter
-    curve: Scatter
+    curves: Mapping[str, Scatter]
     strain: StrainError | None = None
 
     def __post_init__(self) -> None:
@@ -76,16 +78,25 @@ class NoiseModel:
         _require_sequences(len(pairs))
         names = tuple(pairs[0].true.observations)
         errors = np.array([observation_errors(pair, names, number) for number, pair in enumerate(pairs)])
-        curves = np.array([curve_error(pair, phases) for pair in pairs])
         labels = [f"phase {phase} of {phases}" for phase in range(phases)]
-        return cls(
-            protocol, Scatter.from_sample(names, errors), Scatter.from_sample(labels, curves, shrunk=True)
-        )
+        curves = {
+            name: Scatter.from_sample(
+                labels, np.array([curve_error(pair, phases, name) for pair in pairs]), shrunk=True
+            )
+            for name in VOLUMES
+            if name in pairs[0].true.curves
+        }
+        return cls(protocol, Scatter.from_sample(names, errors), curves)
 
     @property
     def sequences(self) -> int:
         """Number of sequences from which the model was estimated."""
         return self.observations.count
+
+    @property
+    def phases(self) -> int:
+        """Number of equidistant phases of the volumes."""
+        return len(self.curves["lv_volume"].names)
 
     def mean_unsigned_error(self, name: str) -> float:
         r"""Mean of the unsigned error of an observation, which is normal with the bias m and the deviation s.
@@ -131,29 +142,29 @@ class NoiseModel:
         ends = np.sort([_true_values(measured, bias - reach), _true_values(measured, bias + reach)], axis=0)
         return dict(zip(measured.observations, map(tuple, ends.T.tolist()), strict=True))
 
-    def corrected_curve(self, volume: Curve) -> Curve:
-        """Return a measured LV volume [m^3] at the phases of the model, without the bias."""
+    def corrected_curve(self, volume: Curve, name: str = "lv_volume") -> Curve:
+        """Return the named measured volume [m^3] at the phases of the model, without the bias."""
         frames, stroke = self._at_phases(volume)
-        return Curve(frames.times, frames.values - stroke * self.curve.mean, frames.period)
+        return Curve(frames.times, frames.values - stroke * self.curves[name].mean, frames.period)
 
-    def curve_covariance(self, volume: Curve) -> Floats:
+    def curve_covariance(self, volume: Curve, name: str = "lv_volume") -> Floats:
         """Covariance (k, k) [m^6] of the true volume about the corrected one, over the phases of the model.
 
         A row is zero in a phase without error, such as the first, where registration starts from the mesh.
         """
-        covariance: Floats = self._at_phases(volume)[1] ** 2 * self.curve.predictive
+        covariance: Floats = self._at_phases(volume)[1] ** 2 * self.curves[name].predictive
         return covariance
 
-    def curve_interval(self, volume: Curve, level: float = 0.95) -> tuple[Floats, Floats]:
+    def curve_interval(
+        self, volume: Curve, level: float = 0.95, name: str = "lv_volume"
+    ) -> tuple[Floats, Floats]:
         """Interval (low, high) (k,) [m^3] of the true volume at probability ``level`` in each phase of the model."""
-        middle, reach = (
-            self.corrected_curve(volume).values,
-            self._at_phases(volume)[1] * self.curve.half_width(level),
-        )
+        middle = self.corrected_curve(volume, name).values
+        reach = self._at_phases(volume)[1] * self.curves[name].half_width(level)
         return middle - reach, middle + reach
 
     def _at_phases(self, volume: Curve) -> tuple[Curve, float]:
-        frames = volume.resampled(len(self.curve.names))
+        frames = volume.resampled(self.phases)
         return frames, float(np.ptp(frames.values))
 
     def _places(self, observed: Mapping[str, float]) -> Integers:
@@ -217,9 +228,9 @@ def _range(measured: Reading, name: str) -> float:
     return float(np.ptp(measured.curves[CURVE_OF_EXTREMUM[name]].values))
 
 
-def curve_error(pair: Pair, phases: int) -> Floats:
-    """(V_measured - V_true) / SV_measured (k,) of the LV volume of one pair, at equidistant phases."""
-    true, measured = (reading.curves["lv_volume"].resampled(phases) for reading in (pair.true, pair.measured))
+def curve_error(pair: Pair, phases: int, name: str = "lv_volume") -> Floats:
+    """(V_measured - V_true) / SV_measured (k,) of the named volume of one pair, at equidistant phases."""
+    true, measured = (reading.curves[name].resampled(phases) for reading in (pair.true, pair.measured))
     error: Floats = (measured.values - true.values) / np.ptp(measured.values)
     return error
 
@@ -248,9 +259,9 @@ class Share:
 
 
 def coverage(model: NoiseModel, pairs: Sequence[Pair], level: float = 0.95) -> dict[str, Share]:
-    """Share of independent pairs whose truth lies in the interval of the model, by observation and for "lv_volume".
+    """Share of independent pairs whose truth lies in the interval of the model, by observation and volume.
 
-    The share of "lv_volume" is the mean over the phases. The errors of the phases of one sequence are correlated, so
+    The share of a volume is the mean over the phases. The errors of the phases of one sequence are correlated, so
     its confidence interval counts a sequence, not a phase, as one trial, which makes it conservative.
     """
     return _shares([_covered(model, pair, level) for pair in pairs])
@@ -272,14 +283,16 @@ def _shares(covered: Sequence[Mapping[str, float]]) -> dict[str, Share]:
 
 
 def _covered(model: NoiseModel, pair: Pair, level: float) -> dict[str, float]:
-    """Coverage of one pair: 1 or 0 for each observation, the share of the phases for the volume."""
+    """Coverage of one pair: 1 or 0 for each observation, the share of the phases for each volume."""
     true = pair.true.observations
     intervals = model.interval(pair.measured, level)
     covered = {name: float(low <= true[name] <= high) for name, (low, high) in intervals.items()}
-    return covered | {"lv_volume": float(np.mean(_phases_covered(model, pair, level)))}
+    return covered | {
+        name: float(np.mean(_phases_covered(model, pair, level, name))) for name in model.curves
+    }
 
 
-def _phases_covered(model: NoiseModel, pair: Pair, level: float) -> Floats:
-    low, high = model.curve_interval(pair.measured.curves["lv_volume"], level)
-    true = pair.true.curves["lv_volume"].resampled(len(low)).values
-    return ((low <= true) & (true <= high))[model.curve.sd > NEGLIGIBLE_SD].astype(float)
+def _phases_covered(model: NoiseModel, pair: Pair, level: float, name: str) -> Floats:
+    low, high = model.curve_interval(pair.measured.curves[name], level, name)
+    true = pair.true.curves[name].resampled(len(low)).values
+    return ((low <= true) & (true <= high))[model.curves[name].sd > NEGLIGIBLE_SD].astype(float)

@@ -136,8 +136,7 @@ def residuals(
 ) -> list[Residual]:
     """Residual of each measured curve against the beats, time zero at the trigger; failed beats are left out.
 
-    models: the noise model of the images, or empty. It was estimated from left ventricles; the error of the right
-    volume is assumed to be as large relative to its own stroke volume.
+    models: the noise model of the images, or empty.
     """
     beats = {label: curves for label, curves in simulated.items() if curves}
     results = []
@@ -153,7 +152,7 @@ def unbiased_with_noise(name: str, curve: Curve, models: Sequence[NoiseModel]) -
     """Return the curve without bias and the standard deviation (k,) [SI] of its residual under a correct simulation."""
     kind = name.rsplit("_", 1)[1]
     for model in models if kind == "volume" else ():
-        frames, variance = model.corrected_curve(curve), np.diag(model.curve_covariance(curve))
+        frames, variance = model.corrected_curve(curve, name), np.diag(model.curve_covariance(curve, name))
         return frames, np.sqrt(variance + SIMULATION_ROUGHNESS[kind] ** 2)
     return curve, np.full(curve.times.size, np.hypot(frame_noise(curve), SIMULATION_ROUGHNESS[kind]))
 

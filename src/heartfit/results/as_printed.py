@@ -1,5 +1,7 @@
 """Tables 1 and 2 in the layout of the paper: a column for each heart, the paper's rows above ours.
 
+Between them stand the parameters that were planted in the virtual volunteers, which an estimate can at best recover.
+
 Cells are text, rounded as in the paper: two decimals, one less for the mean of a parameter. A parameter below 1 of the
 paper's unit has three digits instead, since two decimals would leave none of them. A mark says that a long step of the
 heart led to the error, or of the parameter to the estimate.
@@ -11,9 +13,9 @@ from math import floor, isfinite, log10
 import numpy as np
 import pandas as pd
 
+from heartfit.results.card import comparable_truth
 from heartfit.results.case import CaseResult, Groups, require_one_fingerprint
 from heartfit.results.errors import PAPER
-from heartfit.results.parameters import healthy_mean
 from heartfit.results.text import LONG_STEP_MARK, ROW_HEADINGS
 
 MEAN = "Mean"
@@ -24,16 +26,25 @@ PAPER_UNITS = {"Pa": ("MPa", 1e6), "Pa.s": ("MPa.s", 1e6), "Pa.s/m^3": ("MPa.s/m
 STANDS_IN_FOR = {"c_1": "K"}
 """Parameter that is estimated in place of one of the paper's, and has its row."""
 
+PLANTED, PLANTED_RATIOS = "planted", "planted: the ratios of Table 2"
+"""Settings of the rows of true parameters, where the hidden hearts were drawn or have the paper's ratios."""
+
 Row = dict[str, str]
+Truths = Mapping[str, Mapping[str, float]]
 
 
 def printed_tables(
-    cases: Sequence[CaseResult], errors: pd.DataFrame, parameters: pd.DataFrame, groups: Groups
+    cases: Sequence[CaseResult],
+    errors: pd.DataFrame,
+    parameters: pd.DataFrame,
+    groups: Groups,
+    truths: Truths,
+    planted_ratios: bool,
 ) -> dict[str, pd.DataFrame]:
     """Return both tables by name, beside the paper's ``errors`` and ``parameters``."""
     return {
         "table1_as_printed": printed_errors(cases, errors, groups),
-        "table2_as_printed": printed_parameters(cases, parameters, groups),
+        "table2_as_printed": printed_parameters(cases, parameters, groups, truths, planted_ratios),
     }
 
 
@@ -57,31 +68,64 @@ def printed_errors(cases: Sequence[CaseResult], paper: pd.DataFrame, groups: Gro
     return _in_columns(rows, groups)
 
 
-def printed_parameters(cases: Sequence[CaseResult], paper: pd.DataFrame, groups: Groups) -> pd.DataFrame:
-    """Return Table 2 as printed, then the estimates of our healthy hearts in its units, one block a setting.
+def printed_parameters(
+    cases: Sequence[CaseResult],
+    paper: pd.DataFrame,
+    groups: Groups,
+    truths: Truths | None = None,
+    planted_ratios: bool = True,
+) -> pd.DataFrame:
+    """Return Table 2 as printed, what was planted, and the estimates of our healthy hearts, one block a setting.
 
-    Columns as in :func:`printed_errors`; rows in the paper's order, c_1 in the place of K where it is estimated
-    instead. paper: parameter, unit, 1..7, mean. Raises FingerprintMismatchError for rows of different code.
+    Columns as in :func:`printed_errors`, units of the paper; rows in its order, c_1 in the place of K where it is
+    estimated instead. paper: parameter, unit, 1..7, mean; truths: parameters of the virtual volunteers, by case, SI;
+    planted_ratios: they have the ratios of the paper. Raises FingerprintMismatchError for rows of different code.
     """
     require_one_fingerprint(cases)
     order = paper["parameter"].tolist()
     headings = [f"{row['parameter']} ({row['unit']})" for row in paper.to_dict("records")]
     rows = [_paper_row(name, row) for name, row in zip(headings, paper.to_dict("records"), strict=True)]
+    units = {name: unit for case in cases for name, unit in case.units.items()}
+    known = [name for name in units if _place(name, order) < len(order)]
+    planted = _planted(groups, truths or {}, known)
+    rows += _block(PLANTED_RATIOS if planted_ratios else PLANTED, planted, units, {}, order, groups)
     for setting, healthy in _by_setting(cases, groups):
-        means = healthy_mean(healthy, groups)
-        names = dict.fromkeys(name for case in healthy for name in case.estimate)
-        for name in sorted(names, key=lambda name: _place(name, order)):
-            estimated = [case for case in healthy if name in case.estimate]
-            unit, scale = PAPER_UNITS.get(estimated[0].units[name], (estimated[0].units[name], 1.0))
-            typical = means.get(name, estimated[0].estimate[name]) / scale
-            digits = _digits(typical)
-            cells = {
-                case.case: _marked(_decimals(case.estimate[name] / scale, digits), name in case.long_steps())
-                for case in estimated
-            }
-            mean = _decimals(means[name] / scale, digits - 1) if name in means else ""
-            rows.append(_our_row(setting, f"{name} ({unit})", cells, mean, groups))
+        estimates = {case.case: case.estimate for case in healthy}
+        long = {case.case: case.long_steps() for case in healthy}
+        rows += _block(setting, estimates, units, long, order, groups)
     return _in_columns(rows, groups)
+
+
+def _planted(groups: Groups, truths: Truths, names: Sequence[str]) -> dict[str, dict[str, float]]:
+    """Return the true values of the named parameters of each virtual volunteer, where they can be compared."""
+    return {
+        case: {name: value for name, value in comparable_truth(truths[case]).items() if name in names}
+        for case in groups.volunteers
+        if case in truths
+    }
+
+
+def _block(
+    setting: str,
+    values: Truths,
+    units: Mapping[str, str],
+    long: Mapping[str, Mapping[str, float]],
+    order: Sequence[str],
+    groups: Groups,
+) -> Iterator[Row]:
+    """Yield a row for each parameter of the hearts' values [SI], the long steps among them marked."""
+    names = dict.fromkeys(name for of_heart in values.values() for name in of_heart)
+    for name in sorted(names, key=lambda name: _place(name, order)):
+        hearts = {case: of_heart[name] for case, of_heart in values.items() if name in of_heart}
+        unit, scale = PAPER_UNITS.get(units[name], (units[name], 1.0))
+        of_volunteers = [value for case, value in hearts.items() if case in groups.volunteers]
+        digits = _digits(float(np.mean(of_volunteers or list(hearts.values())[:1])) / scale)
+        cells = {
+            case: _marked(_decimals(value / scale, digits), name in long.get(case, {}))
+            for case, value in hearts.items()
+        }
+        mean = _decimals(float(np.mean(of_volunteers)) / scale, digits - 1) if of_volunteers else ""
+        yield _our_row(setting, f"{name} ({unit})", cells, mean, groups)
 
 
 def _by_setting(cases: Sequence[CaseResult], groups: Groups) -> Iterator[tuple[str, Sequence[CaseResult]]]:

@@ -8,10 +8,12 @@ import numpy as np
 from heartfit.discovery.sphere_model.cause import (
     Cause,
     Change,
+    CurveFit,
     Departure,
     Diagnosis,
     Gain,
     Refitted,
+    UnnamedCandidate,
     departures,
 )
 from heartfit.discovery.sphere_model.strokes import Strokes
@@ -52,8 +54,9 @@ def _unknown(diagnosis: Diagnosis) -> str:
 
 
 def _explained_recording(diagnosis: Diagnosis) -> str:
-    """Return "the recording", less the curves that depart and were not searched."""
+    """Return "the recording", less the curves that depart, were not searched and are not explained by a refit."""
     departing = {departure.curve for departure in departures(diagnosis) if departure.clear}
+    departing -= {fit.curve for fit in diagnosis.fits if fit.within_noise}
     excepted = " and ".join(CURVES[name] for name in sorted(departing & set(diagnosis.unsearched)))
     return f"the recording except the {excepted}, which was not searched" if excepted else "the recording"
 
@@ -70,6 +73,28 @@ def spaced_name(name: str) -> str:
     return re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower()
 
 
+def candidate_sentence(candidate: UnnamedCandidate) -> str:
+    """Return the leading explanation with its sizes, and by which rule it is not named."""
+    causes, beside = "; ".join(map(mechanism_with_size, candidate.causes)), candidate.beside_process
+    subject = "the pair" if len(candidate.causes) == 2 else "the mechanism"
+    side = "above" if beside.over >= 0.0 else "below"
+    rules = {
+        f"The ln Bayes factor of {subject}, {beside.gain:.1f}, must exceed that of a Gaussian process, "
+        f"{beside.gain - beside.over:.1f}, by {beside.required:g}; it is {abs(beside.over):.1f} {side}.": (
+            beside.over < beside.required
+        ),
+        f"A Gaussian process beside {subject} gains {beside.left:.1f} more in ln evidence; "
+        f"at most {beside.allowed:.1f} may be left.": beside.left > beside.allowed,
+    }
+    return " ".join([f"Candidate, not named: {causes}.", *(rule for rule, broken in rules.items() if broken)])
+
+
+def candidate_names(diagnosis: Diagnosis) -> str:
+    """Return the mechanisms of the candidate, joined by "and"; empty without one."""
+    causes = diagnosis.candidate.causes if diagnosis.candidate else ()
+    return " and ".join(spaced_name(cause.name) for cause in causes)
+
+
 def _mechanism_names(diagnosis: Diagnosis) -> str:
     return ", ".join(spaced_name(cause.name) for cause in diagnosis.mechanisms)
 
@@ -81,8 +106,10 @@ def markdown_card(diagnosis: Diagnosis, title: str) -> str:
     parts = [
         f"# {title}\n\n**{verdict_sentence(diagnosis)}**",
         *objection_sentences(diagnosis),
+        *([candidate_sentence(diagnosis.candidate)] if diagnosis.candidate else []),
         *([_warnings(diagnosis.warnings)] if diagnosis.warnings else []),
         "## Misfit of the simulation\n\n" + "\n".join(misfits),
+        *([f"## Fit in three dimensions\n\n{fits_text(diagnosis.fits)}"] if diagnosis.fits else []),
         *([structure_text(diagnosis)] if diagnosis.structural_scale else []),
         *([f"## Strokes of both ventricles\n\n{strokes_sentence(diagnosis.strokes)}"] if diagnosis.strokes else []),
         *([acting_section(diagnosis.acting)] if diagnosis.acting else []),
@@ -212,6 +239,16 @@ def reading_sentences(diagnosis: Diagnosis) -> list[str]:
     ]
 
 
+def fits_text(fits: Iterable[CurveFit]) -> str:
+    """Return one line per curve: whether the refit without a mechanism explains it to within its noise."""
+    return "\n".join(
+        f"- {CURVES.get(fit.curve, fit.curve)}: the refitted ventricles without a mechanism "
+        f"{'explain it to within its noise' if fit.within_noise else 'miss it by more than its noise'} (chi-squared "
+        f"{fit.chi_squared:.1f} of {fit.freedom:.1f} degrees of freedom, p = {fit.p:.2g})."
+        for fit in fits
+    )
+
+
 def next_measurement_text(diagnosis: Diagnosis) -> str:
     """Return the measurement that would decide between the alternatives, if one is needed."""
     if diagnosis.acting:
@@ -235,6 +272,8 @@ def alternatives_text(diagnosis: Diagnosis) -> str:
             f"Withdrawn: {names}. The fit to the searched data improves, "
             f"but the held-out error does not{elsewhere}."
         )
+    if diagnosis.candidate:
+        return "None in the library: the candidate leads, but is not named."
     if diagnosis.verdict == "unknown":
         best = next(name for name in diagnosis.ranking if name != "unknown")
         return (
@@ -273,10 +312,12 @@ def gain_subject(diagnosis: Diagnosis) -> str:
     """Return "the named mechanism", or the extension that was refitted although none is named."""
     if diagnosis.acting:
         return "a free function at the best place"
+    if diagnosis.candidate and not diagnosis.refitted:
+        return "the candidate, which is not named"
     if diagnosis.mechanisms or not diagnosis.refitted:
         return "the named mechanism"
     refitted = " and ".join(spaced_name(cause.name) for cause in diagnosis.refitted.extension)
-    return f"{refitted} (refitted, not named)"
+    return f"{refitted} ({'candidate' if diagnosis.candidate else 'refitted'}, not named)"
 
 
 def gains_text(gains: Iterable[Gain]) -> str:

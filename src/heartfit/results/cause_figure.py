@@ -12,6 +12,7 @@ from heartfit.observation.beat import BeatPhases
 from heartfit.results.acting_figure import plot_functions
 from heartfit.results.cause_card import (
     CURVES,
+    candidate_names,
     departure_sentences,
     direction_and_phase,
     markdown_card,
@@ -53,7 +54,9 @@ def plot_cause(diagnosis: Diagnosis) -> Figure:
     panels[0, 0].legend(frameon=False, fontsize=8)
     panels[0, 1].legend(frameon=False, fontsize=8, loc="lower right")
     _ranking(right.subplots(), diagnosis)
-    figure.suptitle(verdict_sentence(diagnosis), fontsize=11, fontweight="bold", wrap=True)
+    title = [verdict_sentence(diagnosis)]
+    title += [f"Candidate, not named: {candidate_names(diagnosis)}."] if diagnosis.candidate else []
+    figure.suptitle("\n".join(title), fontsize=11, fontweight="bold", wrap=True)
     return figure
 
 
@@ -63,13 +66,23 @@ def _curves(axes: Axes, trace: Trace, diagnosis: Diagnosis) -> None:
     order, times = _in_one_beat(trace.times, diagnosis.period)
     axes.plot(times, factor * trace.measured[order], "o", color=MEASURED, markersize=2.8, label="measured")
     axes.plot(times, factor * trace.none[order], "--", color=ARTERY, linewidth=1.4, label="simulated")
-    if diagnosis.mechanisms or diagnosis.acting:
+    label = _extension(diagnosis)
+    if label:
         extended = factor * trace.extended[order]
-        label = "with the mechanism" if diagnosis.mechanisms else "with the free function"
         axes.plot(times, extended, color=CALIBRATED, linewidth=1.4, label=label)
     axes.set_ylabel(f"{CURVES.get(trace.curve, trace.curve)}\n({unit})", fontsize=9)
     _phases(axes, diagnosis.phases)
     clean(axes)
+
+
+def _extension(diagnosis: Diagnosis) -> str:
+    """Return what the extended simulation has, as label; empty where none is shown."""
+    labels = {
+        "with the mechanism": diagnosis.mechanisms,
+        "with the free function": diagnosis.acting,
+        "with the candidate, not named": diagnosis.candidate,
+    }
+    return next((label for label, shown in labels.items() if shown), "")
 
 
 def _residuals(axes: Axes, trace: Trace, diagnosis: Diagnosis, departure: Departure) -> None:
@@ -90,7 +103,7 @@ def _residuals(axes: Axes, trace: Trace, diagnosis: Diagnosis, departure: Depart
     axes.plot(
         times, -trace.lacking[order] / noise, color=MEASURED, linewidth=1.4, label="discrepancy, 95 % band"
     )
-    if diagnosis.mechanisms or diagnosis.acting:
+    if _extension(diagnosis):
         explained = (trace.extended - trace.measured)[order] / noise
         axes.plot(times, explained, mark, color=CALIBRATED, markersize=3)
     reach = 1.25 * max(2.0 * CLEAR_DEVIATIONS, *np.abs([*misfit, *lacking]))

@@ -122,7 +122,7 @@ REGISTERED, SURFACE = CALIBRATED, "#56B4E9"
 CAVITIES = {"lv_endo": ("-", "full", "left"), "rv_endo": ("--", "none", "right")}
 MARGIN = 12
 WHITE_PERCENTILE = 99.5
-"""Margin around the outlines [pixels], and percentile of the brightness that is white."""
+"""Margin around the outlines [pixels], and percentile of the brightness in this box that is white."""
 
 LINES: dict[str, dict[str, Any]] = {
     "surface": {"color": MEASURED, "marker": "o", "markersize": 3.5, "linestyle": "none"},
@@ -192,9 +192,12 @@ def _bounding_box(images: ImageSequence, outlines: Sequence[Outline]) -> tuple[F
 
 
 def _image(axes: Axes, images: ImageSequence, k: int, frame: int, box: tuple[Floats, Floats]) -> None:
-    white = np.percentile(images.voxels[:, k], WHITE_PERCENTILE)
-    axes.imshow(images.voxels[frame, k], cmap="gray", vmin=0.0, vmax=white)
     (left, top), (right, bottom) = box
+    first, last = np.maximum(np.rint(box[0]).astype(int), 0), np.rint(box[1]).astype(int) + 1
+    shown = images.voxels[:, k, first[1] : last[1], first[0] : last[0]]
+    axes.imshow(
+        images.voxels[frame, k], cmap="gray", vmin=0.0, vmax=float(np.percentile(shown, WHITE_PERCENTILE))
+    )
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
     axes.set_xticks([])

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from heartfit.discovery.sphere_model.cause import Cause, Departure, Diagnosis, Gain, departures
-from heartfit.results.cause_card import CURVES, direction_and_phase, spaced_name
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Departure, Diagnosis, Gain, departures
+from heartfit.results.cause_card import CURVES, candidate_names, direction_and_phase, spaced_name
 from heartfit.results.errors import root_mean_square
 from heartfit.results.text import (
     AMPLITUDE_UNITS,
@@ -88,7 +88,9 @@ def printed_findings(results: Sequence[DiscoveryResult]) -> pd.DataFrame:
 NOTE = (
     "Wrong by: largest departure of the refitted simulation without an added mechanism, in standard deviations of the "
     "noise. The search on the sphere and the refits use one half of the samples; the error ratio, with the mechanism "
-    "over without it, is that of the other half and of curves to which nothing was fitted. The size from all samples "
+    "over without it, is that of the other half and of the strain, to which nothing was fitted. Chi-squared of the "
+    "refits: of all samples of a curve, of its degrees of freedom, with the probability p that a correct model is "
+    "further off. The size from all samples "
     "is one linear step from the refit, once the other half has judged. K has no true value. Refits are coarse where "
     "the configuration has `discovery.coarse`."
 )
@@ -99,6 +101,7 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
     if result.hidden is not None:
         yield Entry("hidden", "; ".join(map(_hidden_effect, result.hidden)) or "nothing")
     yield from map(_departure, departures(proved))
+    yield from (_fit(fit, "without a mechanism") for fit in proved.fits)
     yield Entry("said by the search", _verdict(searched))
     yield _factor_of_the_search(searched)
     yield _number("its threshold", searched.threshold)
@@ -109,6 +112,7 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
         yield from _hidden_sizes(proved.refitted.extension, result.hidden or ())
         yield _number("ln Bayes factor of the refits", proved.refitted.ln_bayes_factor)
         yield Entry("both refits converged", "yes" if proved.refitted.converged else "no")
+        yield from (_fit(fit, "with the mechanism") for fit in proved.refitted.fits)
     yield from map(_gain, proved.gain)
     yield from _parameters(result)
     yield Entry("simulated beats", str(proved.simulations), proved.simulations)
@@ -146,7 +150,10 @@ def _amplitude(value: float, unit: str) -> str:
 def _verdict(diagnosis: Diagnosis) -> str:
     names = " and ".join(spaced_name(cause.name) for cause in diagnosis.mechanisms)
     withdrawn = ", ".join(map(spaced_name, diagnosis.withdrawn))
-    return f"{diagnosis.verdict}{f': {names}' if names else ''}{f' (withdrawn: {withdrawn})' if withdrawn else ''}"
+    remarks = [f"withdrawn: {withdrawn}"] if withdrawn else []
+    remarks += [f"candidate, not named: {candidate_names(diagnosis)}"] if diagnosis.candidate else []
+    remark = f" ({'; '.join(remarks)})" if remarks else ""
+    return f"{diagnosis.verdict}{f': {names}' if names else ''}{remark}"
 
 
 def _departure(departure: Departure) -> Entry:
@@ -156,6 +163,13 @@ def _departure(departure: Departure) -> Entry:
         f"{1e3 * departure.time:.0f} ms: {abs(departure.deviations):.1f} sd"
     )
     return Entry(f"wrong by: {CURVES.get(departure.curve, departure.curve)}", text, departure.deviations)
+
+
+def _fit(fit: CurveFit, model: str) -> Entry:
+    """Return the chi-squared of a curve; its value is the probability of a larger one, which a correct model meets."""
+    curve = CURVES.get(fit.curve, fit.curve)
+    text = f"{fit.chi_squared:.1f} of {fit.freedom:.1f}, p = {fit.p:.2g}"
+    return Entry(f"chi-squared: {curve}, {model}", text, fit.p)
 
 
 def _size(name: str, unit: str) -> tuple[str, float]:

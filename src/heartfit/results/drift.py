@@ -16,24 +16,15 @@ from math import inf
 
 import pandas as pd
 
-from heartfit.core.errors import InputError
-
 RELATIVE = 1e-3
 """Share by which a number may move on another processor."""
 MARGIN = 3.0
 """Allowance for a third processor, in moves of the cell on a second one."""
 NUMBER = re.compile(r"(?<![\w.])[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
-LISTED = 20
-"""Most cells that a message lists."""
-
 Tables = Mapping[str, pd.DataFrame]
 """Tables of a study by name, every cell as text."""
 Cell = tuple[str, int, str]
 """Table, number of the row, column."""
-
-
-class DriftError(InputError):
-    """Tables of a study that differ from the stored ones."""
 
 
 @dataclass(frozen=True)
@@ -106,14 +97,26 @@ class Drift:
     cells: int
     same_machine: bool
 
-    def require_none(self, advice: str) -> None:
-        """Raise DriftError with the number of drifted cells, the first ones, and advice."""
-        if self.drifted:
-            lines = [f"  {move}" for move in self.drifted[:LISTED]]
-            more = len(self.drifted) - len(lines)
-            further = [f"  and {more} more"] if more else []
-            head = f"{len(self.drifted)} of {self.cells} cells drifted:"
-            raise DriftError("\n".join([head, *lines, *further, advice]))
+    def line(self, listed_in: str, left_out: str = "") -> str:
+        """Return in one line whether the tables agree with the stored ones; listed_in: file that lists the cells."""
+        if left_out:
+            return f"The tables are not compared with the stored ones: {left_out}"
+        if not self.moves:
+            return f"The tables agree with the stored ones: each of {self.cells} cells is the same."
+        if not self.drifted:
+            return (
+                f"The tables agree with the stored ones: {len(self.moves)} of {self.cells} cells moved, none by more "
+                "than processors differ."
+            )
+        here = (
+            "the processor and software of the stored ones"
+            if self.same_machine
+            else "another processor or software"
+        )
+        return (
+            f"{len(self.drifted)} of {self.cells} cells lie outside the stored tables, on {here}: {listed_in} lists "
+            "them; docs/what_the_numbers_mean.md#drift says what that means."
+        )
 
     def table(self) -> pd.DataFrame:
         """Return one row for each cell that differs: its place, both texts, change, and whether it drifted."""
@@ -125,22 +128,9 @@ class Drift:
         return pd.DataFrame(rows, columns=columns)
 
 
-ADVICE = (
-    "find the change that caused the drift; if the new tables are right, store them: "
-    "`heartfit drift {tables} {reference} --renew`, see docs/what_the_numbers_mean.md"
-)
-
-
-def drift_table(drift: Drift, places: Mapping[str, str], left_out: str = "") -> pd.DataFrame:
-    """Return the table of a drift; raises DriftError where a cell drifted.
-
-    places: folders of the tables and of the reference; left_out: why cases of the study are missing. Its tables are
-    then not those of the whole study, and the one row says that they were not compared.
-    """
-    if left_out:
-        return pd.DataFrame({"not compared": [left_out]})
-    drift.require_none(ADVICE.format(**places))
-    return drift.table()
+def drift_table(drift: Drift, left_out: str = "") -> pd.DataFrame:
+    """Return the table of a drift; where cases are left out, one row with the reason: other tables are no drift."""
+    return pd.DataFrame({"not compared": [left_out]}) if left_out else drift.table()
 
 
 def find_moves(stored: Tables, tables: Tables) -> list[Move]:

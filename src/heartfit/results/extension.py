@@ -1,4 +1,4 @@
-"""A measured heart without and with the mechanisms that were named: errors on unseen samples and filling indices."""
+"""A measured heart without and with the mechanisms that lead: errors on held-out samples and filling indices."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -14,7 +14,7 @@ from heartfit.discovery.refit.target import fitted_mask
 from heartfit.discovery.sphere_model.cause import Diagnosis, Gain, Trace
 from heartfit.observation.curve import Curve
 from heartfit.observation.filling import volume_indices
-from heartfit.results.cause_card import spaced_name
+from heartfit.results.cause_card import candidate_names, spaced_name
 from heartfit.results.figures import CALIBRATED, MEASURED, REFERENCE, clean
 
 MILLILITRE, MILLISECOND, PERCENT = 1e-6, 1e-3, 1e-2
@@ -33,7 +33,7 @@ COLUMNS = ("measured", "without", "with")
 
 
 def extension_table(diagnosis: Diagnosis, readings: Sequence[Curve] = ()) -> pd.DataFrame:
-    """Return one row per quantity: measured, and of the refitted heart without and with the named mechanisms.
+    """Return one row per quantity: measured, and of the refitted heart without and with the mechanisms.
 
     Errors are root mean squares over the samples that neither search nor refit used, of the left volume also against
     each of its ``readings`` alone if there are two. Filling indices are read from the frames of the volume, as they are
@@ -110,7 +110,7 @@ def _trace(diagnosis: Diagnosis, name: str) -> Trace:
 
 
 def plot_extension(diagnosis: Diagnosis, title: str) -> Figure:
-    """Plot volume, flow and error of each ventricle, measured, without and with the named mechanisms.
+    """Plot volume, flow and error of each ventricle, measured, without and with the mechanisms.
 
     Filled circles are frames that search and refit used, open ones frames that they did not; the band is the noise.
     """
@@ -124,10 +124,11 @@ def plot_extension(diagnosis: Diagnosis, title: str) -> Figure:
     rows[0, 0].legend(frameon=False, fontsize=8)
     for panel in rows[-1]:
         panel.set_xlabel("time after the trigger (ms)")
-    named = (
-        " and ".join(spaced_name(cause.name) for cause in diagnosis.mechanisms) or "the best of the ranking"
+    named = " and ".join(spaced_name(cause.name) for cause in diagnosis.mechanisms)
+    candidate = f"{candidate_names(diagnosis)} (candidate, not named)" if diagnosis.candidate else ""
+    figure.suptitle(
+        f"{title}: the heart without and with {named or candidate or 'the best of the ranking'}", fontsize=11
     )
-    figure.suptitle(f"{title}: the heart without and with {named}", fontsize=11)
     return figure
 
 
@@ -147,7 +148,7 @@ def _volume_panel(axes: Axes, trace: Trace) -> None:
         color=MEASURED,
         markersize=4,
         markerfacecolor="white",
-        label="unseen",
+        label="not fitted",
     )
     axes.set_ylabel(f"{SIDES[trace.curve]}, volume (mL)")
     clean(axes)

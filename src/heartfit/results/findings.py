@@ -21,6 +21,9 @@ from heartfit.study.need import Cost
 
 SLOPES = ("q_max", "q_min")
 VIRTUAL_HEARTS = "virtual hearts of known truth; the paper's are people"
+PLANTED_PATIENTS = (
+    "planted: the virtual patients were given ratios near the paper's, which an estimate can only recover"
+)
 BEAT_FAILED = "the calibrated beat failed"
 
 
@@ -76,12 +79,18 @@ Source = Callable[[StudyResults], Iterator[Finding]]
 
 
 def over_hearts(
-    kinds: str, measure: Measure, estimated: str = "", only: str = "", with_steps: bool = False
+    kinds: str,
+    measure: Measure,
+    estimated: str = "",
+    only: str = "",
+    with_steps: bool = False,
+    planted: str = "",
 ) -> Source:
     """Return the source of a measure of cases, per setting and group of hearts.
 
     kinds as in :meth:`StudyResults.hearts`; estimated: parameter that the cases must have; only: the one heart of the
-    claim; with_steps: name the long steps of the cases, for a measure that rests on their estimates.
+    claim; with_steps: name the long steps of the cases, for a measure that rests on their estimates; planted: reason
+    why virtual hearts decide nothing, if there is one.
     """
 
     def find(results: StudyResults) -> Iterator[Finding]:
@@ -91,7 +100,9 @@ def over_hearts(
                 group = [case for case in results.under(setting) if case.case in wanted]
                 if group and all(not estimated or estimated in case.estimate for case in group):
                     value = measure(group)
-                    reason = "" if isfinite(value) else BEAT_FAILED
+                    virtual = results.groups.virtual
+                    reason = planted if all(name in virtual for name in wanted) else ""
+                    reason = reason if isfinite(value) else BEAT_FAILED
                     yield Finding(
                         setting, only or hearts, value, reason, _long_steps(group) if with_steps else ""
                     )
@@ -124,17 +135,22 @@ def errors_of(summary: Callable[[Sequence[float]], float], *observations: str) -
 
 
 def estimates_of(
-    name: str, summary: Callable[[Sequence[float]], float], kinds: str = "healthy", only: str = ""
+    name: str,
+    summary: Callable[[Sequence[float]], float],
+    kinds: str = "healthy",
+    only: str = "",
+    planted: str = "",
 ) -> Source:
-    """Return the source of a summary of one parameter's estimates, SI."""
+    """Return the source of a summary of one parameter's estimates, SI; ``planted`` as in :func:`over_hearts`."""
     return over_hearts(
-        kinds, lambda cases: summary([case.estimate[name] for case in cases]), name, only, with_steps=True
+        kinds, lambda cases: summary([case.estimate[name] for case in cases]), name, only, True, planted
     )
 
 
 def over_healthy_mean(names: Sequence[str], only: str = "") -> Source:
     """Return the source of the largest estimate of the patients over the mean of the virtual volunteers.
 
+    Virtual patients decide nothing: their ratios were planted.
     names: the parameter, or those that may stand for it, of which the first that all these hearts estimate counts.
     """
 
@@ -143,14 +159,15 @@ def over_healthy_mean(names: Sequence[str], only: str = "") -> Source:
             mean = healthy_mean(results.under(setting), results.groups)
             name = next((name for name in names if name in mean), None)
             if name:
-                largest = estimates_of(name, max, "patients", only)
+                largest = estimates_of(name, max, "patients", only, PLANTED_PATIENTS)
                 of_setting = (finding for finding in largest(results) if finding.setting == setting)
                 yield from (
                     Finding(
                         setting,
                         f"{finding.hearts}, {name}",
                         finding.value / mean[name],
-                        long_steps=finding.long_steps,
+                        finding.incomparable,
+                        finding.long_steps,
                     )
                     for finding in of_setting
                 )

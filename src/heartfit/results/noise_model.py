@@ -29,14 +29,13 @@ SENSORS = {
 
 
 def noise_model_table(model: NoiseModel, shares: Mapping[str, Share]) -> pd.DataFrame:
-    """Return one row per observation and one for the LV volume: bias, deviation and coverage of the intervals.
+    """Return one row per observation and one per volume: bias, deviation and coverage of the intervals.
 
-    bias (median) and deviation in percent: for a rate over its true value, for V_min and the volume over the measured
-    stroke volume, as in the model (P_max: over the range of pressure). The row of the volume is the phase of the
+    bias (median) and deviation in percent: for a rate over its true value, for V_min and a volume over its measured
+    stroke volume, as in the model (P_max: over the range of pressure). The row of a volume is the phase of the
     largest deviation, but its coverage is that of all phases; "covered": share of fresh sequences with the truth in
     the 95 % interval, with its exact interval (`heartfit.observation.noise_model`).
     """
-    worst = int(model.curve.sd.argmax())
     scatter = model.observations
     bias = np.where(
         [name in CURVE_OF_EXTREMUM for name in scatter.names], scatter.mean, np.expm1(scatter.mean)
@@ -45,9 +44,14 @@ def noise_model_table(model: NoiseModel, shares: Mapping[str, Share]) -> pd.Data
         _error_row(name, mean, sd, shares[name])
         for name, mean, sd in zip(scatter.names, bias, scatter.sd, strict=True)
     ]
-    volume = f"LV volume, {model.curve.names[worst]}"
-    rows.append(_error_row(volume, model.curve.mean[worst], model.curve.sd[worst], shares["lv_volume"]))
+    rows += [_volume_row(name, curve, shares[name]) for name, curve in model.curves.items()]
     return pd.DataFrame(rows)
+
+
+def _volume_row(name: str, curve: Scatter, share: Share) -> dict[str, Any]:
+    worst = int(curve.sd.argmax())
+    title = f"{name[:2].upper()} volume, {curve.names[worst]}"
+    return _error_row(title, curve.mean[worst], curve.sd[worst], share)
 
 
 def sensor_table(sensors: Scatter) -> pd.DataFrame:
@@ -109,9 +113,9 @@ def _scale(name: str) -> str:
 
 def _errors(axes: Axes, model: NoiseModel, fresh: Sequence[Pair]) -> None:
     """Plot the error of the volume over the measured stroke volume for each phase."""
-    phases = len(model.curve.names)
+    phases, curve = model.phases, model.curves["lv_volume"]
     share = np.arange(phases) / phases
-    mean, reach = 100.0 * model.curve.mean, 100.0 * model.curve.half_width(LEVEL)
+    mean, reach = 100.0 * curve.mean, 100.0 * curve.half_width(LEVEL)
     axes.fill_between(share, mean - reach, mean + reach, label=f"{100 * LEVEL:g} % interval", **BAND)
     for number, pair in enumerate(fresh):
         label = "_" if number else "fresh sequences"

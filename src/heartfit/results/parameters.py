@@ -9,7 +9,7 @@ import pandas as pd
 from heartfit.calibration.plausible import Plausible, PlausibleRange
 from heartfit.calibration.sensitivity import Sensitivity
 from heartfit.core.parameter import column_heading, printed_unit, to_printed_unit
-from heartfit.results.card import truth_errors
+from heartfit.results.card import comparable_truth, truth_errors
 from heartfit.results.case import CaseResult, Groups, require_one_fingerprint
 from heartfit.results.errors import PAPER
 from heartfit.results.text import LONG_STEPS, printed_steps
@@ -26,19 +26,23 @@ def parameter_table(
     """Return the prior of each setting, one row per healthy case, then the volunteers of the paper.
 
     "sd" is the relative standard deviation [%], "over mean" the ratio to the mean of the virtual volunteers (for the
-    paper to its own mean), "of truth" the relative error against the truth of a virtual volunteer (truths: by case,
-    SI) for parameters of its generator. paper: its Table 2 as published (parameter, unit, 1..7, mean). Raises
-    FingerprintMismatchError for rows of different code.
+    paper to its own mean), "planted over mean" the same ratio of the truths that were planted in them (truths: by case,
+    SI), "of truth" the relative error against the truth, for parameters of the generator. paper: its Table 2 as
+    published (parameter, unit, 1..7, mean). Raises FingerprintMismatchError for rows of different code.
     """
     require_one_fingerprint(cases)
     first = {case.setting: case for case in reversed(cases)}
+    planted = planted_ratios(groups, truths or {})
     rows = []
     for setting in dict.fromkeys(case.setting for case in cases):
         in_setting = [case for case in cases if case.setting == setting]
         mean = healthy_mean(in_setting, groups)
         rows.append(_prior_row(first[setting]))
         healthy = [case for case in in_setting if case.case in groups.healthy]
-        rows += [_case_row(case, mean, (truths or {}).get(case.case, {})) for case in healthy]
+        rows += [
+            _case_row(case, mean, (truths or {}).get(case.case, {}), planted.get(case.case, {}))
+            for case in healthy
+        ]
     return _sort_columns(pd.DataFrame([*rows, *_paper_rows(paper)]), paper["parameter"].tolist())
 
 
@@ -46,6 +50,16 @@ def healthy_mean(cases: Sequence[CaseResult], groups: Groups) -> dict[str, float
     """Return the mean of each estimated parameter over the virtual volunteers among the cases of a setting, SI."""
     estimates = [case.estimate for case in cases if case.case in groups.volunteers]
     return pd.DataFrame(estimates).mean().to_dict() if estimates else {}
+
+
+def planted_ratios(groups: Groups, truths: Mapping[str, Mapping[str, float]]) -> dict[str, dict[str, float]]:
+    """Return the true parameters of each virtual volunteer over the mean of them all."""
+    true_values = {case: comparable_truth(truths[case]) for case in groups.volunteers if case in truths}
+    mean = pd.DataFrame(list(true_values.values())).mean().to_dict()
+    return {
+        case: {name: value / mean[name] for name, value in values.items()}
+        for case, values in true_values.items()
+    }
 
 
 def _sort_columns(table: pd.DataFrame, names: list[str]) -> pd.DataFrame:
@@ -66,7 +80,9 @@ def _prior_row(case: CaseResult) -> dict[str, object]:
     return row
 
 
-def _case_row(case: CaseResult, mean: Mapping[str, float], truth: Mapping[str, float]) -> dict[str, object]:
+def _case_row(
+    case: CaseResult, mean: Mapping[str, float], truth: Mapping[str, float], planted: Mapping[str, float]
+) -> dict[str, object]:
     errors = truth_errors(case, truth)
     row: dict[str, object] = {
         "setting": case.setting,
@@ -81,6 +97,8 @@ def _case_row(case: CaseResult, mean: Mapping[str, float], truth: Mapping[str, f
         }
         if name in mean:
             row[f"{name} over mean"] = value / mean[name]
+        if name in planted:
+            row[f"{name} planted over mean"] = planted[name]
         if name in errors:
             row[f"{name} of truth (%)"] = errors[name]
     return row

@@ -24,7 +24,7 @@ from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 class ElementQuestion(Strict):
     """Comparison of two elements: models that may explain a heart of the other element, on the generator's mesh."""
 
-    setting: str = Field(default="paper", description="setting of the calibrator")
+    setting: str = Field(default="locking", description="setting of the calibrator")
     element: Element = Field(
         default="mixed", description="element of the hidden heart and of the competing model"
     )
@@ -69,10 +69,6 @@ class Discovery(Strict):
         "and one for each unknown",
     )
     most_steps: Count = Field(default=20, description="most steps of a refit, which may converge earlier")
-    both_ventricles: bool = Field(
-        default=False,
-        description="refits also fit every other frame of a right volume, with parameters of its own",
-    )
 
     element: ElementQuestion = ElementQuestion()
 

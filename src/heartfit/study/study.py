@@ -39,8 +39,8 @@ class Study(Strict):
     )
     cases: str = Field(description="table of the cases")
     reference: str = Field(description="folder of the stored tables to which `check_numbers` holds the study")
-    measured_heart: tuple[str, ...] = Field(
-        description="folders, of which the first existing one serves measured cases without sources"
+    measured_heart: str | None = Field(
+        None, min_length=1, description="folder of the fit that serves measured cases without sources"
     )
     methods: bool = Field(
         False,

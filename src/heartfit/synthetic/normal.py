@@ -45,6 +45,10 @@ MILLILITRES, TENTHS_OF_MILLIMETRES = 6, 4
 """Decimals of rounded volumes [m^3] and lengths [m]."""
 
 
+def _midway(means: Mapping[str, tuple[float, float]]) -> float:
+    return float(np.mean([mean for mean, _ in means.values()]))
+
+
 @dataclass(frozen=True)
 class NormalAdult:
     """A drawn adult: sex, anatomy, and the estimated parameters as ratios to the standard heart's."""
@@ -52,6 +56,19 @@ class NormalAdult:
     sex: Sex
     anatomy: Anatomy
     ratios: Mapping[str, float]
+
+
+MEAN_ADULT = Anatomy(
+    ParametricVentricles(
+        edv=_midway(LEFT_VOLUME),
+        wall_thickness=_midway(WALL),
+        sphericity=SPHERICITY[0],
+        rv_edv=_midway(RIGHT_VOLUME),
+        rv_wall_thickness=RIGHT_WALL[0],
+    ),
+    PERIOD[0],
+)
+"""Adult midway between the mean man and the mean woman; sphericity, right wall and period are the volunteers' means."""
 
 
 def draw_adult(seed: int) -> NormalAdult:

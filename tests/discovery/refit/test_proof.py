@@ -80,14 +80,8 @@ def test_no_sample_is_both_fitted_and_held_out(case: MeasuredCase) -> None:
     assert np.diff(first)[BLOCK - 1] == pytest.approx((BLOCK + 1) * BIN, abs=3e-3), "then a block is left out"
 
 
-def test_the_right_ventricle_is_never_fitted(case: MeasuredCase) -> None:
-    split = Split.from_curves({**case.curves, "rv_volume": case.curves["lv_volume"]})
-    assert "rv_volume" not in split.fitted
-    assert split.held["rv_volume"].times.size == 25
-
-
 def test_a_refit_of_both_ventricles_holds_half_of_the_right_volume_out(case: MeasuredCase) -> None:
-    split = Split.from_curves({**case.curves, "rv_volume": case.curves["lv_volume"]}, both=True)
+    split = Split.from_curves({**case.curves, "rv_volume": case.curves["lv_volume"]})
     fitted, held = split.fitted["rv_volume"], split.held["rv_volume"]
     assert fitted.times == pytest.approx(split.fitted["lv_volume"].times)
     assert not set(fitted.times) & set(held.times)
@@ -140,10 +134,9 @@ def test_the_noise_of_images_is_that_of_their_phases(case: MeasuredCase) -> None
     sd = np.linspace(0.0, 0.02, 25)
     scatter = Scatter(tuple(map(str, range(25))), 20, np.zeros(25), np.diag(sd**2))
     fitted = {"lv_volume": case.split.fitted["lv_volume"]}
-    total = covariance(fitted, case.raw, [NoiseModel({}, scatter, scatter)])
-    rough = covariance(
-        fitted, case.raw, [NoiseModel({}, scatter, replace(scatter, covariance=np.zeros((25, 25))))]
-    )
+    total = covariance(fitted, case.raw, [NoiseModel({}, scatter, {"lv_volume": scatter})])
+    exact = {"lv_volume": replace(scatter, covariance=np.zeros((25, 25)))}
+    rough = covariance(fitted, case.raw, [NoiseModel({}, scatter, exact)])
     stroke = np.ptp(case.raw["lv_volume"].values)
     assert np.diag(total - rough) == pytest.approx(1.05 * (stroke * sd[::2]) ** 2)
     assert np.linalg.eigvalsh(rough).min() > 0.0

@@ -15,7 +15,7 @@ from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.prove import ExtensionTrial, FittedExtension
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.verdict import Proof
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis
 from heartfit.personalise.setting import Setting
 
 PLAIN = Setting.model_validate({"element": "sphere", "estimate": ("sigma_0", "R_p")}).with_prior({})
@@ -53,6 +53,10 @@ class Trial(ExtensionTrial):
 
     def final(self, fitted: FittedExtension) -> Gaussian | None:
         return Gaussian(fitted.refit.names, fitted.refit.estimate, 0.25 * fitted.refit.covariance)
+
+    def fits(self, _: FittedExtension) -> tuple[CurveFit, ...]:
+        """Return no chi-squared: the stand-ins have no curves."""
+        return ()
 
     def proof(self, _: FittedExtension, extended: FittedExtension) -> Proof:
         helps = len(extended.extension.added) in self.predicts

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from heartfit.calibration.unscented import CalibrationError
+from heartfit.discovery.inference.decide import BesideProcess, Verdict
 from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.prove import ExtensionTrial, FittedExtension
 from heartfit.discovery.refit.refit import Refit
@@ -19,7 +20,7 @@ from heartfit.discovery.refit.verdict import (
     propose_extensions,
     withdraw_unhelpful,
 )
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain, UnnamedCandidate
 from heartfit.personalise.setting import Setting
 from heartfit.results.cause_card import gain_subject, markdown_card, spaced_name
 from tests.printed import numbers_in
@@ -91,6 +92,10 @@ class Judge:
     def final(self, _: FittedExtension) -> None:
         """Return no size from all samples: the stand-in has no curves."""
 
+    def fits(self, _: FittedExtension) -> tuple[CurveFit, ...]:
+        """Return no chi-squared: the stand-in has no curves."""
+        return ()
+
 
 def climbed(judge: Judge) -> list[tuple[int, bool]]:
     base = cast("FittedExtension", judge.at(Extension(PLAIN), fitted(Extension(PLAIN), 0.0)))
@@ -147,6 +152,17 @@ def test_without_a_named_effect_a_trial_changes_no_verdict() -> None:
     assert withdraw_unhelpful(NOTHING, ("AorticStenosis",)) is NOTHING
 
 
+PAIR = UnnamedCandidate((LEAK, OTHER), BesideProcess(22.7, -1.4, 1.0, 2.0, 4.0))
+UNNAMED = replace(UNKNOWN, candidate=PAIR)
+
+
+@pytest.mark.parametrize("verdict", ["unknown", "insufficient"])
+def test_a_leading_pair_without_a_name_is_tried_as_a_named_one(verdict: Verdict) -> None:
+    assert tried(replace(UNNAMED, verdict=verdict)) == tried(TWO)
+    alone = replace(PAIR, causes=(LEAK,))
+    assert tried(replace(UNNAMED, verdict=verdict, candidate=alone)) == [("MitralRegurgitation",)]
+
+
 class Helped:
     """Stand-in for a proof with gains and traces only."""
 
@@ -158,7 +174,7 @@ class Helped:
 
 
 def judged(diagnosis: Diagnosis, kept: tuple[str, ...]) -> Diagnosis:
-    (extension,) = propose_extensions(diagnosis, PLAIN)
+    *_, extension = propose_extensions(diagnosis, PLAIN)
     none, extended = fitted(Extension(PLAIN), 1.0), fitted(extension, 8.0)
     return apply_proof(
         diagnosis, TriedExtension(extension, none, extended, kept, 19), cast("Proof", Helped())
@@ -197,3 +213,13 @@ def test_a_trial_is_no_named_effect() -> None:
     assert (proof.verdict, proof.mechanisms, proof.withdrawn) == ("unknown", (), ())
     assert spaced_name("AorticStenosis") in gain_subject(proof)
     assert spaced_name("MitralRegurgitation") not in gain_subject(judged(DIAGNOSIS, ("MitralRegurgitation",)))
+
+
+def test_a_candidate_that_helps_gets_its_sizes_and_gains_but_no_name() -> None:
+    proof = judged(UNNAMED, ("AorticStenosis", "MitralRegurgitation"))
+    assert (proof.verdict, proof.mechanisms, proof.withdrawn) == ("unknown", (), ())
+    assert proof.candidate is not None
+    assert proof.candidate.causes[0].amplitude == pytest.approx(2 * 0.15e-4)
+    assert proof.gain[0].ratio == 0.5
+    assert all(spaced_name(cause.name) in gain_subject(proof) for cause in PAIR.causes)
+    assert "candidate, not named" in gain_subject(proof)

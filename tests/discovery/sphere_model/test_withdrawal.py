@@ -9,11 +9,21 @@ from typing import cast
 import numpy as np
 import pytest
 
-from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES, Decision, Effects, Rules, Verdict
+from heartfit.discovery.inference.decide import (
+    DEFAULT_RULES,
+    STRICT_RULES,
+    BesideProcess,
+    Decision,
+    Effects,
+    Evidences,
+    Rules,
+    Verdict,
+    decide,
+)
 from heartfit.discovery.sphere_model import diagnose as module
 from heartfit.discovery.sphere_model import held_out
 from heartfit.discovery.sphere_model import searched_recording as searching
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
+from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, UnnamedCandidate
 from heartfit.discovery.sphere_model.diagnose import conclude, predict_explanation
 from heartfit.discovery.sphere_model.recording import Recording, Samples
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
@@ -83,6 +93,13 @@ class Searched:
             evidences=SimpleNamespace(baseline=0.0, discrepancy=self.discrepancy),
             structural_scale=self.scale,
         )
+
+    @property
+    def unnamed(self) -> Effects:
+        return SearchedRecording.unnamed.fget(self)  # type: ignore[attr-defined]
+
+    def candidate(self) -> UnnamedCandidate | None:
+        return SearchedRecording.candidate(cast("SearchedRecording", self))
 
     def sizes_from_all_samples(self, named: Sequence[Effects]) -> tuple[Cause, ...]:
         return tuple(
@@ -207,6 +224,53 @@ def test_half_of_a_recording_withdraws_a_group_with_its_best_member(monkeypatch:
     group = Searched("group", {LEAK: 12.0, DELAY: 11.0})
     diagnosis = concluded(monkeypatch, group, {LEAK: (-1.0,)}, {})
     assert (diagnosis.verdict, diagnosis.withdrawn) == ("unknown", LEAK + DELAY)
+
+
+@dataclass
+class Unnamed(Searched):
+    """A searched recording whose pair leads by 8 over the better of its effects and lies 1.5 below the process."""
+
+    pair: float = 22.5
+
+    @property
+    def explanations(self) -> tuple[Effects, ...]:
+        return ()
+
+    @property
+    def findings(self) -> SimpleNamespace:
+        both = LEAK + DELAY
+        singles, pairs = {LEAK: self.pair - 8.0, DELAY: -9.0}, {both: self.pair}
+        left = {LEAK: self.pair - 7.0, both: self.pair + 1.0}
+        evidences = Evidences(0.0, singles, self.pair + 1.5, left, pairs)
+        known = {**vars(super().findings), "evidences": evidences, "decision": decide(evidences)}
+        return SimpleNamespace(**known)
+
+
+@pytest.mark.parametrize(
+    ("searched", "verdict"), [(("lv_volume", "lv_pressure"), "unknown"), (("lv_volume",), "insufficient")]
+)
+def test_a_leading_pair_without_a_name_is_a_candidate_and_judged(
+    monkeypatch: pytest.MonkeyPatch, searched: tuple[str, ...], verdict: Verdict
+) -> None:
+    both = LEAK + DELAY
+    case = Unnamed("unknown", {both: 22.5})
+    case.recording.searched = searched
+    case.verdict = SearchedRecording.verdict.func(case)  # type: ignore[attr-defined]
+    judged = Gain("lv_volume", "the other half", 2.0, 1.0, 0.5, (0.4, 0.6))
+    monkeypatch.setattr(Gained, "gains", lambda _: (judged,))
+    diagnosis = concluded(monkeypatch, case, {both: (5.0,)})
+    assert (diagnosis.verdict, names(diagnosis), diagnosis.gain) == (verdict, (), (judged,))
+    assert diagnosis.candidate is not None
+    assert tuple(cause.name for cause in diagnosis.candidate.causes) == both
+    assert diagnosis.candidate.beside_process == BesideProcess(22.5, -1.5, 1.0, 2.0, 4.0)
+
+
+def test_what_is_named_or_not_detected_is_no_candidate(monkeypatch: pytest.MonkeyPatch) -> None:
+    both = LEAK + DELAY
+    assert Unnamed("unknown", {both: 4.9}, pair=4.9).unnamed == ()
+    assert Unnamed("unknown", {both: 5.0}, pair=5.0).unnamed == both
+    named = concluded(monkeypatch, Searched("named", {LEAK: 12.0}), {LEAK: (2.0,)})
+    assert named.candidate is None
 
 
 @pytest.fixture

@@ -19,19 +19,24 @@ DECISION_MUTANTS = (
         ),
         (
             "an effect no better than a discrepancy is named",
-            "margin >= rules.over_discrepancy and small",
-            "small",
+            "return self.over >= self.required and self.left <= self.allowed",
+            "return self.left <= self.allowed",
         ),
         (
             "a strong effect may leave anything",
-            "(margin >= rules.strong and left <= rules.strong_share * gain)",
-            "margin >= rules.strong",
+            "rules.strong_share * gain if over >= rules.strong",
+            "left if over >= rules.strong",
         ),
         ("a pair needs no gain", "best >= rules.second", "best >= 0.0"),
         (
-            "a pair may leave anything",
-            "if evidences.on_top[pair] - evidences.pairs[pair] >= rules.on_top:",
-            "if not pair:",
+            "a pair may be worse than the process",
+            "if not is_explained(evidences, leading, rules):",
+            "if leading in evidences.singles and not is_explained(evidences, leading, rules):",
+        ),
+        (
+            "the best single effect stands for a pair",
+            "leading = leading_effects(evidences, rules)",
+            "leading = evidences.single",
         ),
         (
             "no two effects are alike",

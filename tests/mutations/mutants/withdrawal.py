@@ -34,6 +34,11 @@ WITHDRAWAL_MUTANTS = (
             "sum(test.log_likelihood_gain() for test in tests if test) if conditions else 0.0",
             "0.0",
         ),
+        (
+            "nothing judges a candidate",
+            "(predict_explanation(case, best, conditions) if best else [])",
+            "[]",
+        ),
     ),
     *changes(
         "discovery/sphere_model/held_out.py",
@@ -49,6 +54,11 @@ WITHDRAWAL_MUTANTS = (
             "if evidences.baseline < np.inf:",
         ),
         (
+            "what is not detected is a candidate",
+            "return leading if self.findings.log_bayes_factor(leading) >= self.rules.detected else ()",
+            "return leading",
+        ),
+        (
             "a volume alone needs no more evidence",
             "VOLUME_ONLY_THRESHOLD = 10.0",
             "VOLUME_ONLY_THRESHOLD = 5.0",
@@ -57,6 +67,11 @@ WITHDRAWAL_MUTANTS = (
     *changes(
         "discovery/refit/verdict.py",
         VERDICT,
+        (
+            "a candidate is not refitted",
+            "for cause in diagnosis.mechanisms or _candidates(diagnosis)]",
+            "for cause in diagnosis.mechanisms]",
+        ),
         (
             "a name that the refit withdraws stays",
             "verdict=verdict, mechanisms=left,",

@@ -27,7 +27,7 @@ def test_quantities_are_typeset() -> None:
 def test_rows_are_classified_as_study_mean_or_paper() -> None:
     table = pd.DataFrame(
         {
-            "setting": ["paper", "paper", "Marchesseau et al. 2012"],
+            "setting": ["locking", "locking", "Marchesseau et al. 2012"],
             "case": ["heart1", "mean of 1", "volunteer 1"],
             "V_min (%)": [5.0, math.nan, 0.35],
         }
@@ -37,7 +37,7 @@ def test_rows_are_classified_as_study_mean_or_paper() -> None:
 
 
 def test_a_number_among_words_is_printed_as_a_number() -> None:
-    frame = pd.DataFrame({"setting": ["paper"] * 2, "value": ["16.86318149764966", "<4"]})
+    frame = pd.DataFrame({"setting": ["locking"] * 2, "value": ["16.86318149764966", "<4"]})
     (row, paper) = rows(ReportTable.of("table3_parameters", frame).frame)
     assert row["cells"][-1] == "16.9"
     assert paper["cells"][-1] == "<4"

@@ -23,11 +23,11 @@ class Rules:
     - start_amplitude: the amplitude with which every effect starts from the prior mean; from 1 a leak of 3 is missed.
     - refitted, respread: number of effects in the second round, and number of these that start again from every
       placement, with slopes of their own.
-    - over_discrepancy: the best single effect over the Gaussian process alone.
+    - over_discrepancy: the leading explanation, one effect or two, over the Gaussian process alone.
     - on_top: the largest gain of a Gaussian process on top of the named explanation.
-    - strong, strong_share: an effect over the Gaussian process by ``strong`` is named although one on top of it
-      gains, if that is at most ``strong_share`` of the effect's gain: a strong effect reveals a small error of its
-      model.
+    - strong, strong_share: an explanation over the Gaussian process by ``strong`` is named although one on top of it
+      gains, if that is at most ``strong_share`` of the explanation's gain: a strong effect reveals a small error of
+      its model.
     - second: a pair over the best single effect, above which one effect does not suffice; at 3, one in twenty single
       effects is given a false companion.
     - group: effects within this of the best cannot be told apart (Kass and Raftery's "positive").
@@ -105,6 +105,10 @@ class Evidences:
         """The best pair; empty if no pair was tried."""
         return max(self.pairs, key=self.pairs.__getitem__, default=())
 
+    def log_evidence(self, effects: Effects) -> float:
+        """ln Z of one effect or of a pair; raises KeyError for effects that were not fitted."""
+        return {**self.singles, **self.pairs}[effects]
+
 
 @dataclass(frozen=True)
 class Decision:
@@ -116,15 +120,16 @@ class Decision:
 
 
 def decide(evidences: Evidences, rules: Rules = DEFAULT_RULES) -> Decision:
-    """The decision that follows from the evidences under the rules."""
+    """The decision that follows from the evidences under the rules, which are the same for one effect and for two."""
     if not is_detected(evidences, rules):
         return Decision("none")
-    if _needs_pair(evidences, rules):
-        return _decide_pair(evidences, rules)
-    if not is_explained(evidences, rules):
+    leading = leading_effects(evidences, rules)
+    if not is_explained(evidences, leading, rules):
         return Decision("unknown")
-    alternatives = _alternatives(evidences.singles, evidences.single, rules)
-    return Decision("group" if alternatives else "named", evidences.single, alternatives)
+    if leading in evidences.pairs:
+        return Decision("two", leading, _alternatives(evidences.pairs, leading, rules))
+    alternatives = _alternatives(evidences.singles, leading, rules)
+    return Decision("group" if alternatives else "named", leading, alternatives)
 
 
 def is_detected(evidences: Evidences, rules: Rules = DEFAULT_RULES) -> bool:
@@ -141,26 +146,45 @@ def _largest_gain(evidences: Evidences) -> float:
     return max(evidences.singles[evidences.single], evidences.discrepancy) - evidences.baseline
 
 
-def is_explained(evidences: Evidences, rules: Rules = DEFAULT_RULES) -> bool:
-    """True if the best single effect explains the data."""
-    best = evidences.singles[evidences.single]
-    gain, margin = best - evidences.baseline, best - evidences.discrepancy
-    left = evidences.on_top[evidences.single] - best
-    small = left <= rules.on_top or (margin >= rules.strong and left <= rules.strong_share * gain)
-    return gain >= rules.detected and margin >= rules.over_discrepancy and small
+def leading_effects(evidences: Evidences, rules: Rules = DEFAULT_RULES) -> Effects:
+    """The effects of the best explanation: a pair only where one effect does not suffice."""
+    best, pair = evidences.singles[evidences.single], evidences.pair
+    return pair if pair and evidences.pairs[pair] - best >= rules.second else evidences.single
 
 
-def _needs_pair(evidences: Evidences, rules: Rules) -> bool:
-    best = evidences.singles[evidences.single]
-    return bool(evidences.pair) and evidences.pairs[evidences.pair] - best >= rules.second
+@dataclass(frozen=True)
+class BesideProcess:
+    """An explanation beside the Gaussian process, in ln evidence.
+
+    gain, over: over the baseline and over the process alone; left: gain of a process on top of it; required, allowed:
+    the least ``over`` and the largest ``left`` of an explanation that is named.
+    """
+
+    gain: float
+    over: float
+    left: float
+    required: float
+    allowed: float
+
+    @classmethod
+    def of(cls, evidences: Evidences, effects: Effects, rules: Rules = DEFAULT_RULES) -> "BesideProcess":
+        """Compare these effects, the best single one or the best pair, with the process."""
+        best = evidences.log_evidence(effects)
+        gain, over = best - evidences.baseline, best - evidences.discrepancy
+        left = evidences.on_top[effects] - best
+        share = rules.strong_share * gain if over >= rules.strong else 0.0
+        return cls(gain, over, left, rules.over_discrepancy, max(rules.on_top, share))
+
+    @property
+    def better(self) -> bool:
+        """True if the explanation is better than the process by enough, and leaves little for it."""
+        return self.over >= self.required and self.left <= self.allowed
 
 
-def _decide_pair(evidences: Evidences, rules: Rules) -> Decision:
-    """Two effects if they explain the data; otherwise neither they nor the best single one are named."""
-    pair = evidences.pair
-    if evidences.on_top[pair] - evidences.pairs[pair] >= rules.on_top:
-        return Decision("unknown")
-    return Decision("two", pair, _alternatives(evidences.pairs, pair, rules))
+def is_explained(evidences: Evidences, effects: Effects, rules: Rules = DEFAULT_RULES) -> bool:
+    """True if these effects, the best single one or the best pair, explain the data."""
+    beside = BesideProcess.of(evidences, effects, rules)
+    return beside.gain >= rules.detected and beside.better
 
 
 def _alternatives(table: Mapping[Effects, float], best: Effects, rules: Rules) -> tuple[Effects, ...]:

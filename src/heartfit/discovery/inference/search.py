@@ -265,6 +265,6 @@ def _complete(context: FitContext, survey: Survey, combine: CombineEffects, rule
     evidences = survey.evidences(context.discrepancy)
     if not is_detected(evidences, rules):
         return survey
-    if not is_explained(evidences, rules):
+    if not is_explained(evidences, evidences.single, rules):
         survey = polish_best(context, survey, rules)
     return replace(survey, pairs=rank(fit_pairs(context, survey.singles, combine, rules)))

@@ -26,7 +26,7 @@ RIGHT_PARAMETERS = (
     FreeParameter(("circulation.right_atrium",), 0.25),
     FreeParameter(("AtrialKick.right",), 0.3),
 )
-"""Unknowns of the right ventricle, free where its volume is fitted. A heart without a delay keeps none: its prior is
+"""Unknowns of the right ventricle, free where its volume was measured. A heart without a delay keeps none: its prior is
 log-normal. The peripheral resistance and the stiffness are left out: a volume alone does not decide them."""
 
 

@@ -5,7 +5,9 @@ from dataclasses import dataclass, replace
 
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError
+from heartfit.core.arrays import Floats
 from heartfit.discovery.refit.extension import Extension
+from heartfit.discovery.refit.goodness import curve_fits
 from heartfit.discovery.refit.model import Model, ObservedBeat
 from heartfit.discovery.refit.refit import (
     Refit,
@@ -17,7 +19,7 @@ from heartfit.discovery.refit.refit import (
 )
 from heartfit.discovery.refit.target import MeasuredCase, Target, sample, stack
 from heartfit.discovery.refit.verdict import Proof, TriedExtension, apply_proof, propose_extensions
-from heartfit.discovery.sphere_model.cause import Attempt, Diagnosis
+from heartfit.discovery.sphere_model.cause import Attempt, CurveFit, Diagnosis
 from heartfit.geometry.mesh import Motion
 from heartfit.personalise.setting import Setting
 
@@ -86,8 +88,14 @@ class ExtensionTrial:
 
     def final(self, fitted: FittedExtension) -> Gaussian | None:
         """Return the coordinates given both halves of the samples; None where not all their slopes are known."""
-        predicted = stack(sample(fitted.shown.curves, self.complete.samples))
-        return complete_posterior(fitted.extension, fitted.refit, self.complete, predicted)
+        return complete_posterior(fitted.extension, fitted.refit, self.complete, self._predicted(fitted))
+
+    def fits(self, fitted: FittedExtension) -> tuple[CurveFit, ...]:
+        """Return the chi-squared of each curve about a refit; none where not all its slopes are known."""
+        return tuple(curve_fits(fitted.refit, self.target, self.complete, self._predicted(fitted)))
+
+    def _predicted(self, fitted: FittedExtension) -> Floats:
+        return stack(sample(fitted.shown.curves, self.complete.samples))
 
     def proof(self, baseline: FittedExtension, extended: FittedExtension) -> Proof:
         """Return both refits with the measurement."""
@@ -109,8 +117,9 @@ class ExtensionTrial:
             kept[-1].extension.effects if kept else (),
             sum(fit.refit.simulations + 1 for fit in (base, *(fit for fit, _ in steps))),
             self.final(shown),
+            self.fits(shown),
         )
-        return apply_proof(diagnosis, tried, self.proof(base, shown)), shown.refit
+        return apply_proof(diagnosis, tried, self.proof(base, shown), self.fits(base)), shown.refit
 
     def attempt(self, mechanism: str, baseline: Refit) -> Attempt:
         """Return the gain of one mechanism, whatever the diagnosis; raises CalibrationError if its beat fails."""
@@ -118,7 +127,9 @@ class ExtensionTrial:
         base = self.at(self.baseline, baseline)
         extended = self.at(extension, self.continue_refit(extension, baseline))
         beats = baseline.simulations + extended.refit.simulations + 2
-        tried = TriedExtension(extension, baseline, extended.refit, (), beats, self.final(extended))
+        tried = TriedExtension(
+            extension, baseline, extended.refit, (), beats, self.final(extended), self.fits(extended)
+        )
         proof = self.proof(base, extended)
         return Attempt(tried.refitted({}), tuple(proof.gains()), proof.traces())
 

@@ -1,8 +1,8 @@
 r"""The data of a refit: fitted samples, their covariance, and held-out samples.
 
-Every other frame of the left ventricle's volume is fitted, and every other block of 40 ms of its pressure where that
-was recorded. The neighbours of fitted samples are the mildest test; the right ventricle's volume, which is not fitted
-at all, is a harder one. A refit of both ventricles fits every other frame of the right volume, too.
+Every other frame of the volumes of both ventricles is fitted, and every other block of 40 ms of the left pressure where
+that was recorded. The neighbours of fitted samples are the mildest test; the strain of the wall, which is not fitted at
+all, is a harder one.
 
 The covariance of the fitted samples about a correct model is
 
@@ -40,25 +40,18 @@ class Split:
     held: Sampled
 
     @classmethod
-    def from_curves(cls, curves: Mapping[str, Curve], both: bool = False) -> "Split":
-        """Split measured curves without bias: "lv_volume", and optionally "lv_pressure" and "rv_volume".
-
-        both: half of the right volume is fitted, too.
-        """
+    def from_curves(cls, curves: Mapping[str, Curve]) -> "Split":
+        """Split measured curves without bias: "lv_volume", and optionally "lv_pressure" and "rv_volume"."""
         fitted, held = {}, {}
-        frames = Samples(curves["lv_volume"].times, curves["lv_volume"].values)
-        fitted["lv_volume"], held["lv_volume"] = _halves(frames, 1)
+        fitted["lv_volume"], held["lv_volume"] = _halves(Samples.from_curve(curves["lv_volume"]), 1)
         if "lv_pressure" in curves:
             fitted["lv_pressure"], held["lv_pressure"] = _halves(average_bins(curves["lv_pressure"]), BLOCK)
         if "rv_volume" in curves:
-            right = Samples(curves["rv_volume"].times, curves["rv_volume"].values)
-            if both:
-                fitted["rv_volume"], right = _halves(right, 1)
-            held["rv_volume"] = right
+            fitted["rv_volume"], held["rv_volume"] = _halves(Samples.from_curve(curves["rv_volume"]), 1)
         return cls(fitted, held)
 
     def complete(self) -> Sampled:
-        """Both halves of every curve of which one is fitted, in the order of time."""
+        """Both halves of every curve, in the order of time."""
         return {name: samples.merged(self.held[name]) for name, samples in self.fitted.items()}
 
 
@@ -160,8 +153,8 @@ def _block(
     if read_twice is not None:
         return rough + read_twice.covariance(times)
     for model in models if kind == "volume" else ():
-        phases = np.rint(times / curve.period * len(model.curve.names)).astype(int)
-        return rough + model.curve_covariance(curve)[np.ix_(phases, phases)]
+        phases = np.rint(times / curve.period * model.phases).astype(int)
+        return rough + model.curve_covariance(curve, name)[np.ix_(phases, phases)]
     return rough + frame_noise(curve) ** 2 * np.eye(times.size)
 
 
@@ -169,7 +162,7 @@ def _block(
 class MeasuredCase:
     """Measured curves as they are (``raw``) and without bias, noise (k,) of their samples, and noise models, if any.
 
-    frames: noise of curves that were read twice; both: a refit fits both ventricles.
+    frames: noise of curves that were read twice.
     """
 
     raw: Mapping[str, Curve]
@@ -177,7 +170,6 @@ class MeasuredCase:
     noise: Mapping[str, Floats]
     models: Sequence[NoiseModel]
     frames: Mapping[str, FrameNoise] = field(default_factory=dict)
-    both: bool = False
 
     @classmethod
     def from_curves(
@@ -185,7 +177,6 @@ class MeasuredCase:
         measured: Mapping[str, Curve],
         models: Sequence[NoiseModel],
         second: Curve | None = None,
-        both: bool = False,
         reading: Reading = "mean",
     ) -> "MeasuredCase":
         """Remove the bias of measured curves.
@@ -202,12 +193,17 @@ class MeasuredCase:
             curves["lv_volume"], frames["lv_volume"] = readings.take(reading)
             scatter = np.hypot(frames["lv_volume"].deviation, SIMULATION_ROUGHNESS["volume"])
             noise["lv_volume"] = np.full(second.times.size, scatter)
-        return cls(measured, curves, noise, models, frames, both and "rv_volume" in measured)
+        return cls(measured, curves, noise, models, frames)
+
+    @property
+    def both(self) -> bool:
+        """True where the volumes of both ventricles were measured."""
+        return "rv_volume" in self.curves
 
     @property
     def split(self) -> Split:
         """Fitted and held-out samples."""
-        return Split.from_curves(self.curves, self.both)
+        return Split.from_curves(self.curves)
 
     @property
     def target(self) -> Target:

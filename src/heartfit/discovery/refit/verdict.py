@@ -14,7 +14,7 @@ from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.model import ObservedBeat
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis, Gain, Refitted, Trace
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain, Refitted, Trace
 from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.observation.curve import Curve
@@ -97,8 +97,7 @@ def curve_gains(
     """Yield the gain on the held-out part of each curve."""
     for name, held in case.split.held.items():
         before, after = (held.values - curves[name](held.times) for curves in (baseline, extended))
-        fitted_too = name in case.split.fitted
-        yield _gain(name, HELD_OUT_NOTES[name] if fitted_too else "never fitted", held.times, before, after)
+        yield _gain(name, HELD_OUT_NOTES[name], held.times, before, after)
 
 
 def _gain(name: str, on: str, times: Floats, before: Floats, after: Floats) -> Gain:
@@ -114,7 +113,8 @@ Z_95 = 1.96
 class TriedExtension:
     """Refits of the baseline and of an extension; kept: effects that helped; simulations: beats of all refits.
 
-    final: coordinates of the extension given both halves of the samples, None where they are not known.
+    final: coordinates of the extension given both halves of the samples, None where they are not known; fits: of the
+    curves about the extension.
     """
 
     extension: Extension
@@ -123,6 +123,7 @@ class TriedExtension:
     kept: tuple[str, ...]
     simulations: int
     final: Gaussian | None = None
+    fits: tuple[CurveFit, ...] = ()
 
     def refitted(self, ranking: Mapping[str, float]) -> Refitted:
         """Return the result in the form of a diagnosis; ranking: evidence of each mechanism in the search."""
@@ -134,40 +135,50 @@ class TriedExtension:
             self.simulations,
             self.baseline.converged and self.extended.converged,
             tuple(causes_of(self.extension, self.final, ranking)) if self.final else (),
+            self.fits,
         )
 
 
 def propose_extensions(diagnosis: Diagnosis, base: Setting, both: bool = False) -> list[Extension]:
     """Return the extensions to refit in three dimensions, each of which contains the previous one; both: ventricles.
 
-    They consist of the named mechanisms; of two, the stronger one is tried alone first, because the second may be
-    false. Of a group the best is tried, and for an unknown effect the best of the ranking. Where the simulation
-    explains the recording nothing is tried.
+    They consist of the named mechanisms or, without any, of the candidate; of two, the stronger one is tried alone
+    first, because the second may be false. Of a group the best is tried, and for an unknown effect without a candidate
+    the best of the ranking. Where the simulation explains the recording nothing is tried.
     """
-    if diagnosis.verdict in ("none", "insufficient"):
+    leading = [cause.name for cause in diagnosis.mechanisms or _candidates(diagnosis)]
+    if diagnosis.verdict in ("none", "insufficient") and not leading:
         return []
-    named = sorted(
-        (cause.name for cause in diagnosis.mechanisms), key=lambda name: -diagnosis.ranking.get(name, np.inf)
-    )
-    if diagnosis.verdict == "two":
-        return [Extension.from_names(base, *named[:count]).with_free_parameters(both) for count in (1, 2)]
-    best = [cause.name for cause in diagnosis.mechanisms] or [
-        name for name in diagnosis.ranking if name != "unknown"
-    ]
+    if len(leading) == 2 and diagnosis.verdict != "group":
+        leading.sort(key=lambda name: -diagnosis.ranking.get(name, np.inf))
+        return [Extension.from_names(base, *leading[:count]).with_free_parameters(both) for count in (1, 2)]
+    best = leading or [name for name in diagnosis.ranking if name != "unknown"]
     return [Extension.from_names(base, best[0]).with_free_parameters(both)]
 
 
-def apply_proof(diagnosis: Diagnosis, tried: TriedExtension, proof: Proof) -> Diagnosis:
-    """Return the diagnosis with amplitudes and gains in three dimensions, without mechanisms that do not help."""
+def _candidates(diagnosis: Diagnosis) -> tuple[Cause, ...]:
+    return diagnosis.candidate.causes if diagnosis.candidate else ()
+
+
+def apply_proof(
+    diagnosis: Diagnosis, tried: TriedExtension, proof: Proof, fits: Sequence[CurveFit] = ()
+) -> Diagnosis:
+    """Return the diagnosis with amplitudes and gains in three dimensions, without mechanisms that do not help.
+
+    fits: of the curves about the model without an extension.
+    """
     refitted = tried.refitted(diagnosis.ranking) if tried.extension.added else None
     causes = {cause.name: cause for cause in refitted.extension} if refitted else {}
+    candidate = tuple(causes.get(cause.name, cause) for cause in _candidates(diagnosis))
     known = replace(
         diagnosis,
         mechanisms=tuple(causes.get(cause.name, cause) for cause in diagnosis.mechanisms),
+        candidate=diagnosis.candidate and replace(diagnosis.candidate, causes=candidate),
         gain=tuple(proof.gains()) if refitted else (),
         simulations=diagnosis.simulations + tried.simulations,
         traces=proof.traces(),
         refitted=refitted,
+        fits=tuple(fits),
     )
     return withdraw_unhelpful(known, tried.kept)
 

@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 
 from heartfit.core.arrays import Floats
-from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.inference.decide import BesideProcess, Verdict
 from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.observation.beat import BeatPhases
 from heartfit.places import Region
@@ -22,6 +22,14 @@ class Cause:
     amplitude: float
     unit: str
     interval: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class UnnamedCandidate:
+    """The leading explanation, one mechanism or two, that is detected but not better enough than the process."""
+
+    causes: tuple[Cause, ...]
+    beside_process: BesideProcess
 
 
 @dataclass(frozen=True)
@@ -42,6 +50,25 @@ class Gain:
     def objects(self) -> bool:
         """True if the cause makes the curve worse beyond chance."""
         return self.interval[0] > 1.0
+
+
+SMALLEST_P = 0.01
+"""Probability of a larger chi-squared below which a model misses a curve by more than its noise."""
+
+
+@dataclass(frozen=True)
+class CurveFit:
+    """Chi-squared of all samples of a curve about a refit, its degrees of freedom, and the probability p of more."""
+
+    curve: str
+    chi_squared: float
+    freedom: float
+    p: float
+
+    @property
+    def within_noise(self) -> bool:
+        """True if the model misses the curve by no more than its noise."""
+        return self.p > SMALLEST_P
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +161,8 @@ class Refitted:
 
     extension: the added causes with refitted amplitudes; ln_bayes_factor: of the two refits; none, extended: parameters
     [SI] by name; simulations: number of 3-D beats; converged: both refits converged; from_all_samples: the added causes
-    with their amplitudes given both halves of the samples, after the second has judged; empty where not computed.
+    with their amplitudes given both halves of the samples, after the second has judged; empty where not computed. fits:
+    of the curves about the extended model, empty where not all slopes are known.
     """
 
     extension: tuple[Cause, ...]
@@ -144,6 +172,7 @@ class Refitted:
     simulations: int
     converged: bool
     from_all_samples: tuple[Cause, ...] = ()
+    fits: tuple[CurveFit, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,8 +205,9 @@ class Diagnosis:
       from the best; withdrawn: names that did not help on held-out data.
     - threshold: the least ln Bayes factor of a detection; ranking: ln Bayes factors over the baseline of every single
       mechanism and, as "unknown", of a GP discrepancy.
-    - refitted: the proof in three dimensions, if there is one; without a named cause, a trial of the best of the
-      ranking.
+    - candidate: the leading explanation where it is detected but not named, None otherwise.
+    - refitted: the proof in three dimensions, if there is one; without a named cause, a trial of the candidate or, if
+      there is none, of the best of the ranking.
     - unsearched: recorded curves that are not searched, with the reason; phases: of the beat without a cause,
       None where one of its valves never moves.
     - self_test: median of the largest ln Bayes factors in beats of the model without a hidden effect, None where no
@@ -193,6 +223,7 @@ class Diagnosis:
     - strokes: of both ventricles, None without a right volume.
     - read_twice: standard deviation of the noise [SI] of curves that were read twice.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
+    - fits: of the curves about the 3-D model without a cause, empty where none was refitted.
     """
 
     verdict: Verdict
@@ -220,6 +251,8 @@ class Diagnosis:
     functions: tuple[PlaceFunction, ...] = ()
     strokes: Strokes | None = None
     read_twice: Mapping[str, float] = field(default_factory=dict)
+    fits: tuple[CurveFit, ...] = ()
+    candidate: UnnamedCandidate | None = None
 
 
 CLEAR_DEVIATIONS = 2.0

@@ -76,13 +76,14 @@ def conclude(
     }
     kept = near_best(scores, case.rules.group)
     verdict = _verdict(case, kept)
-    best = next(iter([*kept, *tried]), ())
+    best = next(iter([*kept, *tried]), case.unnamed)
+    judged = tried.get(best) or (predict_explanation(case, best, conditions) if best else [])
     return Diagnosis(
         verdict,
         tuple(case.cause(effects, name) for effects in kept for name in effects),
         tuple(kept[1:]) if case.verdict == "group" else case.findings.decision.alternatives,
         _next_measurement(case, verdict, kept),
-        tuple(gain for test in tried.get(best, ()) if test for gain in test.gains()),
+        tuple(gain for test in judged if test for gain in test.gains()),
         case.model.simulations,
         case.recording.period,
         case.rules.detected,
@@ -101,6 +102,7 @@ def conclude(
         changes=case.changes(best),
         strokes=Strokes.from_recording(case.recording),
         read_twice={name: noise.deviation for name, noise in case.recording.noise.items()},
+        candidate=case.candidate(),
     )
 
 

@@ -8,10 +8,24 @@ import numpy as np
 
 from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.data import Data, Whitening
-from heartfit.discovery.inference.decide import DEFAULT_RULES, Effects, Rules, Verdict
+from heartfit.discovery.inference.decide import (
+    DEFAULT_RULES,
+    BesideProcess,
+    Effects,
+    Rules,
+    Verdict,
+    leading_effects,
+)
 from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.inference.search import Findings, search
-from heartfit.discovery.sphere_model.cause import CLEAR_DEVIATIONS, Cause, Change, FittedModel, Trace
+from heartfit.discovery.sphere_model.cause import (
+    CLEAR_DEVIATIONS,
+    Cause,
+    Change,
+    FittedModel,
+    Trace,
+    UnnamedCandidate,
+)
 from heartfit.discovery.sphere_model.forward_model import (
     Candidate,
     SphereForwardModel,
@@ -136,6 +150,21 @@ class SearchedRecording:
         decision = self.findings.decision
         others = decision.alternatives if self.verdict == "group" else ()
         return (decision.effects, *others) if decision.effects else ()
+
+    @property
+    def unnamed(self) -> Effects:
+        """Leading effects that are detected but not named; empty if there are none."""
+        if self.findings.decision.verdict != "unknown":
+            return ()
+        leading = leading_effects(self.findings.evidences, self.rules)
+        return leading if self.findings.log_bayes_factor(leading) >= self.rules.detected else ()
+
+    def candidate(self) -> UnnamedCandidate | None:
+        """The unnamed effects with their amplitudes, and how they stand beside the process; None without any."""
+        if not self.unnamed:
+            return None
+        causes = tuple(self.cause(self.unnamed, name) for name in self.unnamed)
+        return UnnamedCandidate(causes, BesideProcess.of(self.findings.evidences, self.unnamed, self.rules))
 
     def cause(self, effects: Effects, name: str) -> Cause:
         """A mechanism with its amplitude in the explanation by these effects."""

@@ -153,6 +153,7 @@ def _named(diagnosis: Diagnosis, case: SearchedRecording, confirmed: _Confirmed)
         diagnosis,
         verdict="named",
         mechanisms=(cause,),
+        candidate=None,
         alternatives=(),
         next_measurement="",
         gain=confirmed.gains,

@@ -149,7 +149,7 @@ def register_slices(sequence: ImageSequence, about: Floats, method: Demons = CIN
     The region extends REGION_MARGIN beyond the points. From the first frame on, forward and backward through the beat,
     each frame starts from the displacement of its neighbour.
     """
-    rows, columns = _region(sequence.grid, about)
+    rows, columns = region_about(sequence.grid, about)
     images = sequence.voxels[:, :, rows, columns]
     frames, slices = images.shape[:2]
     field = np.zeros((*images.shape, 2))
@@ -159,8 +159,8 @@ def register_slices(sequence: ImageSequence, about: Floats, method: Demons = CIN
     return SliceMotion(sequence.grid, (columns.start, rows.start), field)
 
 
-def _region(grid: Grid, about: Floats) -> tuple[slice, slice]:
-    """Pixels j and i of the box about the points."""
+def region_about(grid: Grid, about: Floats) -> tuple[slice, slice]:
+    """Pixels j and i of the registered region about the points (n, 3) [m]."""
     index, margin = grid.index(about)[:, :2], REGION_MARGIN / grid.spacing[:2]
     low = np.maximum(np.floor(index.min(axis=0) - margin), 0).astype(int)
     high = np.minimum(np.ceil(index.max(axis=0) + margin) + 1, grid.size[:2]).astype(int)

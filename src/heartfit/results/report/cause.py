@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.results.cause_card import (
     alternatives_text,
+    candidate_sentence,
     departure_sentences,
     gain_subject,
     gains_text,
@@ -30,6 +31,7 @@ class CauseCard:
     title: str
     verdict: str
     sentence: str
+    candidate: str
     misses: list[str]
     ranking: list[tuple[str, float]]
     threshold: float
@@ -54,6 +56,7 @@ def cause_card(diagnosis: Diagnosis, title: str) -> CauseCard:
             *unsearched_sentences(diagnosis),
             *reading_sentences(diagnosis),
         ],
+        candidate=candidate_sentence(diagnosis.candidate) if diagnosis.candidate else "",
         ranking=[
             (spaced_name(name), value) for name, value in list(diagnosis.ranking.items())[:RANKING_ROWS]
         ],
