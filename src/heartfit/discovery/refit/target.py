@@ -216,7 +216,11 @@ class MeasuredCase:
         return self._target(self.split.complete())
 
     def _target(self, samples: Sampled) -> Target:
-        return Target(samples, covariance(samples, self.raw, self.models, self.frames))
+        return Target(samples, self.covariance(samples))
+
+    def covariance(self, samples: Sampled) -> Floats:
+        """Covariance (n, n) of a correct model about the samples, in their order."""
+        return covariance(samples, self.raw, self.models, self.frames)
 
     def recording(self) -> Recording:
         """All curves as the recording for the search on the sphere."""

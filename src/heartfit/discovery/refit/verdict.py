@@ -15,8 +15,10 @@ from heartfit.discovery.refit.model import ObservedBeat
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase
 from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain, Refitted, Trace
+from heartfit.discovery.sphere_model.misfit import deviation_of_means, phase_names
 from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.observation.beat import BeatPhases
 from heartfit.observation.curve import Curve
 from heartfit.observation.strain import DIRECTIONS, segment_strain
 from heartfit.personalise.setting import Setting
@@ -79,16 +81,17 @@ class Proof:
         )
         return (after - before) / (self.case.deviation(name) ** 2 + before)
 
-    def traces(self) -> tuple[Trace, ...]:
-        """Return each measured curve with both fits and the residual of the baseline."""
-        return tuple(self._trace(name) for name in self.case.curves)
+    def traces(self, phases: BeatPhases | None = None) -> tuple[Trace, ...]:
+        """Return each measured curve with both fits; phases: of the beat, over which residuals are averaged."""
+        return tuple(self._trace(name, phases) for name in self.case.curves)
 
-    def _trace(self, name: str) -> Trace:
-        curve, noise = self.case.curves[name], self.case.noise[name]
+    def _trace(self, name: str, phases: BeatPhases | None) -> Trace:
+        curve = self.case.curves[name]
         baseline, extended = (beat.curves[name](curve.times) for beat in (self.baseline, self.extended))
-        return Trace(
-            name, curve.times, curve.values, baseline, extended, noise, curve.values - baseline, noise
-        )
+        noise = self.case.covariance({name: Samples.from_curve(curve)})
+        means = deviation_of_means(noise, phase_names(curve.times, curve.period, phases))
+        sd = self.case.noise[name]
+        return Trace(name, curve.times, curve.values, baseline, extended, sd, None, None, mean_noise=means)
 
 
 def curve_gains(
@@ -172,12 +175,17 @@ def apply_proof(
     candidate = tuple(causes.get(cause.name, cause) for cause in _candidates(diagnosis))
     known = replace(
         diagnosis,
-        mechanisms=tuple(causes.get(cause.name, cause) for cause in diagnosis.mechanisms),
+        mechanisms=tuple(
+            replace(causes.get(cause.name, cause), ln_bayes_factor=cause.ln_bayes_factor)
+            for cause in diagnosis.mechanisms
+        ),
         candidate=diagnosis.candidate and replace(diagnosis.candidate, causes=candidate),
         gain=tuple(proof.gains()) if refitted else (),
         simulations=diagnosis.simulations + tried.simulations,
-        traces=proof.traces(),
+        traces=proof.traces(diagnosis.phases),
         refitted=refitted,
+        model="3-D heart",
+        free_parameters=len(tried.baseline.names),
         fits=tuple(fits),
     )
     return withdraw_unhelpful(known, tried.kept)
@@ -191,7 +199,11 @@ def withdraw_unhelpful(diagnosis: Diagnosis, kept: Sequence[str]) -> Diagnosis:
     names = [cause.name for cause in diagnosis.mechanisms]
     if not names or set(names) <= set(kept) or (diagnosis.verdict == "group" and kept):
         return diagnosis
-    left = tuple(cause for cause in diagnosis.mechanisms if cause.name in kept)
+    left = tuple(
+        replace(cause, ln_bayes_factor=diagnosis.ranking.get(cause.name, cause.ln_bayes_factor))
+        for cause in diagnosis.mechanisms
+        if cause.name in kept
+    )
     withdrawn_names = (
         names[:1] if diagnosis.verdict == "group" else [name for name in names if name not in kept]
     )

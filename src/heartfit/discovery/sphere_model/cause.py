@@ -4,8 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-import numpy as np
-
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import BesideProcess, Verdict
 from heartfit.discovery.sphere_model.strokes import Strokes
@@ -75,9 +73,11 @@ class CurveFit:
 class Trace:
     """A measured curve (k,) [SI] beside the fitted ones: ``none`` without and ``extended`` with the cause.
 
-    noise (k,): standard deviation of the samples; lacking, band (k,): discrepancy of the model without the cause and
-    its standard deviation; structure (k,): standard deviation that the structural covariance allows it, at the most
-    probable scale, None where the model is trusted.
+    noise (k,): standard deviation of the samples; lacking, band (k,): GP discrepancy that the search fits in place of
+    the cause, and its standard deviation, no residual of a curve shown; None where none was fitted; structure (k,):
+    standard deviation that the structural covariance allows the model, at the most probable scale, None where the model
+    is trusted; mean_noise (k,): standard deviation of the mean over all samples in the phase of each, None where the
+    samples err independently.
     """
 
     curve: str
@@ -86,9 +86,10 @@ class Trace:
     none: Floats
     extended: Floats
     noise: Floats
-    lacking: Floats
-    band: Floats
+    lacking: Floats | None
+    band: Floats | None
     structure: Floats | None = None
+    mean_noise: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -197,6 +198,10 @@ class FittedModel:
     unknowns: int
 
 
+ShownModel = Literal["sphere", "3-D heart"]
+"""The model of the search, or the refitted one."""
+
+
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
     """The verdict and its grounds.
@@ -222,6 +227,8 @@ class Diagnosis:
       one for each; both empty where no place is detected.
     - strokes: of both ventricles, None without a right volume.
     - read_twice: standard deviation of the noise [SI] of curves that were read twice.
+    - model, free_parameters: whose curves the traces show, and how many parameters it has free without a cause, 0 where
+      it is not told.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
     - fits: of the curves about the 3-D model without a cause, empty where none was refitted.
     """
@@ -251,45 +258,11 @@ class Diagnosis:
     functions: tuple[PlaceFunction, ...] = ()
     strokes: Strokes | None = None
     read_twice: Mapping[str, float] = field(default_factory=dict)
-    fits: tuple[CurveFit, ...] = ()
+    model: ShownModel = "sphere"
+    free_parameters: int = 0
     candidate: UnnamedCandidate | None = None
+    fits: tuple[CurveFit, ...] = ()
 
 
 CLEAR_DEVIATIONS = 2.0
-"""Standard deviations from which a departure exceeds noise."""
-
-
-@dataclass(frozen=True)
-class Departure:
-    """Simulated minus measured value of a curve [SI], its standard deviation, time after the trigger [s], and phase.
-
-    The phase is empty where the beat has none.
-    """
-
-    curve: str
-    phase: str
-    time: float
-    size: float
-    sd: float
-
-    @property
-    def deviations(self) -> float:
-        """The size in standard deviations; positive where the simulation is too high."""
-        return self.size / self.sd
-
-    @property
-    def clear(self) -> bool:
-        """True if the departure exceeds noise."""
-        return abs(self.deviations) >= CLEAR_DEVIATIONS
-
-
-def departures(diagnosis: Diagnosis) -> list[Departure]:
-    """The largest departure of each curve, of the simulation without a cause."""
-    return [_departure(trace, diagnosis) for trace in diagnosis.traces]
-
-
-def _departure(trace: Trace, diagnosis: Diagnosis) -> Departure:
-    worst = int(np.argmax(np.abs(trace.lacking) / trace.band))
-    time = float(trace.times[worst] % diagnosis.period)
-    phase = "" if diagnosis.phases is None else diagnosis.phases.names_at(np.array([time]))[0]
-    return Departure(trace.curve, phase, time, -float(trace.lacking[worst]), float(trace.band[worst]))
+"""Standard deviations from which a change or a function of time is clear."""
