@@ -17,7 +17,7 @@ from heartfit.discovery.inference.error_ratio import error_ratio
 
 SEED, DRAWS = 101, 1000
 SHARED = (0.5, 0.72)
-"""Correlations of both errors: that of half the error which is all noise, and that of hidden1 of the study."""
+"""Correlations of both errors: that of half the error which is all noise, and about that of hidden1 of the study."""
 CORRELATIONS = ((0.0, 0.0), (0.2, 0.2), (0.4, 0.4), (0.7, 0.7), (0.7, 0.2))
 """Correlations of errors that are one step apart, without and with the mechanism."""
 BLOCKS = np.concatenate([np.arange(4.0) + 8.0 * block for block in range(10)])
