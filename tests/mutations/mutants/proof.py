@@ -58,8 +58,22 @@ PROOF_MUTANTS = (
         ),
         (
             "the final size is judged at the prior mean",
-            "predicted = stack(sample(fitted.shown.curves, self.complete.samples))",
-            "predicted = 0.0 * stack(sample(fitted.shown.curves, self.complete.samples))",
+            "return stack(sample(fitted.shown.curves, self.complete.samples))",
+            "return 0.0 * stack(sample(fitted.shown.curves, self.complete.samples))",
+        ),
+    ),
+    *changes(
+        "results/discovery.py",
+        "tests/results/test_discovery_table.py",
+        (
+            "the factor printed is that of the weakest mechanism",
+            "owner, factor = max(ranked.items()",
+            "owner, factor = min(ranked.items()",
+        ),
+        (
+            "the factor printed is the largest of the ranking",
+            "elif ranked := factors or {",
+            "elif ranked := {",
         ),
     ),
     *changes(
