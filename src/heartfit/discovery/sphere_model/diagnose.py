@@ -101,6 +101,7 @@ def conclude(
         structural_scale=case.findings.structural_scale,
         changes=case.changes(best),
         strokes=Strokes.from_recording(case.recording),
+        read_twice={name: noise.deviation for name, noise in case.recording.noise.items()},
         free_parameters=len(case.model.base),
         candidate=case.candidate(),
         margin=case.findings.margin,
