@@ -15,10 +15,10 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.measured_table import read_table, store_table
-from heartfit.discovery.inference.margin import CLOSE, margin
+from heartfit.discovery.inference.margin import CLOSE
 from heartfit.discovery.sphere_model.recording import Recording, Samples
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
-from heartfit.synthetic.campaign import PlantedPlan, plantable
+from heartfit.synthetic.campaign import PlantedPlan, Population, plantable
 from heartfit.synthetic.case import REST, plant
 
 MODULE, TABLE, SUMMARY = "benchmarks.stable_evidence", "stable_evidence_hearts", "stable_evidence"
@@ -47,7 +47,7 @@ def main(hearts: int) -> None:
 def plan_of(number: int) -> PlantedPlan:
     """Return a sound heart for even numbers, a hidden one for odd ones; two of four are misspecified."""
     seed, hidden = FIRST_SEED + number, number % 2 == 1
-    population = "misspecified" if number % 4 > 1 else "as searched"
+    population: Population = "misspecified" if number % 4 > 1 else "as searched"
     if not hidden:
         return PlantedPlan(seed, "none", population=population)
     name = str(np.random.default_rng(seed).choice(sorted(plantable())))
@@ -75,7 +75,7 @@ def measured(plan: PlantedPlan) -> Mapping[str, str]:
     leading = sorted(tables[0], key=tables[0].__getitem__, reverse=True)[:LEADING]
     moves = [max(abs(table.get(name, np.inf) - tables[0][name]) for name in leading) for table in tables[1:]]
     first = [abs(table[leading[0]] - tables[0][leading[0]]) for table in tables[1:]]
-    nearest = [margin(one.findings.evidences, one.rules) for one in searches]
+    nearest = [one.findings.margin for one in searches]
     return {
         "seed": str(plan.seed),
         "population": plan.population,

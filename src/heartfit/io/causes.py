@@ -92,6 +92,7 @@ class CauseFile:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
+    read_twice: Mapping[str, float] = field(default_factory=dict)
     model: ShownModel = "sphere"
     free_parameters: int = 0
     candidate: UnnamedCandidate | None = None

@@ -116,4 +116,19 @@ def unsearched_sentences(diagnosis: Diagnosis) -> list[str]:
 
 def misfit_lines(diagnosis: Diagnosis) -> Sequence[str]:
     """Return all sentences on the misfit in reading order."""
-    return [*misfit_sentences(diagnosis), *unsearched_sentences(diagnosis), *misfit_remarks(diagnosis)]
+    return [
+        *misfit_sentences(diagnosis),
+        *unsearched_sentences(diagnosis),
+        *reading_sentences(diagnosis),
+        *misfit_remarks(diagnosis),
+    ]
+
+
+def reading_sentences(diagnosis: Diagnosis) -> list[str]:
+    """Return one sentence per curve that was read twice: its noise, and what the two readings share."""
+    return [
+        f"The {CURVES[name]} was read twice. The difference of both readings gives a noise of {deviation / size:.1f} "
+        f"{unit}, in which an error that they share, as of the length of the cavity, does not show."
+        for name, deviation in diagnosis.read_twice.items()
+        for unit, size in [printed_curve_unit(name)]
+    ]

@@ -8,7 +8,7 @@ from heartfit.discovery.inference.margin import CLOSE, Margin
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
 from heartfit.discovery.sphere_model.misfit import departures
 from heartfit.results.acting_places import acting_sentence
-from heartfit.results.text import AMPLITUDE_UNITS, CURVES, spaced_name
+from heartfit.results.text import AMPLITUDE_UNITS, CURVES, printed_ratio, spaced_name
 from heartfit.roles import registered
 
 UNKNOWN = "unknown"
@@ -99,7 +99,20 @@ def verdict_lines(diagnosis: Diagnosis) -> list[str]:
     """Return the lines below the headline, one fact each."""
     candidate = [candidate_sentence(diagnosis)] if diagnosis.candidate else []
     close = [close_sentence(diagnosis.margin)] if diagnosis.margin else []
-    return [*evidence_lines(diagnosis), *close, *candidate, *size_lines(diagnosis)]
+    lines = [*evidence_lines(diagnosis), *close, *candidate, *size_lines(diagnosis)]
+    return [*lines, *objection_lines(diagnosis)]
+
+
+def objection_lines(diagnosis: Diagnosis) -> list[str]:
+    """Return one line for each held-out curve that what is named makes worse beyond chance."""
+    if not diagnosis.mechanisms:
+        return []
+    return [
+        f"Against it: the {CURVES.get(gain.curve, gain.curve)} ({gain.on}) fits worse with it, error ratio "
+        f"{printed_ratio(gain.ratio, gain.interval)}."
+        for gain in diagnosis.gain
+        if gain.objects
+    ]
 
 
 def candidate_causes(diagnosis: Diagnosis) -> tuple[Cause, ...]:

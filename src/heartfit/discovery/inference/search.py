@@ -28,6 +28,7 @@ from heartfit.discovery.inference.decide import (
 )
 from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.inference.hypothesis import Hypothesis
+from heartfit.discovery.inference.margin import Margin, margin
 from heartfit.discovery.inference.predicted_evidence import (
     CombineEffects,
     best_prediction,
@@ -234,6 +235,11 @@ class Findings:
     def best(self) -> Explanation:
         """The explanation that the decision names: the baseline where it names none."""
         return self.explanation(self.decision.effects)
+
+    @property
+    def margin(self) -> Margin | None:
+        """The smallest change of one ln evidence that changes the decision; None where it is not close."""
+        return margin(self.evidences, self.rules)
 
     def explanation(self, effects: Effects) -> Explanation:
         """The explanation by these effects; raises KeyError for effects that were not fitted."""

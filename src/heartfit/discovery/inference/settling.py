@@ -20,8 +20,8 @@ REACH = 0.1
 """Range of mean slopes to either side [prior standard deviations]."""
 SETTLING = Schedule(0.02, 0.1, longest_step=LONGEST_STEP, jacobian_refresh=1, active_set=True)
 """Steps are short, and every one has slopes of its own."""
-SIMULATION_LIMIT = 250
-"""Simulations after which a fit counts as settled: four or five Jacobians."""
+SIMULATION_LIMIT = 400
+"""Simulations after which a fit counts as settled: seven Jacobians."""
 
 
 def settle(context: FitContext, explanation: Explanation) -> Explanation:

@@ -181,14 +181,16 @@ class MeasuredCase:
     ) -> "MeasuredCase":
         """Remove the bias of measured curves.
 
-        second: another reading of the left volume; reading: whether their mean or one of them is the volume.
+        second: another reading of the left volume; reading: whether their mean or one of them is the volume. The
+        fitted frames alone give the second reading its scale, and the noise.
         """
         corrected = {name: unbiased_with_noise(name, curve, models) for name, curve in measured.items()}
         curves = {name: curve for name, (curve, _) in corrected.items()}
         noise = {name: sd for name, (_, sd) in corrected.items()}
         frames: dict[str, FrameNoise] = {}
         if second is not None:
-            curves["lv_volume"], frames["lv_volume"] = TwoReadings(curves["lv_volume"], second).take(reading)
+            readings = TwoReadings(curves["lv_volume"], second, fitted_mask(second.times.size))
+            curves["lv_volume"], frames["lv_volume"] = readings.take(reading)
             scatter = np.hypot(frames["lv_volume"].deviation, SIMULATION_ROUGHNESS["volume"])
             noise["lv_volume"] = np.full(second.times.size, scatter)
         return cls(measured, curves, noise, models, frames)

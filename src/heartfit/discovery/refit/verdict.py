@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -42,10 +43,14 @@ class Proof:
 
     def gains(self) -> list[Gain]:
         """Return the gains on the held-out part of each curve and on the strain."""
-        return [*curve_gains(self.case, self.baseline.curves, self.extended.curves), *self._strain_gains()]
+        return [*curve_gains(self.case, self.baseline.curves, self.extended.curves), *self.strain_gains]
+
+    @cached_property
+    def strain_gains(self) -> tuple[Gain, ...]:
+        """Gains on circumferential and longitudinal strain over all segments and frames."""
+        return tuple(self._strain_gains())
 
     def _strain_gains(self) -> Iterator[Gain]:
-        """Yield the gains on circumferential and longitudinal strain over all segments and frames."""
         times = self.measured.times
         simulated = (beat.motion.resample(times) for beat in (self.baseline, self.extended))
         motions = (self.measured, *simulated)
@@ -57,14 +62,17 @@ class Proof:
             yield _gain(f"{name} strain", "never fitted", frames, before, after)
 
     def helps(self) -> bool:
-        r"""Return True if the extension brings all held-out curves together nearer to the measurement.
+        r"""Return True if the extension brings all held-out curves and the strain together nearer to the measurement.
 
         .. math:: \sum_c \frac{e_c^2 - b_c^2}{\sigma_c^2 + b_c^2} < 0
 
         with the mean square errors b without and e with the extension, and the noise sigma. A curve that the model
-        misses by far without the extension is no better known than this miss, so it does not outvote the others.
+        misses by far without the extension is no better known than this miss, so it does not outvote the others. The
+        strain of the wall, one registered motion, has one vote: the mean over its directions, b being its noise, too.
         """
-        return sum(self._relative_change(name, held) for name, held in self.case.split.held.items()) < 0.0
+        curves = sum(self._relative_change(name, held) for name, held in self.case.split.held.items())
+        strain = [gain.ratio**2 - 1.0 for gain in self.strain_gains]
+        return curves + float(np.mean(strain)) < 0.0
 
     def _relative_change(self, name: str, held: Samples) -> float:
         before, after = (

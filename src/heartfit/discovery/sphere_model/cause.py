@@ -45,6 +45,11 @@ class Gain:
     ratio: float
     interval: tuple[float, float]
 
+    @property
+    def objects(self) -> bool:
+        """True if the cause makes the curve worse beyond chance."""
+        return self.interval[0] > 1.0
+
 
 SMALLEST_P = 0.01
 """Probability of a larger chi-squared below which a model misses a curve by more than its noise."""
@@ -222,6 +227,7 @@ class Diagnosis:
     - acting: of an unknown effect the regions on which it may act, the most probable first; functions: what acts there,
       one for each; both empty where no place is detected.
     - strokes: of both ventricles, None without a right volume.
+    - read_twice: standard deviation of the noise [SI] of curves that were read twice.
     - model, free_parameters: whose curves the traces show, and how many parameters it has free without a cause, 0 where
       it is not told.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
@@ -253,6 +259,7 @@ class Diagnosis:
     acting: tuple[ActingPlace, ...] = ()
     functions: tuple[PlaceFunction, ...] = ()
     strokes: Strokes | None = None
+    read_twice: Mapping[str, float] = field(default_factory=dict)
     model: ShownModel = "sphere"
     free_parameters: int = 0
     candidate: UnnamedCandidate | None = None

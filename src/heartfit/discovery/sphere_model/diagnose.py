@@ -4,7 +4,6 @@ from collections.abc import Collection, Mapping, Sequence
 from functools import partial
 
 from heartfit.discovery.inference.decide import CHANGE_RULES, DEFAULT_RULES, Effects, Rules, Verdict
-from heartfit.discovery.inference.margin import margin
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.consistency import implausible
 from heartfit.discovery.sphere_model.earlier import EarlierHeart
@@ -102,9 +101,10 @@ def conclude(
         structural_scale=case.findings.structural_scale,
         changes=case.changes(best),
         strokes=Strokes.from_recording(case.recording),
+        read_twice={name: noise.deviation for name, noise in case.recording.noise.items()},
         free_parameters=len(case.model.base),
         candidate=case.candidate(),
-        margin=margin(case.findings.evidences, case.rules),
+        margin=case.findings.margin,
     )
 
 
