@@ -1,7 +1,6 @@
 """Effects of departures from the paper; writes the tables deviations_*.tsv of docs/measured, ten minutes.
 
-python -m benchmarks.deviations RESULTS   RESULTS: folder of a finished study, of which virtual hearts and templates
-are read
+python -m benchmarks.deviations RESULTS   RESULTS: folder of a finished study, of which virtual hearts are read
 
 Then `python3 study.py numbers` writes docs/deviations.md.
 """

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.deviations_step import ADDITIVE, LOGARITHMIC, take_step
+from benchmarks.ventricles import ROOT
 from heartfit.calibration.unscented import CachedForward, Forward, Outcome
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.fibres import prepare
@@ -23,6 +24,7 @@ from heartfit.heart.beat import Beat
 from heartfit.io.beats import read_beat
 from heartfit.io.meshes import read_mesh
 from heartfit.io.results import read_truth
+from heartfit.io.templates import TEMPLATES, find_template
 from heartfit.observation.beat import beat_curves
 from heartfit.observation.operator import VolumeFeatures, cavity_indices, observe
 from heartfit.personalise.numerics import TimeScheme
@@ -30,7 +32,7 @@ from heartfit.personalise.run import run_beat
 from heartfit.personalise.setting import Setting
 from heartfit.study.case import Case
 from heartfit.study.study import Study
-from heartfit.synthetic.volunteer import OTHER_CONDUCTIONS, Template
+from heartfit.synthetic.volunteer import OTHER_CONDUCTIONS
 
 SLOPE = "starling.slope"
 """Name of the slope of the length dependence of n_0."""
@@ -49,13 +51,9 @@ class Ventricles:
     @classmethod
     def of(cls, study: Study, case: Case, results: Path) -> "Ventricles":
         """Mesh the hidden wall with the calibrator's template, as the study does, without activation."""
-        folder, size = results / case.case / "cohort", study.virtual_mesh
-        template = Template(
-            read_mesh(results / "templates" / "calibrator.vtu"), size.edge_length, size.tolerance
-        )
-        wall = template.fill_wall_of(
-            read_mesh(folder / "heart.vtu"), read_mesh(results / "templates" / "generator.vtu")
-        )
+        folder, sizes = results / case.case / "cohort", (study.virtual_mesh, study.cohort.mesh)
+        template, generator = (find_template(size, ROOT / TEMPLATES) for size in sizes)
+        wall = template.fill_wall_of(read_mesh(folder / "heart.vtu"), generator.mesh)
         features = study.observation.trial_features(study.observation.frames)
         observed = observe(beat_curves(read_beat(folder / "beat.json")), features)
         return cls(study, case, prepare(wall), observed, read_truth(folder / "truth.json"))

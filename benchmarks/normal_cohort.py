@@ -1,6 +1,6 @@
 """Draw the second cohort, seven healthy adults from normal values; writes config/normal_cases.tsv, some minutes.
 
-python -m benchmarks.normal_cohort RESULTS   RESULTS: folder of a study, of which the template of drawn hearts is read
+python -m benchmarks.normal_cohort
 
 Seeds are tried in turn from FIRST_SEED on; a heart is kept if its beat is within resources/plausible_beat.csv. The
 patients are those of config/cases.tsv.
@@ -8,14 +8,13 @@ patients are those of config/cases.tsv.
 
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 from benchmarks.ventricles import ROOT
 from heartfit.calibration.plausible import Limit
 from heartfit.io.configuration import read_study
 from heartfit.io.files import write_text
-from heartfit.io.meshes import read_mesh
 from heartfit.io.noise_models import read_limits
+from heartfit.io.templates import TEMPLATES, find_template
 from heartfit.study.study import Study
 from heartfit.synthetic.normal import NormalAdult, abnormal, draw_adult
 from heartfit.synthetic.volunteer import Template, VolunteerError, generate, hide_heart
@@ -25,16 +24,12 @@ TABLE = ROOT / "config" / "normal_cases.tsv"
 LIMITS = ROOT / "resources" / "plausible_beat.csv"
 
 
-def main(arguments: list[str]) -> int:
-    if len(arguments) != 1:
-        sys.stderr.write(f"{__doc__}\n")
-        return 2
+def main() -> int:
     study = read_study([ROOT / "config" / "config.yaml"])
-    template = read_mesh(Path(arguments[0]) / "templates" / "registration_error.vtu")
+    template = find_template(study.registration_error.mesh, ROOT / TEMPLATES)
     head, *rows = (ROOT / study.cases).read_text(encoding="utf-8").splitlines()
     patients = [row for row in rows if "\tlbbb\t" in row]
-    size = study.registration_error.mesh
-    kept = normal_adults(study, Template(template, size.edge_length, size.tolerance), read_limits(LIMITS))
+    kept = normal_adults(study, template, read_limits(LIMITS))
     drawn = [row_of(f"normal{number}", seed, adult) for number, (seed, adult) in enumerate(kept, start=1)]
     write_text(TABLE, "\n".join([head, *drawn, *patients]) + "\n")
     return 0
@@ -76,4 +71,4 @@ def row_of(name: str, seed: int, adult: NormalAdult) -> str:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

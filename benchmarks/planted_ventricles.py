@@ -10,10 +10,10 @@ from heartfit.discovery.wall_model.forward_model import WallForwardModel
 from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.io.configuration import read_study
 from heartfit.io.regional_noise import read_regional_noise
+from heartfit.io.templates import TEMPLATES, find_template
 from heartfit.study.study import Study
 from heartfit.synthetic.case import REST, PlantedCase
 from heartfit.synthetic.ventricles import ImagedBeat, Imaging, Ventricles
-from heartfit.synthetic.volunteer import Template
 
 
 @cache
@@ -27,7 +27,7 @@ def ventricles() -> Ventricles:
     """Return the planter: hidden hearts are imaged, and the diagnoser's mesh is registered."""
     planned = study().discovery_benchmark.ventricles
     sizes = planned.generator.mesh, planned.diagnoser.mesh
-    hidden, observed = (Template.build(size.edge_length, size.tolerance) for size in sizes)
+    hidden, observed = (find_template(size, ROOT / TEMPLATES) for size in sizes)
     imaging = Imaging(study().scanner(), study().registration.free_form(), observed, hidden.mesh)
     protocol = planned.generator.protocol(study().end_diastolic_pressure)
     return Ventricles(hidden, study().cohort.heart, protocol, imaging)

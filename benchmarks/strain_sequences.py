@@ -14,9 +14,10 @@ import numpy as np
 
 from benchmarks.in_turn import kept_on_disk
 from benchmarks.planted_ventricles import study
-from benchmarks.ventricles import FOLDER
+from benchmarks.ventricles import FOLDER, ROOT
 from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.imaging.registration.track import track
+from heartfit.io.templates import TEMPLATES, find_template
 from heartfit.mechanisms.delayed_activation import DelayedActivation
 from heartfit.mechanisms.scar import Scar
 from heartfit.roles import Mechanism
@@ -83,5 +84,4 @@ def _effect(number: int) -> Mechanism | None:
 
 @cache
 def _template() -> Template:
-    size = study().registration_error.mesh
-    return Template.build(size.edge_length, size.tolerance)
+    return find_template(study().registration_error.mesh, ROOT / TEMPLATES)

@@ -5,10 +5,11 @@ from collections.abc import Iterator
 from benchmarks.ventricles import ROOT
 from heartfit.io.configuration import read_study
 from heartfit.io.noise_models import read_limits
+from heartfit.io.templates import TEMPLATES, find_template
 from heartfit.observation.beat import beat_curves
 from heartfit.synthetic.normal import abnormal, draw_adult
 from heartfit.synthetic.other_worlds import OtherHeart
-from heartfit.synthetic.volunteer import Template, Volunteer, VolunteerError, generate, hide_heart
+from heartfit.synthetic.volunteer import Volunteer, VolunteerError, generate, hide_heart
 
 VENTRICLES = "ventricles"
 """Name of the model among the simulators."""
@@ -23,8 +24,7 @@ def healthy_ventricles(count: int) -> list[OtherHeart]:
 
 def _healthy_volunteers() -> Iterator[OtherHeart]:
     study = read_study([ROOT / "config" / "config.yaml"])
-    size = study.registration_error.mesh
-    template = Template.build(size.edge_length, size.tolerance)
+    template = find_template(study.registration_error.mesh, ROOT / TEMPLATES)
     protocol = study.registration_error.protocol(study.end_diastolic_pressure)
     limits = read_limits(ROOT / "resources" / "plausible_beat.csv")
     seed = FIRST_SEED

@@ -44,11 +44,7 @@ def kills(
 
 def _from_halfway(study: TinyStudy) -> None:
     study.put_back()
-    drawn_again = (
-        "templates/generator.vtu",
-        "templates/calibrator.vtu",
-    )  # kept results do not need the third
-    study.remove(*drawn_again, "volunteer1", "sensitivity", "tables", "figures")
+    study.remove("volunteer1", "sensitivity", "tables", "figures")
 
 
 def orphans(study: TinyStudy, expected: dict[str, str], chance: Random) -> list[Outcome]:

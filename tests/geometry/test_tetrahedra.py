@@ -1,8 +1,11 @@
 """The mesher in its own process: one mesh for one surface and seed, without output."""
 
+import os
 import platform
+import re
 import subprocess
 import sys
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
@@ -51,6 +54,29 @@ def test_round_off_of_another_processor_leaves_the_mesh_unchanged(
     other = tetrahedralise(nudged, 1.5, 0.5, 0)
     for array, repeated in zip(meshed, other, strict=True):
         np.testing.assert_array_equal(array, repeated)
+
+
+@pytest.mark.skipif(not SEEDABLE, reason="threads are counted on Linux only")
+def test_threads_that_mesh_in_spite_of_the_limit_are_refused(pebble: LabelledSurface) -> None:
+    """Without its limit the mesher starts one thread for each further processor, and its mesh depends on their luck."""
+    if len(os.sched_getaffinity(0)) == 1:
+        pytest.skip("with one processor the mesher starts no further thread")
+    program = (
+        "import sys; from heartfit.geometry import tetrahedra\n"
+        "tetrahedra.limit_threading_blocks = lambda library: True; tetrahedra._serve_request(sys.argv[1])"
+    )
+    request = tetrahedra._pack(pebble.points, pebble.triangles, np.array([1.5, 0.5, 0.0]))
+    with TemporaryDirectory() as scratch:
+        command = [sys.executable, "-c", program, scratch]
+        process = subprocess.run(command, input=request, capture_output=True, check=False)
+    assert process.returncode == 1
+    assert not process.stdout
+    assert re.search(rb"\d+ more threads have meshed.*expected one thread", process.stderr)
+
+
+def test_a_library_without_the_limit_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+    tetrahedra._limit_threads("libm.so.6")
+    assert "not in one thread" in capsys.readouterr().err
 
 
 def test_a_crash_of_the_mesher_is_reported_with_its_log(

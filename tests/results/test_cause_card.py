@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from heartfit.discovery.inference.decide import BesideProcess
+from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.cause import (
     Cause,
     Change,
@@ -288,3 +289,17 @@ def test_the_noise_of_a_curve_that_was_read_twice_is_said_with_what_it_misses():
         in card
     )
     assert "the length of the cavity, does not show" in card
+
+
+def test_a_close_decision_says_what_would_change_it() -> None:
+    """And a clear one says nothing of it."""
+    close = Margin(("MitralRegurgitation",), False, -0.21, "none")
+    card = markdown_card(diagnosis("named", (LEAK,), margin=close), "Case")
+    assert (
+        'Close decision: the search would give "none" if the ln evidence of mitral regurgitation were 0.21 lower'
+        in card
+    )
+    on_top = Margin(("MitralRegurgitation",), True, 0.4, "unknown")
+    card = markdown_card(diagnosis("named", (LEAK,), margin=on_top), "Case")
+    assert "a smooth error on top of mitral regurgitation were 0.40 higher" in card
+    assert "Close decision" not in markdown_card(diagnosis("named", (LEAK,)), "Case")

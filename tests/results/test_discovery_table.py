@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from heartfit.discovery.inference.decide import BesideProcess
-from heartfit.discovery.sphere_model.cause import UnnamedCandidate
+from heartfit.discovery.sphere_model.cause import CurveFit, UnnamedCandidate
 from heartfit.results.discovery import DiscoveryResult, discovery_table, printed_findings
 from heartfit.synthetic.campaign import Effect
+from tests.printed import numbers_in
 from tests.results.report.small_report import WAVE, diagnosis
 
 LEAK = Effect("MitralRegurgitation", 3.5e-5, 0.0, "m^2", 2.8)
@@ -113,6 +114,20 @@ def test_a_candidate_is_printed_as_not_named() -> None:
     assert [frame.loc[f"said {when}", "text"] for when in ("by the search", "after the refit")] == [
         expected
     ] * 2
+
+
+def test_each_curve_of_a_refit_has_its_chi_squared_and_the_probability_of_more() -> None:
+    right = CurveFit("rv_volume", 11.9, 19.1, 0.891)
+    silent = replace(diagnosis(), verdict="none", mechanisms=(), refitted=None, gain=(), fits=(right,))
+    frame = numbers(DiscoveryResult("sound1", "physical", silent, silent, (), TRUTH))
+    row = frame.loc["chi-squared: right ventricular volume, without a mechanism"]
+    assert row["value"] == pytest.approx(0.891)
+    assert numbers_in(row["text"]) == [11.9, 19.1, 0.89]
+    extended = replace(proved({"K": 1.0}, {"K": 2.0}), fits=(right,))
+    extended = replace(extended, refitted=replace(extended.refitted, fits=(replace(right, p=0.3),)))
+    frame = numbers(DiscoveryResult("hidden1", "physical", diagnosis(), extended, (LEAK,), TRUTH))
+    rows = [name for name in frame.index if name.startswith("chi-squared")]
+    assert frame.loc[rows, "value"].tolist() == pytest.approx([0.891, 0.3])
 
 
 def test_cases_are_columns_in_print_with_one_row_for_each_finding() -> None:

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from heartfit.results.drift import StoredTables, drift_table, find_moves
+from heartfit.results.stages import in_order
 
 STORED = {
     "table1": pd.DataFrame(
@@ -118,7 +119,7 @@ def test_a_number_drifts_elsewhere_beyond_a_thousandth_and_its_last_digit(value:
         (
             "1.8",
             THERE,
-            "1 of 8 cells lie outside the stored tables, on another processor or software: drift.csv lists",
+            "1 of 8 cells lie outside the stored tables, on another processor or software; the first in the order",
         ),
         (
             "1.73413",
@@ -132,6 +133,31 @@ def test_one_line_says_whether_the_tables_agree(text: str, machine: dict[str, st
     line = drift.line("drift.csv")
     assert expected in line
     assert "\n" not in line
+
+
+def test_a_mesh_that_differs_is_named_before_the_numbers_that_follow_from_it() -> None:
+    meshes = pd.DataFrame({"mesh": ["template coarse"], "nodes": ["607"], "hash": ["6017b703fd248010"]})
+    stored = {**STORED, "meshes": meshes}
+    other = meshes.assign(nodes="627", hash="46524a818edc0000")
+    drift = StoredTables(stored, HERE, {}).compared(
+        {**changed("discovery", 0, "text", "no"), "meshes": other}, HERE
+    )
+    assert [move.cell[0] for move in drift.drifted] == ["meshes", "meshes", "discovery"]
+    first = "the first in the order of the study: meshes, row 1 (template coarse, 6017b703fd248010), nodes: 607 before"
+    assert first in drift.line("drift.csv")
+
+
+def test_tables_are_in_the_order_in_which_a_study_makes_them() -> None:
+    made = [
+        "meshes",
+        "patient1_cine_volume",
+        "prior",
+        "sensitivity_physical",
+        "numbers",
+        "table1",
+        "discovery",
+    ]
+    assert in_order(sorted(made)) == made
 
 
 def test_a_study_without_some_cases_is_not_compared() -> None:

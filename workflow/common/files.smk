@@ -3,6 +3,7 @@
 from heartfit.io.fingerprint import PACKAGE
 from heartfit.io.noise_models import stored_noise_model
 from heartfit.io.sources import source_files
+from heartfit.io.templates import stored_template
 from heartfit.results.report.record import TITLES
 
 TABLE_SUFFIXES = ("csv", "md", "tex")
@@ -128,9 +129,14 @@ def noise_model(wildcards):
     return [NOISE_MODEL] if wildcards.case in VIRTUAL else []
 
 
+def template_file(use):
+    """Template of the meshes of this use: stored, or of a size that this study meshes."""
+    return stored_template(STUDY.templates()[use]) or f"<results>/templates/{use}.vtu"
+
+
 def hidden_template(wildcards):
     """Template of the hidden mesh of a virtual case."""
-    return f"<results>/templates/{'sealed' if wildcards.case in SEALED else 'generator'}.vtu"
+    return template_file("sealed" if wildcards.case in SEALED else "generator")
 
 
 def hidden_effects(wildcards):
@@ -140,7 +146,22 @@ def hidden_effects(wildcards):
 
 def model_template(wildcards):
     """Template of the mesh on which a virtual case is calibrated."""
-    return f"<results>/templates/{'coarse' if wildcards.case in SEALED else 'calibrator'}.vtu"
+    return template_file("coarse" if wildcards.case in SEALED else "calibrator")
+
+
+TEMPLATES = [
+    *(["generator", "calibrator"] if VIRTUAL else []),
+    *(["sealed", "coarse"] if SEALED else []),
+    *(["registration_error"] if VIRTUAL and NOISE_MODEL == LEARNT_NOISE else []),
+]
+# all that a mesher makes, by name
+MESHES = {
+    **{f"template {use}": template_file(use) for use in TEMPLATES},
+    **{case: f"<results>/{case}/geometry/mesh.vtu" for case in WITHOUT_TRUTH},
+    **{
+        f"{case}, coarse": f"<results>/{case}/discovery/mesh.vtu" for case, _ in REFITTED if case in COARSENED
+    },
+}
 
 
 def refit_mesh(wildcards):
@@ -240,7 +261,7 @@ STUDY_TABLES = [
 def study_tables():
     return [
         *expand("<results>/tables/{name}.md", name=STUDY_TABLES),
-        *expand("<results>/tables/{name}.csv", name=("posteriors", "curves")),
+        *expand("<results>/tables/{name}.csv", name=("posteriors", "curves", "meshes")),
     ]
 
 

@@ -188,6 +188,7 @@ rule discover:
         [f"<results>/{case}/discovery/{setting}/cause.md" for case, setting in REFITTED],
         [f"<results>/tables/{case}_{setting}_extension.md" for case, setting in REFITTED],
         ["<results>/tables/discovery.md"] if REFITTED else [],
+        "<results>/tables/meshes.csv",
         [
             f"<results>/{case}/discovery/{setting}/readings/{reading}/cause.json"
             for case, setting in REFITTED
@@ -227,8 +228,8 @@ ELEMENT_PARAMS = {
 
 rule compare_elements:
     input:
-        generator="<results>/templates/generator.vtu",
-        template="<results>/templates/calibrator.vtu",
+        generator=template_file("generator"),
+        template=template_file("calibrator"),
         kernels="<results>/kernels.json",
     output:
         table=table_files("element"),

@@ -47,8 +47,8 @@ rule diagnose_planted:
 
 rule plant_ventricles:
     input:
-        generator="<results>/templates/planted.vtu",
-        template="<results>/templates/diagnoser.vtu",
+        generator=template_file("planted"),
+        template=template_file("diagnoser"),
         kernels="<results>/kernels.json",
     output:
         measured=directory("<results>/discovery_benchmark/ventricles/measured/{number}"),

@@ -14,7 +14,7 @@ rule fetch_measured_heart:
         "../scripts/fetch_measured_heart.py"
 
 
-# one mesh of each size, which every virtual heart deforms to its own wall
+# the mesh that every virtual heart deforms to its own wall, of a size of which resources/templates has none
 rule build_template:
     output:
         "<results>/templates/{template}.vtu",
@@ -24,6 +24,9 @@ rule build_template:
         "<benchmarks>/templates/{template}.tsv"
     wildcard_constraints:
         template=match_any(STUDY.templates()),
+    resources:
+        mem_mb=2000,
+        runtime=10,
     params:
         size=template_size_of,
         stated=configuration_text(template_size_of),

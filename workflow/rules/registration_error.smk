@@ -1,6 +1,6 @@
 rule draw_volunteer:
     input:
-        template="<results>/templates/registration_error.vtu",
+        template=template_file("registration_error"),
         kernels="<results>/kernels.json",
     output:
         mesh="<results>/registration_error/hearts/{number}.vtu",

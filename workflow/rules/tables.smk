@@ -80,6 +80,20 @@ rule judge_claims:
         "../scripts/judge_claims.py"
 
 
+rule tabulate_meshes:
+    input:
+        list(MESHES.values()),
+    output:
+        "<results>/tables/meshes.csv",
+    resources:
+        mem_mb=500,
+        runtime=2,
+    params:
+        names=list(MESHES),
+    script:
+        "../scripts/tabulate_meshes.py"
+
+
 EXCHANGED_FILES = {
     "measured": expand(
         "<results>/{case}/curves/{file}", case=CASES, file=("measured.csv", "observations.json")
@@ -138,4 +152,5 @@ use rule check_numbers as check_discovered with:
     input:
         [f"<results>/tables/{case}_{setting}_extension.csv" for case, setting in REFITTED],
         ["<results>/tables/discovery.csv"] if REFITTED else [],
+        "<results>/tables/meshes.csv",
         stored_tables,

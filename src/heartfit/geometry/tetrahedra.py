@@ -5,8 +5,8 @@ shuffles with a number from the C++ library's random device, and offers no way t
 docs/decisions/021-same-mesh-twice.md. Its second generator starts from a constant, once in a process. So each mesh is
 made in a process of its own, `python -m heartfit.geometry.tetrahedra`, in which the random device returns the seed: the
 first bytes of the one function of libstdc++ that draws the number are replaced, in the memory of this process alone, by
-`return seed`. The input is rounded, because two processors agree on a surface only to the last digit but one, and the
-mesher would turn that difference into another mesh.
+`return seed`. It runs in one thread. The input is rounded, because two processors agree on a surface only to the last
+digit but one, and the mesher would turn that difference into another mesh.
 """
 
 import ctypes
@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 
 from heartfit.core.arrays import Floats, Integers
+from heartfit.geometry.one_thread import limit_other_libraries, limit_threading_blocks, living_threads
 from heartfit.geometry.surface import LabelledSurface
 
 Array = Floats | Integers
@@ -65,6 +66,21 @@ def _warn_unseeded(reason: str) -> bool:
     """Report on the standard error that meshes are not reproducible; return False."""
     sys.stderr.write(f"mesher: not seeded, a second mesh will differ from this one: {reason}\n")
     return False
+
+
+def _limit_threads(library: str) -> None:
+    """Limit the mesher to one thread; report on the standard error where this library has no such limit."""
+    if not limit_threading_blocks(library):
+        sys.stderr.write("mesher: not in one thread, a second mesh may differ from this one\n")
+
+
+def _require_no_new_thread(before: int) -> None:
+    """Raise RuntimeError if the process has more threads than before the meshing, which depend on their luck."""
+    started = living_threads() - before
+    if started > 0:
+        raise RuntimeError(
+            f"{started} more threads have meshed, so that another run may give another mesh; expected one thread in all"
+        )
 
 
 def tetrahedralise(
@@ -129,13 +145,17 @@ def _serve_request(scratch: str) -> None:
 def _mesh_inside(
     points: Array, triangles: Array, edge_length: float, tolerance: float, seed: float
 ) -> tuple[Array, Array]:
+    limit_other_libraries()
     import wildmeshing.wildmeshing as engine  # only in this subprocess, whose random device is replaced
 
+    _limit_threads(engine.__file__)
     seed_random_device(engine.__file__, int(seed))
     mesher = engine.Tetrahedralizer(epsilon=tolerance, edge_length_r=edge_length, coarsen=True, max_threads=1)
     mesher.set_log_level(6)
     mesher.set_mesh(points, triangles.astype(np.int32))
+    threads = living_threads()
     mesher.tetrahedralize()
+    _require_no_new_thread(threads)
     vertices, tets, _ = mesher.get_tet_mesh(manifold_surface=True)
     return vertices, tets.astype(np.int64)
 

@@ -13,6 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.cause import (
     ActingPlace,
     Cause,
@@ -96,6 +97,7 @@ class CauseFile:
     free_parameters: int = 0
     candidate: UnnamedCandidate | None = None
     fits: tuple[CurveFit, ...] = ()
+    margin: Margin | None = None
     made_by: str = ""
 
     @classmethod

@@ -118,7 +118,15 @@ def _means(axes: Axes, times: Floats, residual: Floats, diagnosis: Diagnosis, sh
         runs = np.split(times[inside], np.flatnonzero(np.diff(np.flatnonzero(inside)) > 1) + 1)
         lows, highs = [run[0] for run in runs], [run[-1] for run in runs]
         mean = np.full(len(runs), residual[inside].mean())
-        axes.hlines(mean, lows, highs, color=shade, linewidth=2.4, label=label if place == 0 else "_")
+        axes.hlines(
+            mean,
+            lows,
+            highs,
+            color=shade,
+            linewidth=2.4,
+            capstyle="round",
+            label=label if place == 0 else "_",
+        )
 
 
 def _mark(axes: Axes, departure: Departure, diagnosis: Diagnosis) -> None:

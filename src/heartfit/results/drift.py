@@ -16,6 +16,8 @@ from math import inf
 
 import pandas as pd
 
+from heartfit.results.stages import in_order
+
 RELATIVE = 1e-3
 """Share by which a number may move on another processor."""
 MARGIN = 3.0
@@ -90,7 +92,10 @@ class StoredTables:
 
 @dataclass(frozen=True, eq=False)
 class Drift:
-    """Cells that differ from the stored ones, those that drifted among them, and the number of compared cells."""
+    """Cells that differ from the stored ones, those that drifted among them, and the number of compared cells.
+
+    moves, drifted: in the order of the study, so that the others may follow from the first.
+    """
 
     moves: Sequence[Move]
     drifted: Sequence[Move]
@@ -114,8 +119,9 @@ class Drift:
             else "another processor or software"
         )
         return (
-            f"{len(self.drifted)} of {self.cells} cells lie outside the stored tables, on {here}: {listed_in} lists "
-            "them; docs/what_the_numbers_mean.md#drift says what that means."
+            f"{len(self.drifted)} of {self.cells} cells lie outside the stored tables, on {here}; the first in the "
+            f"order of the study: {self.drifted[0]}. {listed_in} lists them; docs/what_the_numbers_mean.md#drift says "
+            "what that means."
         )
 
     def table(self) -> pd.DataFrame:
@@ -134,9 +140,12 @@ def drift_table(drift: Drift, left_out: str = "") -> pd.DataFrame:
 
 
 def find_moves(stored: Tables, tables: Tables) -> list[Move]:
-    """Return every stored cell that differs; a missing table, other columns or rows are one move without a column."""
+    """Return every stored cell that differs, in the order in which a study makes the tables.
+
+    A missing table, other columns or rows are one move without a column.
+    """
     moves: list[Move] = []
-    for name in sorted(stored):
+    for name in in_order(stored):
         if name in tables:
             moves.extend(_moves_of(name, stored[name], tables[name]))
         else:

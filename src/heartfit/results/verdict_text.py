@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from heartfit.discovery.inference.margin import CLOSE, Margin
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
 from heartfit.discovery.sphere_model.misfit import departures
 from heartfit.results.acting_places import acting_sentence
@@ -97,12 +98,14 @@ def mechanism_with_size(cause: Cause) -> str:
 def verdict_lines(diagnosis: Diagnosis) -> list[str]:
     """Return the lines below the headline, one fact each."""
     candidate = [candidate_sentence(diagnosis)] if diagnosis.candidate else []
-    return [*evidence_lines(diagnosis), *candidate, *size_lines(diagnosis), *objection_lines(diagnosis)]
+    close = [close_sentence(diagnosis.margin)] if diagnosis.margin else []
+    objections = objection_lines(diagnosis)
+    return [*evidence_lines(diagnosis), *close, *candidate, *size_lines(diagnosis), *objections]
 
 
 def objection_lines(diagnosis: Diagnosis) -> list[str]:
-    """Return one line for each held-out curve that what is named makes worse beyond chance."""
-    if not diagnosis.mechanisms:
+    """Return one line for each held-out curve that a name or a candidate makes worse beyond chance."""
+    if not (diagnosis.mechanisms or diagnosis.candidate):
         return []
     return [
         f"Against it: the {CURVES.get(gain.curve, gain.curve)} ({gain.on}) fits worse with it, error ratio "
@@ -176,11 +179,19 @@ def size_lines(diagnosis: Diagnosis) -> Iterable[str]:
             yield f"Size of {spaced_name(cause.name)}: {kind.switch().meaning}."
     if sized:
         proved = diagnosis.refitted
-        model = "the refit in three dimensions" if proved else "the sphere of the search"
+        model = "the refit in three dimensions" if proved else "the fit of the sphere"
         final = proved.from_all_samples if proved else diagnosis.from_all_samples
-        samples = (
-            "all samples, after one half of them had judged the name"
-            if final
-            else "the samples that were fitted"
-        )
-        yield f"From {model}, by {samples}."
+        samples = "all samples, after one half of them had judged" if final else "the samples that choose"
+        yield f"Sizes are from {model} to {samples}."
+
+
+def close_sentence(margin: Margin) -> str:
+    """Return "Close decision: the search would give "none" if the ln evidence of catheter offset were 0.21 lower"."""
+    words = {"baseline": "the model without a mechanism", UNKNOWN: "a smooth error of the model"}
+    whose = " and ".join(words.get(name, spaced_name(name)) for name in margin.explanation)
+    of = f"a smooth error on top of {whose}" if margin.on_top else whose
+    direction = "higher" if margin.change > 0.0 else "lower"
+    return (
+        f'Close decision: the search would give "{margin.verdict}" if the ln evidence of {of} were '
+        f"{abs(margin.change):.2f} {direction}; numerical errors may move it by {CLOSE:g}."
+    )

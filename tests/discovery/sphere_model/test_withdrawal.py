@@ -95,6 +95,7 @@ class Searched:
             survey=SimpleNamespace(baseline=baseline, singles=list(at.values())),
             evidences=SimpleNamespace(baseline=0.0, discrepancy=self.discrepancy),
             structural_scale=self.scale,
+            margin=None,
         )
 
     @property

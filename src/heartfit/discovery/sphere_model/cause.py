@@ -6,6 +6,7 @@ from typing import Literal
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import BesideProcess, Verdict
+from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.observation.beat import BeatPhases
 from heartfit.places import Region
@@ -230,6 +231,7 @@ class Diagnosis:
     - model, free_parameters: whose curves the traces show, and how many parameters it has free without a cause, 0 where
       it is not told.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
+    - margin: the smallest change of one ln Z that changes the decision of the search; None if it is not close.
     - fits: of the curves about the 3-D model without a cause, empty where none was refitted.
     """
 
@@ -262,6 +264,7 @@ class Diagnosis:
     free_parameters: int = 0
     candidate: UnnamedCandidate | None = None
     fits: tuple[CurveFit, ...] = ()
+    margin: Margin | None = None
 
 
 CLEAR_DEVIATIONS = 2.0

@@ -104,6 +104,7 @@ def conclude(
         read_twice={name: noise.deviation for name, noise in case.recording.noise.items()},
         free_parameters=len(case.model.base),
         candidate=case.candidate(),
+        margin=case.findings.margin,
     )
 
 

@@ -1,0 +1,13 @@
+"""Tabulate the meshes that the study rests on, with their hashes."""
+
+from pathlib import Path
+
+from heartfit.io.meshes import read_mesh
+from heartfit.io.run import record
+from heartfit.io.tables import write_csv
+from heartfit.results.mesh_table import mesh_table
+
+record(snakemake.log[0])
+meshes = map(read_mesh, map(Path, snakemake.input))
+table = mesh_table(dict(zip(snakemake.params.names, meshes, strict=True)))
+write_csv(Path(snakemake.output[0]), table)
