@@ -185,6 +185,8 @@ def test_the_number_of_a_sentence_is_the_mean_of_the_residuals_that_are_drawn(ca
         assert ("too high" in sentence) == (mean > 0.0)
         assert ("no misfit" in sentence) == (abs(departure.deviations) < CLEAR_MISFIT)
         assert f"{printed[0]:g} ± {printed[1]:g}" in panel.get_title()
+        bars = [segment for lines in panel.collections for segment in getattr(lines, "get_segments", list)()]
+        assert any(bar[0, 1] == pytest.approx(mean) for bar in bars), "the mean is drawn, too"
 
 
 @every_case

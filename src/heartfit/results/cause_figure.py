@@ -29,10 +29,10 @@ def plot_cause(diagnosis: Diagnosis) -> Figure:
 
     Both over the phases of the beat. A bar is the mean residual of a phase; the title tells that of the simulation
     without a cause which is clearest beside its noise, and its phase is shaded where it exceeds it. A blue band is what
-    structure lets the simulation err; of the verdict unknown, a black line is the smooth error that explains more than
-    the library does, which is no residual. Bars on the right: ln Bayes factors over no mechanism with the detection
-    threshold (dashed). Of an unknown effect a last row shows the function at its place, with its 95 % band, and its
-    best law (dashed).
+    structure lets the simulation err; of an unknown effect without a place, a black line is the smooth error that
+    explains more than the library does, which is no residual. Bars on the right: ln Bayes factors over no mechanism,
+    with the detection threshold (dashed). Of an unknown effect a last row shows the function at its place, with its
+    95 % band, and its best law (dashed).
     """
     rows = len(diagnosis.traces)
     figure = Figure(figsize=(12.5, 1.4 + 2.6 * (rows + bool(diagnosis.functions))), layout="constrained")
@@ -94,7 +94,8 @@ def _residuals(axes: Axes, trace: Trace, diagnosis: Diagnosis) -> None:
         axes.plot(times, residual, mark, color=shade, markersize=3)
         _means(axes, times, residual, diagnosis, shade)
         shown.append(np.abs(residual))
-    if diagnosis.verdict == "unknown" and trace.lacking is not None and trace.band is not None:
+    detected = diagnosis.verdict == "unknown" and not diagnosis.acting
+    if detected and trace.lacking is not None and trace.band is not None:
         smooth, sd = -trace.lacking[order] / size, trace.band[order] / size
         axes.plot(
             times, smooth, color=MEASURED, linewidth=1.2, label="smooth error fitted with it, 95 % band"

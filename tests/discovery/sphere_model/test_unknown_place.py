@@ -7,10 +7,16 @@ from typing import cast
 
 import pytest
 
-from heartfit.discovery.inference.decide import DEFAULT_RULES
+from heartfit.discovery.inference.decide import DEFAULT_RULES, BesideProcess
 from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.sphere_model import unknown_place as module
-from heartfit.discovery.sphere_model.cause import ActingPlace, Cause, Diagnosis, PlaceFunction
+from heartfit.discovery.sphere_model.cause import (
+    ActingPlace,
+    Cause,
+    Diagnosis,
+    PlaceFunction,
+    UnnamedCandidate,
+)
 from heartfit.discovery.sphere_model.place_search import FittedPlace, RankedPlaces
 from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 from heartfit.discovery.sphere_model.unknown_place import locate
@@ -144,6 +150,14 @@ def test_without_a_name_the_best_region_is_where_something_acts(monkeypatch: pyt
     assert diagnosed.acting[0].place == "LeakPassage"
     assert diagnosed.gain == ("gain by LeakPassage",)
     assert diagnosed.alternatives == ()
+
+
+def test_a_place_takes_that_of_the_candidate(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The curves are shown with the function at the place, and one explanation is told."""
+    candidate = UnnamedCandidate((LEAK,), BesideProcess(11.2, -131.8, 130.7, 2.0, 4.0))
+    before = replace(diagnosis("unknown"), candidate=candidate)
+    assert located(monkeypatch, before, {LeakPassage: 12.0}).candidate is None
+    assert located(monkeypatch, before, {}).candidate is candidate
 
 
 def test_regions_within_the_lead_are_not_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:

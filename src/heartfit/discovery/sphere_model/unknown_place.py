@@ -174,6 +174,7 @@ def _unknown(
         diagnosis,
         verdict="unknown",
         mechanisms=(),
+        candidate=None,
         alternatives=(),
         from_all_samples=(),
         withdrawn=_withdrawn(diagnosis),
