@@ -78,4 +78,4 @@ def test_a_search_compares_settled_fits() -> None:
         oscillator.combined,
     )
     compared = (findings.survey.baseline, *findings.survey.singles[: DEFAULT_RULES.settled])
-    assert [explanation.fit.settled for explanation in compared] == [True] * 4
+    assert [explanation.fit.settled for explanation in compared] == [True] * len(compared)

@@ -43,6 +43,8 @@ CENTRE_PATIENCE = 50.0
 """Objective above that of the fit from the baseline up to which the fit from the prior mean goes on, its
 slopes fresh.
 """
+LEADING = 3
+"""Number of best effects from whose fits the baseline starts again, and which start again from the baseline."""
 FEW_PLACEMENTS = 3
 """Placements of an effect with one further unknown."""
 
@@ -160,11 +162,11 @@ def _refine(context: FitContext, at_mean: Explanation, survey: Survey, rules: Ru
     ]
     singles = rank([*respread, *refitted[rules.respread :], *survey.singles[rules.refitted :]])
     baseline = survey.baseline
-    for single in singles[: rules.settled]:
+    for single in singles[:LEADING]:
         baseline = _refit_baseline(context, baseline, single)
     nested = [
         single
-        if place >= rules.settled and _not_worse(single, baseline)
+        if place >= LEADING and _not_worse(single, baseline)
         else _better(single, fit_from_baseline(context, baseline, single.fit.hypothesis))
         for place, single in enumerate(singles)
     ]
