@@ -268,6 +268,20 @@ def test_a_change_is_a_ratio_or_a_difference(change, line):
     assert f"- `{change.name}`: {line}" in text
 
 
+def test_a_close_decision_says_what_would_change_it() -> None:
+    """And a clear one says nothing of it."""
+    close = Margin(("MitralRegurgitation",), False, -0.21, "none")
+    card = markdown_card(diagnosis("named", (LEAK,), margin=close), "Case")
+    assert (
+        'Close decision: the search would give "none" if the ln evidence of mitral regurgitation were 0.21 lower'
+        in card
+    )
+    on_top = Margin(("MitralRegurgitation",), True, 0.4, "unknown")
+    card = markdown_card(diagnosis("named", (LEAK,), margin=on_top), "Case")
+    assert "a smooth error on top of mitral regurgitation were 0.40 higher" in card
+    assert "Close decision" not in markdown_card(diagnosis("named", (LEAK,)), "Case")
+
+
 def test_a_held_out_curve_that_fits_worse_beyond_chance_speaks_against_the_name():
     """Only a whole interval above 1 does, and only against what is named."""
     gains = (
@@ -289,17 +303,3 @@ def test_the_noise_of_a_curve_that_was_read_twice_is_said_with_what_it_misses():
         in card
     )
     assert "the length of the cavity, does not show" in card
-
-
-def test_a_close_decision_says_what_would_change_it() -> None:
-    """And a clear one says nothing of it."""
-    close = Margin(("MitralRegurgitation",), False, -0.21, "none")
-    card = markdown_card(diagnosis("named", (LEAK,), margin=close), "Case")
-    assert (
-        'Close decision: the search would give "none" if the ln evidence of mitral regurgitation were 0.21 lower'
-        in card
-    )
-    on_top = Margin(("MitralRegurgitation",), True, 0.4, "unknown")
-    card = markdown_card(diagnosis("named", (LEAK,), margin=on_top), "Case")
-    assert "a smooth error on top of mitral regurgitation were 0.40 higher" in card
-    assert "Close decision" not in markdown_card(diagnosis("named", (LEAK,)), "Case")
