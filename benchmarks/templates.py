@@ -31,10 +31,10 @@ def main() -> int:
 
 def sizes() -> list[MeshSize]:
     """Sizes of the templates of every configuration, the finest first."""
-    found = {
+    named = {
         size for path in configurations() for size in read_study([CONFIGURATION, path]).templates().values()
     }
-    return sorted(found, key=lambda size: (size.edge_length, size.tolerance))
+    return sorted(named, key=lambda size: (size.edge_length, size.tolerance))
 
 
 def configurations() -> list[Path]:

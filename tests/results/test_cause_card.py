@@ -268,6 +268,31 @@ def test_a_change_is_a_ratio_or_a_difference(change, line):
     assert f"- `{change.name}`: {line}" in text
 
 
+def test_a_held_out_curve_that_fits_worse_beyond_chance_speaks_against_the_name():
+    """Only a whole interval above 1 does, and only against a name or a candidate."""
+    gains = (
+        Gain("lv_volume", "frames that were not fitted", 4e-6, 2e-6, 0.5, (0.3, 0.8)),
+        Gain("circumferential strain", "never fitted", 0.05, 0.06, 1.2, (1.1, 1.3)),
+        Gain("longitudinal strain", "never fitted", 0.05, 0.06, 1.2, (0.9, 1.6)),
+    )
+    (objection,) = objection_lines(diagnosis("named", (LEAK,), gain=gains))
+    assert objection in markdown_card(diagnosis("named", (LEAK,), gain=gains), "case")
+    assert "circumferential strain (never fitted)" in objection
+    assert "1.20 (1.10 to 1.30)" in objection
+    assert objection_lines(diagnosis("unknown", gain=gains)) == []
+    refitted = UnnamedCandidate((LEAK, DELAY), BELOW)
+    assert objection_lines(diagnosis("unknown", gain=gains, candidate=refitted)) == [objection]
+
+
+def test_the_noise_of_a_curve_that_was_read_twice_is_said_with_what_it_misses():
+    card = markdown_card(diagnosis("none", read_twice={"lv_volume": 1.3e-6}), "case")
+    assert (
+        "left ventricular volume was read twice. The difference of both readings gives a noise of 1.3 mL"
+        in card
+    )
+    assert "the length of the cavity, does not show" in card
+
+
 def test_a_close_decision_says_what_would_change_it() -> None:
     """And a clear one says nothing of it."""
     close = Margin(("MitralRegurgitation",), False, -0.21, "none")
@@ -280,26 +305,3 @@ def test_a_close_decision_says_what_would_change_it() -> None:
     card = markdown_card(diagnosis("named", (LEAK,), margin=on_top), "Case")
     assert "a smooth error on top of mitral regurgitation were 0.40 higher" in card
     assert "Close decision" not in markdown_card(diagnosis("named", (LEAK,)), "Case")
-
-
-def test_a_held_out_curve_that_fits_worse_beyond_chance_speaks_against_the_name():
-    """Only a whole interval above 1 does, and only against what is named."""
-    gains = (
-        Gain("lv_volume", "frames that were not fitted", 4e-6, 2e-6, 0.5, (0.3, 0.8)),
-        Gain("circumferential strain", "never fitted", 0.05, 0.06, 1.2, (1.1, 1.3)),
-        Gain("longitudinal strain", "never fitted", 0.05, 0.06, 1.2, (0.9, 1.6)),
-    )
-    (objection,) = objection_lines(diagnosis("named", (LEAK,), gain=gains))
-    assert objection in markdown_card(diagnosis("named", (LEAK,), gain=gains), "case")
-    assert "circumferential strain (never fitted)" in objection
-    assert "1.20 (1.10 to 1.30)" in objection
-    assert objection_lines(diagnosis("unknown", gain=gains)) == []
-
-
-def test_the_noise_of_a_curve_that_was_read_twice_is_said_with_what_it_misses():
-    card = markdown_card(diagnosis("none", read_twice={"lv_volume": 1.3e-6}), "case")
-    assert (
-        "left ventricular volume was read twice. The difference of both readings gives a noise of 1.3 mL"
-        in card
-    )
-    assert "the length of the cavity, does not show" in card

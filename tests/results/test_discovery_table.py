@@ -111,6 +111,8 @@ def test_a_candidate_is_printed_as_not_named() -> None:
     )
     frame = numbers(DiscoveryResult("patient1", "physical", unnamed, unnamed))
     expected = "insufficient (candidate, not named: mitral regurgitation)"
+    assert frame.loc["ln Bayes factor of the candidate", "value"] == 12.0
+    assert "1.4 below" in frame.loc["ln Bayes factor of the candidate", "text"]
     assert [frame.loc[f"said {when}", "text"] for when in ("by the search", "after the refit")] == [
         expected
     ] * 2

@@ -148,7 +148,7 @@ def test_a_mesh_that_differs_is_named_before_the_numbers_that_follow_from_it() -
 
 
 def test_tables_are_in_the_order_in_which_a_study_makes_them() -> None:
-    made = [
+    tables = [
         "meshes",
         "patient1_cine_volume",
         "prior",
@@ -157,7 +157,7 @@ def test_tables_are_in_the_order_in_which_a_study_makes_them() -> None:
         "table1",
         "discovery",
     ]
-    assert in_order(sorted(made)) == made
+    assert in_order(sorted(tables)) == tables
 
 
 def test_a_study_without_some_cases_is_not_compared() -> None:

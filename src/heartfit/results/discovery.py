@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from heartfit.discovery.inference.decide import BesideProcess
 from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain
 from heartfit.discovery.sphere_model.misfit import Departure, departures
 from heartfit.results.errors import root_mean_square
@@ -108,6 +109,8 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
     yield Entry("said by the search", _verdict(searched))
     yield _factor_of_the_search(searched)
     yield _number("its threshold", searched.threshold)
+    if searched.candidate:
+        yield _candidate_beside_process(searched.candidate.beside_process)
     yield Entry("said after the refit", _verdict(proved))
     if proved.refitted:
         yield from _sizes(proved.refitted.extension, "fitted half of the samples")
@@ -139,6 +142,15 @@ def _factor_of_the_search(searched: Diagnosis) -> Entry:
         owner, factor = "nothing tried", NAN
     subject = "a Gaussian process" if owner == "unknown" else owner
     return Entry("ln Bayes factor of the search", f"{factor:.1f} ({subject})", factor)
+
+
+def _candidate_beside_process(beside: BesideProcess) -> Entry:
+    side = "above" if beside.over >= 0.0 else "below"
+    text = (
+        f"{beside.gain:.1f}, {abs(beside.over):.1f} {side} a Gaussian process; "
+        f"a name needs {beside.required:g} above"
+    )
+    return Entry("ln Bayes factor of the candidate", text, beside.gain)
 
 
 def _hidden_effect(effect: Effect) -> str:

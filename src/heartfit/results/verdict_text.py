@@ -99,13 +99,13 @@ def verdict_lines(diagnosis: Diagnosis) -> list[str]:
     """Return the lines below the headline, one fact each."""
     candidate = [candidate_sentence(diagnosis)] if diagnosis.candidate else []
     close = [close_sentence(diagnosis.margin)] if diagnosis.margin else []
-    lines = [*evidence_lines(diagnosis), *close, *candidate, *size_lines(diagnosis)]
-    return [*lines, *objection_lines(diagnosis)]
+    objections = objection_lines(diagnosis)
+    return [*evidence_lines(diagnosis), *close, *candidate, *size_lines(diagnosis), *objections]
 
 
 def objection_lines(diagnosis: Diagnosis) -> list[str]:
-    """Return one line for each held-out curve that what is named makes worse beyond chance."""
-    if not diagnosis.mechanisms:
+    """Return one line for each held-out curve that a name or a candidate makes worse beyond chance."""
+    if not (diagnosis.mechanisms or diagnosis.candidate):
         return []
     return [
         f"Against it: the {CURVES.get(gain.curve, gain.curve)} ({gain.on}) fits worse with it, error ratio "

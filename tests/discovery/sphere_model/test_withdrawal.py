@@ -65,7 +65,7 @@ class Searched:
     data: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(values=np.zeros(3)))
     model: SimpleNamespace = field(
         default_factory=lambda: SimpleNamespace(
-            simulations=7, base=(), nominal=SimpleNamespace(stands_for="people")
+            simulations=7, nominal=SimpleNamespace(stands_for="people"), base=range(23)
         )
     )
     recording: SimpleNamespace = field(
@@ -134,11 +134,10 @@ class Searched:
     def ranking(self) -> dict[str, float]:
         return {}
 
-    def traces(self, _: object) -> tuple[()]:
-        return ()
+    phases: None = field(default=None, init=False)
 
-    def phases(self) -> None:
-        return None
+    def traces(self, explained: object) -> tuple[()]:
+        return ()
 
     def tried(self) -> tuple[()]:
         return ()
