@@ -269,7 +269,7 @@ def test_a_change_is_a_ratio_or_a_difference(change, line):
 
 
 def test_a_held_out_curve_that_fits_worse_beyond_chance_speaks_against_the_name():
-    """Only a whole interval above 1 does, and only against what is named."""
+    """Only a whole interval above 1 does, and only against a name or a candidate."""
     gains = (
         Gain("lv_volume", "frames that were not fitted", 4e-6, 2e-6, 0.5, (0.3, 0.8)),
         Gain("circumferential strain", "never fitted", 0.05, 0.06, 1.2, (1.1, 1.3)),
@@ -280,6 +280,8 @@ def test_a_held_out_curve_that_fits_worse_beyond_chance_speaks_against_the_name(
     assert "circumferential strain (never fitted)" in objection
     assert "1.20 (1.10 to 1.30)" in objection
     assert objection_lines(diagnosis("unknown", gain=gains)) == []
+    refitted = UnnamedCandidate((LEAK, DELAY), BELOW)
+    assert objection_lines(diagnosis("unknown", gain=gains, candidate=refitted)) == [objection]
 
 
 def test_the_noise_of_a_curve_that_was_read_twice_is_said_with_what_it_misses():
