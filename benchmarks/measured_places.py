@@ -38,7 +38,7 @@ CASE, SETTING = "patient1", "physical"
 HEARTS: dict[str, tuple[tuple[Mechanism, ...], tuple[str, ...]]] = {
     "as it is": ((), ()),
     "with an atrium and inertia": ((LeftAtrium(),), ("MitralDynamics",)),
-    "with the named mechanisms": ((), ("MitralDynamics", "RelaxedFriction")),
+    "with the two mechanisms": ((), ("MitralDynamics", "RelaxedFriction")),
 }
 """Mechanisms of their declared size, and those whose sizes are fitted first."""
 

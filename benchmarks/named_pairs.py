@@ -196,12 +196,12 @@ def _rates(name: str, rule: Candidate, hearts: Sequence[SearchedHeart]) -> dict[
 
     return {
         "margin over the process": name,
-        "pairs named right": count("two", right=True),
-        "wrong": count("two", right=False),
-        "single effects named right": count("single", right=True),
-        "wrong ": count("single", right=False),
-        "outside the library, named": count("outside", right=False),
-        "sound, named": count("none", right=False),
+        "pairs: right": count("two", right=True),
+        "pairs: wrong": count("two", right=False),
+        "single effects: right": count("single", right=True),
+        "single effects: wrong": count("single", right=False),
+        "outside the library: named": count("outside", right=False),
+        "sound: named": count("none", right=False),
     }
 
 

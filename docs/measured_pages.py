@@ -38,6 +38,7 @@ PAGES = {
             "measured_heart",
             "mutations",
             "other_worlds",
+            "pairs",
             "registration",
             "reproducible",
             "right_ventricle",

@@ -20,15 +20,22 @@ from heartfit.io.causes import (
     write_cause_card,
 )
 from heartfit.observation.beat import BeatPhases
-from heartfit.results.cause_card import departure_sentences, markdown_card
+from heartfit.results.cause_card import markdown_card
 from heartfit.results.cause_figure import render_cause
+from heartfit.results.misfit_text import misfit_sentences
 from tests.printed import numbers_in
 
 SCHEMA = Path(__file__).parents[2] / "config" / "cause.schema.json"
 TIMES = np.arange(20) * 0.04
 LACKING = -600.0 * np.exp(-(((TIMES - 0.2) / 0.05) ** 2))
 TRACE = Trace(
-    "lv_pressure", TIMES, 1e4 + LACKING, *np.full((3, 20), 1e4), lacking=LACKING, band=np.full(20, 200.0)
+    "lv_pressure",
+    TIMES,
+    1e4 + LACKING,
+    *np.full((2, 20), 1e4),
+    np.full(20, 200.0),
+    LACKING,
+    np.full(20, 90.0),
 )
 DIAGNOSIS = Diagnosis(
     "named",
@@ -48,16 +55,16 @@ DIAGNOSIS = Diagnosis(
 
 @pytest.fixture
 def path(tmp_path):
-    write_cause(tmp_path / "cause.json", DIAGNOSIS, departure_sentences(DIAGNOSIS), "0123")
+    write_cause(tmp_path / "cause.json", DIAGNOSIS, misfit_sentences(DIAGNOSIS), "0123")
     return tmp_path / "cause.json"
 
 
 def test_the_figure_is_stored_in_numbers_and_in_words(path):
     content = read_cause(path)
-    (departure,), (miss,) = content["departures"], content["misses"]
+    (departure,), (miss, _) = content["departures"], content["misses"]
     assert departure["curve"] == "lv_pressure"
-    assert (departure["phase"], departure["size"]) == ("ejection", pytest.approx(600.0))
-    assert {0.6, 0.2, 3.0, 200.0} <= set(numbers_in(miss))
+    assert (departure["phase"], departure["size"]) == ("ejection", pytest.approx(-LACKING[2:8].mean()))
+    assert {0.22, 0.082, 2.7, 6.0} <= set(numbers_in(miss))
     assert [part for part in ("kPa", " high", "ejection") if part not in miss] == []
 
 

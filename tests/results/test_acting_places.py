@@ -1,6 +1,7 @@
 """Sentences and panels about the regions on which something unknown acts, and the counts of a benchmark."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -19,8 +20,8 @@ from heartfit.discovery.sphere_model.cause import (
 from heartfit.io.causes import read_diagnosis, write_cause_card
 from heartfit.places import PLACES, REGIONS
 from heartfit.results import acting_places
-from heartfit.results.acting_places import acting_section, acting_sentence, law_text, span_text
-from heartfit.results.cause_card import gain_subject, next_measurement_text, verdict_sentence
+from heartfit.results.acting_places import FALSE_PLACES, acting_section, acting_sentence, law_text, span_text
+from heartfit.results.cause_card import gain_subject, markdown_card, next_measurement_text
 from heartfit.results.cause_figure import plot_cause, render_cause
 from heartfit.results.text import AMPLITUDE_UNITS
 from heartfit.results.unknown_places import (
@@ -36,9 +37,11 @@ from heartfit.results.unknown_places import (
     places_table,
     targets_table,
 )
+from heartfit.results.verdict_text import verdict_sentence
 from heartfit.synthetic.campaign import plantable
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY
 
+MEASURED = Path(__file__).parents[2] / "docs" / "measured"
 ORIFICE = RankedLaw("orifice", r"A \sqrt{2 \Delta p / \rho}", 0.27e-4, "m^2", 0.0, {})
 PULSE = RankedLaw("pulse", "a", 1.2e-4, "m^3/s", -13.0, {"centre": 0.3, "width": 0.16})
 LEAK = ActingPlace(
@@ -66,7 +69,8 @@ def unknown(*acting: ActingPlace, gain: tuple[Gain, ...] = ()) -> Diagnosis:
 
 def test_one_region_is_told_with_size_times_and_law() -> None:
     assert verdict_sentence(unknown(LEAK)) == (
-        "Unknown missing mechanism. Something that the library lacks acts as a leak out of the left ventricle: "
+        "Unknown missing mechanism. If the simulator can be trusted, something that the library lacks acts as a leak "
+        "out of the left ventricle: "
         "91 ± 11 mL/s, 230 to 380 ms after the trigger; it follows an orifice law of 0.27 cm²."
     )
 
@@ -101,19 +105,28 @@ def test_every_region_has_its_words(words: dict[str, str]) -> None:
 
 
 def test_the_card_lists_laws_and_the_measurement_that_shows_the_region() -> None:
-    section = acting_section((LEAK,))
+    section = acting_section((LEAK,), 5.0)
     assert "| orifice | $A \\sqrt{2 \\Delta p / \\rho}$ | 0.27 cm² | 0.0 |" in section
-    assert "ln Bayes factor 20.8" in section
+    assert "ln Bayes factor 20.8 (threshold 5)" in section
     assert "Not told apart: where the blood goes" in section
     assert "mitral valve by Doppler" in next_measurement_text(unknown(LEAK))
-    assert gain_subject(unknown(LEAK)) == "a free function at the best place"
+    assert gain_subject(unknown(LEAK)) == " with a free function at the best place"
+
+
+def test_a_place_is_told_with_its_false_rates_and_on_a_condition() -> None:
+    """The rate of the generator's own sound hearts is that of the stored benchmark."""
+    assert FALSE_PLACES in markdown_card(unknown(LEAK), "heart")
+    assert FALSE_PLACES not in markdown_card(unknown(), "heart")
+    assert "If the simulator can be trusted" in verdict_sentence(unknown(LEAK))
+    stored = pd.read_csv(MEASURED / "unknown_places.tsv", sep="\t", comment="#").set_index("hearts")
+    assert stored.loc[SOUND, "with a place"].split(" (")[0] in FALSE_PLACES
 
 
 def test_the_figure_has_a_panel_for_each_function() -> None:
     assert len(plot_cause(unknown(LEAK, WALL)).axes) == len(plot_cause(unknown()).axes) + 2
     figure = plot_cause(unknown(LEAK))
     labels = {line.get_label() for axes in figure.axes for line in axes.lines}
-    assert {"simulated", "with the free function"} <= labels
+    assert {"sphere, no mechanism", "with a free function at the best place"} <= labels
     panel = figure.axes[0]
     assert panel.get_title() == "acts as a leak out of the left ventricle"
     assert panel.lines[1].get_ydata() == pytest.approx(1e6 * FUNCTION.mean)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from heartfit.discovery.inference.decide import BesideProcess
+from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.cause import (
     Cause,
     Change,
@@ -14,21 +15,20 @@ from heartfit.discovery.sphere_model.cause import (
     Gain,
     Trace,
     UnnamedCandidate,
-    departures,
 )
+from heartfit.discovery.sphere_model.misfit import departures
 from heartfit.discovery.sphere_model.recording import UNSEARCHED
 from heartfit.observation.beat import BeatPhases
-from heartfit.results.cause_card import (
-    CURVES,
-    alternatives_text,
+from heartfit.results.cause_card import alternatives_text, markdown_card
+from heartfit.results.cause_figure import plot_cause
+from heartfit.results.misfit_text import misfit_sentence
+from heartfit.results.text import CURVES, spaced_name
+from heartfit.results.verdict_text import (
     candidate_sentence,
-    departure_sentence,
-    markdown_card,
     mechanism_with_size,
-    spaced_name,
+    objection_lines,
     verdict_sentence,
 )
-from heartfit.results.cause_figure import plot_cause
 from tests.printed import numbers_in
 
 LEAK = Cause("MitralRegurgitation", 12.0, 3e-5, "m^2", (2e-5, 4e-5))
@@ -89,7 +89,8 @@ def test_a_sentence_gives_sizes_with_intervals_but_not_of_a_group():
     numbers = {verdict: set(numbers_in(text)) for verdict, text in SENTENCES.items()}
     assert {0.3, 0.2, 0.4} <= numbers["named"] < numbers["two"]
     assert {20.0, 10.0, 30.0} <= numbers["two"]
-    assert not any(numbers[verdict] for verdict in ("none", "group", "unknown", "insufficient"))
+    assert not any(numbers[verdict] for verdict in ("group", "unknown", "insufficient"))
+    assert numbers["none"] == {12.0, 5.0}, "the largest ln Bayes factor and its threshold"
 
 
 def test_a_departing_curve_outside_the_search_is_excepted():
@@ -101,7 +102,7 @@ def test_a_departing_curve_outside_the_search_is_excepted():
     assert CURVES["rv_volume"] not in verdict_sentence(searched)
     titles = [plot_cause(cause).axes[1].get_title() for cause in (departing, searched)]
     assert titles[0] != titles[1]
-    assert [numbers_in(title) for title in titles] == [[4.7], [4.7]]
+    assert [numbers_in(title) for title in titles] == [[2.7, 0.89, 3.0], [2.7, 0.89, 3.0]]
 
 
 def test_a_curve_that_the_refit_explains_is_not_excepted_and_the_card_says_so():
@@ -114,9 +115,20 @@ def test_a_curve_that_the_refit_explains_is_not_excepted_and_the_card_says_so():
     )
     assert CURVES["rv_volume"] not in verdict_sentence(within)
     assert CURVES["rv_volume"] in verdict_sentence(beyond)
-    lines = [bullets(markdown_card(one, "case 1"))[2] for one in (within, beyond)]
-    assert [numbers_in(line) for line in lines] == [[20.0, 24.0, 0.7], [60.0, 24.0, 6e-5]]
-    assert len({line[: line.index("chi")] for line in lines}) == 2
+    for one, numbers in ((within, [20.0, 24.0, 0.7]), (beyond, [60.0, 24.0, 6e-5])):
+        (line,) = [line for line in bullets(markdown_card(one, "case 1")) if "chi-squared" in line]
+        assert numbers_in(line)[-3:] == numbers
+
+
+@pytest.mark.parametrize(
+    ("p", "words"), [(0.7, "leaves no misfit"), (6e-5, "by more than its noise, though not in")]
+)
+def test_a_curve_without_a_clear_phase_is_missed_where_its_chi_squared_is_too_large(p, words):
+    fit = CurveFit("lv_volume", 20.0, 24.0, p)
+    (small,) = departures(diagnosis("none", traces=(replace(TRACE, measured=1e-4 + 0.4 * BUMP),)))
+    assert words in misfit_sentence(small, "the refitted 3-D heart", fit)
+    (clear,) = departures(diagnosis("none"))
+    assert words not in misfit_sentence(clear, "the refitted 3-D heart", fit)
 
 
 def test_units_are_clinical():
@@ -126,29 +138,37 @@ def test_units_are_clinical():
     assert spaced_name("MitralRegurgitation") == "mitral regurgitation"
 
 
-def test_a_departure_has_size_sign_phase_and_time():
+def test_a_departure_is_the_mean_residual_of_the_phase_in_which_it_is_clearest():
+    """Five samples in early filling, of 2 mL noise each."""
     (departure,) = departures(diagnosis("unknown"))
-    assert (departure.curve, departure.phase) == ("lv_volume", "early filling")
-    assert departure.size == pytest.approx(-4.70e-6, abs=1e-8)
-    assert departure.deviations == pytest.approx(-4.70, abs=1e-2)
-    assert departure.time == pytest.approx(0.48)
-    text = departure_sentence(departure)
+    assert (departure.curve, departure.phase, departure.samples) == ("lv_volume", "early filling", 5)
+    inside = (TIMES > 0.35) & (TIMES < 0.55)
+    assert departure.size == pytest.approx(-BUMP[inside].mean())
+    assert departure.sd == pytest.approx(2e-6 / np.sqrt(5.0))
+    text = misfit_sentence(departure, "the sphere")
     assert [text.count(part) for part in (CURVES["lv_volume"], "early filling", "mL", " low")] == [1, 1, 1, 1]
-    assert {4.7, 1.0, 480.0} <= set(numbers_in(text))
+    assert {2.7, 0.89, 3.0, 5.0} <= set(numbers_in(text))
+    assert text.startswith("The sphere")
+
+
+def test_the_discrepancy_of_the_search_is_no_misfit():
+    """It is fitted in place of a mechanism with the parameters free, and may be far from the residuals."""
+    far = replace(TRACE, lacking=np.full(20, 1.0), band=np.full(20, 1e-9))
+    assert departures(diagnosis("named", (LEAK,), traces=(far,))) == departures(diagnosis("named", (LEAK,)))
 
 
 def test_departures_upwards_within_noise_and_without_phases_are_distinguished():
-    (higher,) = departures(diagnosis("unknown", traces=(replace(TRACE, lacking=-BUMP),)))
-    assert higher.deviations == pytest.approx(4.70, abs=1e-2)
-    assert " high" in departure_sentence(higher)
-    (sound,) = departures(diagnosis("none", traces=(replace(TRACE, lacking=0.4 * BUMP),)))
+    (higher,) = departures(diagnosis("unknown", traces=(replace(TRACE, measured=1e-4 - BUMP),)))
+    assert " high" in misfit_sentence(higher, "the sphere")
+    (sound,) = departures(diagnosis("none", traces=(replace(TRACE, measured=1e-4 + 0.4 * BUMP),)))
     assert not sound.clear
-    assert CURVES["lv_volume"] in departure_sentence(sound)
-    assert numbers_in(departure_sentence(sound)) == []
+    text = misfit_sentence(sound, "the sphere")
+    assert "no misfit" in text
+    assert CURVES["lv_volume"] in text
+    assert {1.1, 1.2} <= set(numbers_in(text)), "the largest one is told"
     (timeless,) = departures(diagnosis("unknown", phases=None))
-    assert timeless.phase == ""
-    assert "early filling" not in departure_sentence(timeless)
-    assert 4.7 in numbers_in(departure_sentence(timeless))
+    assert timeless.phase == "the beat from 400 to 500 ms"
+    assert timeless.size == pytest.approx(-BUMP[(TIMES >= 0.4) & (TIMES < 0.5)].mean())
 
 
 def bullets(text):
@@ -171,7 +191,7 @@ BELOW, LEFT = BesideProcess(22.7, -1.4, 1.0, 2.0, 4.0), BesideProcess(22.7, 12.0
 @pytest.mark.parametrize("verdict", ["unknown", "insufficient"])
 def test_a_candidate_is_shown_with_the_rule_that_it_breaks_and_not_as_a_name(verdict, beside, numbers):
     case = diagnosis(verdict, candidate=UnnamedCandidate((LEAK, DELAY), beside))
-    sentence = candidate_sentence(case.candidate)
+    sentence = candidate_sentence(case)
     sizes = " ".join(map(mechanism_with_size, (LEAK, DELAY)))
     assert set(numbers_in(sentence)) - set(numbers_in(sizes)) == numbers
     assert ("below" in sentence) == (beside is BELOW)
@@ -205,7 +225,9 @@ def test_the_figure_has_a_row_for_each_curve_and_the_threshold():
     assert set(ranking.lines[0].get_xdata()) == {5.0}
     assert [len(bar.get_yticklabels()) for bar in (ranking,)] == [2]
     assert labelled(curves) == labelled(plot_cause(diagnosis("unknown")).axes[0]) + 1 == 3
-    assert numbers_in(residuals.get_title()) == [4.7]
+    labels = {text.get_text() for text in curves.get_legend().get_texts()}
+    assert labels == {"measured", "sphere, no mechanism", "with mitral regurgitation"}
+    assert numbers_in(residuals.get_title()) == [2.7, 0.89, 3.0]
     assert "early filling" in residuals.get_title()
     assert "IVC" in {text.get_text() for text in residuals.texts}
 
@@ -244,3 +266,40 @@ def test_the_figure_shows_the_band_of_structure():
 def test_a_change_is_a_ratio_or_a_difference(change, line):
     text = markdown_card(diagnosis("none", changes=(change,)), "heart")
     assert f"- `{change.name}`: {line}" in text
+
+
+def test_a_held_out_curve_that_fits_worse_beyond_chance_speaks_against_the_name():
+    """Only a whole interval above 1 does, and only against what is named."""
+    gains = (
+        Gain("lv_volume", "frames that were not fitted", 4e-6, 2e-6, 0.5, (0.3, 0.8)),
+        Gain("circumferential strain", "never fitted", 0.05, 0.06, 1.2, (1.1, 1.3)),
+        Gain("longitudinal strain", "never fitted", 0.05, 0.06, 1.2, (0.9, 1.6)),
+    )
+    (objection,) = objection_lines(diagnosis("named", (LEAK,), gain=gains))
+    assert objection in markdown_card(diagnosis("named", (LEAK,), gain=gains), "case")
+    assert "circumferential strain (never fitted)" in objection
+    assert "1.20 (1.10 to 1.30)" in objection
+    assert objection_lines(diagnosis("unknown", gain=gains)) == []
+
+
+def test_the_noise_of_a_curve_that_was_read_twice_is_said_with_what_it_misses():
+    card = markdown_card(diagnosis("none", read_twice={"lv_volume": 1.3e-6}), "case")
+    assert (
+        "left ventricular volume was read twice. The difference of both readings gives a noise of 1.3 mL"
+        in card
+    )
+    assert "the length of the cavity, does not show" in card
+
+
+def test_a_close_decision_says_what_would_change_it() -> None:
+    """And a clear one says nothing of it."""
+    close = Margin(("MitralRegurgitation",), False, -0.21, "none")
+    card = markdown_card(diagnosis("named", (LEAK,), margin=close), "Case")
+    assert (
+        'Close decision: the search would give "none" if the ln evidence of mitral regurgitation were 0.21 lower'
+        in card
+    )
+    on_top = Margin(("MitralRegurgitation",), True, 0.4, "unknown")
+    card = markdown_card(diagnosis("named", (LEAK,), margin=on_top), "Case")
+    assert "a smooth error on top of mitral regurgitation were 0.40 higher" in card
+    assert "Close decision" not in markdown_card(diagnosis("named", (LEAK,)), "Case")

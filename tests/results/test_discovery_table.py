@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from heartfit.discovery.inference.decide import BesideProcess
-from heartfit.discovery.sphere_model.cause import UnnamedCandidate
+from heartfit.discovery.sphere_model.cause import CurveFit, UnnamedCandidate
 from heartfit.results.discovery import DiscoveryResult, discovery_table, printed_findings
 from heartfit.synthetic.campaign import Effect
-from tests.results.report.small_report import diagnosis
+from tests.printed import numbers_in
+from tests.results.report.small_report import WAVE, diagnosis
 
 LEAK = Effect("MitralRegurgitation", 3.5e-5, 0.0, "m^2", 2.8)
 TRUTH = {"sigma_0": 200e3, "mu": 7e3, "K": 1e6}
@@ -43,11 +44,13 @@ def test_the_size_stands_beside_the_hidden_one_in_the_same_unit() -> None:
     assert frame.loc["hidden", "text"] == "mitral regurgitation, 0.35 cm² (2.8 scales)"
 
 
-def test_the_misfit_is_counted_in_standard_deviations_of_the_noise() -> None:
+def test_the_misfit_is_the_mean_of_a_phase_over_its_noise() -> None:
+    """Two samples of 1 kPa noise each, where the simulation is 1 kPa too high at the peak."""
     wrong = numbers(result()).loc["wrong by: left ventricular pressure"]
-    assert wrong["value"] == pytest.approx(3.0)
-    assert "3 kPa too high" in wrong["text"]
-    assert "3.0 sd" in wrong["text"]
+    size = 1e3 * WAVE[5:7].mean()
+    assert wrong["value"] == pytest.approx(size / (1e3 / np.sqrt(2.0)))
+    assert wrong["text"].startswith(f"{1e-3 * size:.2g} ± 0.71 kPa too high in early filling")
+    assert "sd" in wrong["text"]
 
 
 def test_the_bias_is_the_root_mean_square_of_the_logarithms_without_k() -> None:
@@ -108,9 +111,25 @@ def test_a_candidate_is_printed_as_not_named() -> None:
     )
     frame = numbers(DiscoveryResult("patient1", "physical", unnamed, unnamed))
     expected = "insufficient (candidate, not named: mitral regurgitation)"
+    assert frame.loc["ln Bayes factor of the candidate", "value"] == 12.0
+    assert "1.4 below" in frame.loc["ln Bayes factor of the candidate", "text"]
     assert [frame.loc[f"said {when}", "text"] for when in ("by the search", "after the refit")] == [
         expected
     ] * 2
+
+
+def test_each_curve_of_a_refit_has_its_chi_squared_and_the_probability_of_more() -> None:
+    right = CurveFit("rv_volume", 11.9, 19.1, 0.891)
+    silent = replace(diagnosis(), verdict="none", mechanisms=(), refitted=None, gain=(), fits=(right,))
+    frame = numbers(DiscoveryResult("sound1", "physical", silent, silent, (), TRUTH))
+    row = frame.loc["chi-squared: right ventricular volume, without a mechanism"]
+    assert row["value"] == pytest.approx(0.891)
+    assert numbers_in(row["text"]) == [11.9, 19.1, 0.89]
+    extended = replace(proved({"K": 1.0}, {"K": 2.0}), fits=(right,))
+    extended = replace(extended, refitted=replace(extended.refitted, fits=(replace(right, p=0.3),)))
+    frame = numbers(DiscoveryResult("hidden1", "physical", diagnosis(), extended, (LEAK,), TRUTH))
+    rows = [name for name in frame.index if name.startswith("chi-squared")]
+    assert frame.loc[rows, "value"].tolist() == pytest.approx([0.891, 0.3])
 
 
 def test_cases_are_columns_in_print_with_one_row_for_each_finding() -> None:

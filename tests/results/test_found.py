@@ -40,11 +40,26 @@ def test_the_stored_findings_and_better_ones_pass() -> None:
             findings(hidden1=(STENOSIS, "unknown (withdrawn: aortic stenosis)"), sound1=("nothing", NONE)),
             "hidden1",
         ),
+        (
+            findings(
+                hidden1=(STENOSIS, "unknown (candidate, not named: aortic stenosis and catheter delay)"),
+                sound1=("nothing", NONE),
+            ),
+            "hidden1",
+        ),
         (findings(hidden1=(STENOSIS, NAMED), sound1=("nothing", NAMED)), "sound1"),
         (findings(hidden1=(STENOSIS, NAMED)), "sound1"),
         ({}, "hidden1"),
     ],
-    ids=["not detected", "another name", "withdrawn", "a sound heart is named", "not searched", "no table"],
+    ids=[
+        "not detected",
+        "another name",
+        "withdrawn",
+        "candidate",
+        "a sound heart is named",
+        "not searched",
+        "no table",
+    ],
 )
 def test_a_lost_finding_is_an_error(tables: dict[str, pd.DataFrame], case: str) -> None:
     with pytest.raises(InputError, match=f"a finding is lost: .*{case}"):

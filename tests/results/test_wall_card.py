@@ -17,6 +17,7 @@ def test_a_scar_is_told_by_its_share_and_segments() -> None:
     assert sentence.startswith("Missing mechanism: scar, scarred share of the left ventricle 0.2")
     assert "mid anterior" in sentence
     assert "infero" not in sentence
+    assert "threshold 10)" in sentence
     assert "| scar |" in card
     assert "| 7 | mid anterior |" in card
     assert "| scar | scarred share" not in card
@@ -29,6 +30,9 @@ def test_a_sound_wall_has_no_segments(seed: int) -> None:
     card = wall_card(summary)
     assert "No missing mechanism detected" in card
     assert "| segment |" not in card
+    largest = max(summary.evidence.values())
+    assert f"the largest ln Bayes factor is {largest:.1f}, the threshold is 10." in summary.sentence
+    assert "ln Bayes factor (threshold 10)" in card
     unseen = {one.name: one.most_visible for one in summary.unseen}
     assert set(unseen) == {"scar", "delayed activation"}
     assert 0.05 < float(unseen["scar"]) < 0.3

@@ -139,9 +139,9 @@ def diagnose(arguments: argparse.Namespace) -> int:
     from heartfit.io.pressures import read_pressure
     from heartfit.io.recordings import read_conditions, read_recording
     from heartfit.places import PLACES
-    from heartfit.results.cause_card import candidate_sentence, verdict_sentence
     from heartfit.results.cause_figure import render_cause
     from heartfit.results.mechanism_file import mechanism_file
+    from heartfit.results.verdict_text import candidate_sentence, verdict_sentence
     from heartfit.study.case import RecordedPressure
 
     run_mechanism_files(arguments.mechanism)
@@ -172,7 +172,7 @@ def diagnose(arguments: argparse.Namespace) -> int:
     code = fingerprint(Path(diagnosis.__file__))
     write_cause_card(arguments.output, render_cause(conclusion, arguments.measured.stem), code)
     sentences = [verdict_sentence(conclusion)]
-    sentences += [candidate_sentence(conclusion.candidate)] if conclusion.candidate else []
+    sentences += [candidate_sentence(conclusion)] if conclusion.candidate else []
     print(f"{' '.join(sentences)} See {arguments.output / 'cause.md'} and {arguments.output / 'cause.png'}.")
     if arguments.write_mechanism:
         write_text(arguments.write_mechanism, mechanism_file(conclusion, arguments.measured.stem))

@@ -13,21 +13,22 @@ from pydantic import TypeAdapter, ValidationError
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.decide import Verdict
+from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.cause import (
     ActingPlace,
     Cause,
     Change,
     CurveFit,
-    Departure,
     Diagnosis,
     FittedModel,
     Gain,
     PlaceFunction,
     Refitted,
+    ShownModel,
     Trace,
     UnnamedCandidate,
-    departures,
 )
+from heartfit.discovery.sphere_model.misfit import Departure, departures
 from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.io.files import replacing, write_text
 from heartfit.io.fingerprint import versions
@@ -63,9 +64,9 @@ def read_traces(path: Path) -> dict[str, Any]:
 class CauseFile:
     """Content of a cause.json; see :class:`heartfit.discovery.sphere_model.cause.Diagnosis`.
 
-    departures: the largest departure of each curve; misses: the same in sentences; threshold: smallest ln Bayes factor
-    of a detection; self_test: median over hearts without a hidden effect of their largest ln Bayes factor; made_by:
-    versions of the software.
+    departures: of each curve of the simulation without a cause; misses: the sentences of the card on the misfit;
+    threshold: smallest ln Bayes factor of a detection; self_test: median over hearts without a hidden effect of their
+    largest ln Bayes factor; made_by: versions of the software.
     """
 
     verdict: Verdict
@@ -91,8 +92,12 @@ class CauseFile:
     changes: tuple[Change, ...] = ()
     acting: tuple[ActingPlace, ...] = ()
     strokes: Strokes | None = None
-    fits: tuple[CurveFit, ...] = ()
+    read_twice: Mapping[str, float] = field(default_factory=dict)
+    model: ShownModel = "sphere"
+    free_parameters: int = 0
     candidate: UnnamedCandidate | None = None
+    fits: tuple[CurveFit, ...] = ()
+    margin: Margin | None = None
     made_by: str = ""
 
     @classmethod

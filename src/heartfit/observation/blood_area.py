@@ -11,7 +11,8 @@ papillary muscles, and slices alone do not show the motion of the valve plane, s
     V(t) = a + b L(t) sum_k A_k(t)
 
 with the length L from apex to valve rings of the measured surface, and a, b fitted to its volume: size and scale are
-those of the surface, the course over the beat is that of the images.
+those of the surface, the course over the beat is that of the images. An error of L is an error of both volumes. Where
+half of the frames judges, the other half fits a and b again: see :mod:`heartfit.observation.second_reading`.
 """
 
 from dataclasses import dataclass

@@ -5,11 +5,17 @@ differ by :math:`d` with twice that covariance; their mean has half of it. Hence
 
 .. math:: s_{mean} = \tfrac12 \mathrm{sd}(d), \qquad \tau = -\Delta t / \ln \rho_1
 
-with the correlation :math:`\rho_1` of neighbouring frames of d. What both readings share, as the timing of the frames,
-does not show in d.
+with the correlation :math:`\rho_1` of neighbouring frames of d. Scale and noise come from the frames that choose a
+model alone: those that judge it tell nothing before.
+
+The readings are not independent. What they share, as the timing of the frames and the length of the cavity, does not
+show in d: :math:`s_{mean}` is a lower bound. The second reading is V = a + b L A with the areas A of the blood, so an
+error of the length L moves the first by :math:`V \delta L / L` and the second by :math:`b A \delta L`, in one
+direction.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -39,34 +45,44 @@ class FrameNoise:
 
 @dataclass(frozen=True, eq=False)
 class TwoReadings:
-    """Two readings of one curve at the same times; raises InputError for other times or another period."""
+    """Two readings of one curve at the same times; raises InputError for other times or another period.
+
+    chosen (k,): mask of the frames that give the scale of the second reading, and the noise.
+    """
 
     first: Curve
     second: Curve
+    chosen: np.ndarray
 
     def __post_init__(self) -> None:
         same = self.first.times.shape == self.second.times.shape and self.first.period == self.second.period
         if not (same and np.allclose(self.first.times, self.second.times, rtol=0.0, atol=1e-6)):
             raise InputError("second reading: its times differ from the first's; expected the same frames")
 
+    @cached_property
+    def scaled(self) -> Curve:
+        """The second reading at the offset and scale of the first."""
+        design = np.column_stack([np.ones_like(self.second.values), self.second.values])
+        scales = np.linalg.lstsq(design[self.chosen], self.first.values[self.chosen], rcond=None)[0]
+        return replace(self.second, values=design @ scales)
+
     @property
     def mean(self) -> Curve:
         """Mean of both readings."""
-        values = 0.5 * (self.first.values + self.second.values)
+        values = 0.5 * (self.first.values + self.scaled.values)
         return Curve(self.first.times, values, self.first.period)
 
     def take(self, reading: Reading) -> tuple[Curve, FrameNoise]:
         """Curve and noise of the mean or of one reading, whose noise is larger by the root of two."""
         mean = self.noise()
         alone = replace(mean, deviation=mean.deviation * float(np.sqrt(2.0)))
-        return {"mean": (self.mean, mean), "first": (self.first, alone), "second": (self.second, alone)}[
+        return {"mean": (self.mean, mean), "first": (self.first, alone), "second": (self.scaled, alone)}[
             reading
         ]
 
     def noise(self) -> FrameNoise:
-        """Noise of the mean."""
-        difference = self.first.values - self.second.values
-        difference = difference - difference.mean()
+        """Noise of the mean, from the chosen frames."""
+        difference = (self.first.values - self.scaled.values)[self.chosen]
         square = float(difference @ difference)
         deviation = 0.5 * np.sqrt(square / max(difference.size - FITTED_SCALES, 1))
         correlation = float(difference @ np.roll(difference, 1)) / square if square else 0.0

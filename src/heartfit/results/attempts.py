@@ -8,9 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heartfit.discovery.sphere_model.cause import Attempt, Gain, Trace
-from heartfit.results.cause_card import spaced_name
 from heartfit.results.figures import ARTERY, CALIBRATED, MEASURED, REFERENCE, clean
-from heartfit.results.text import AMPLITUDE_UNITS, printed_ratio
+from heartfit.results.text import AMPLITUDE_UNITS, printed_ratio, spaced_name
 
 GAIN_LABELS = {
     "lv_volume": "LV volume, other frames",

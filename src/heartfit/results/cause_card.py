@@ -1,124 +1,38 @@
-"""Cause card: the sentences in which a diagnosis is read."""
+"""Cause card: the sections in which a diagnosis is read, below one headline."""
 
-import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 import numpy as np
 
-from heartfit.discovery.sphere_model.cause import (
-    Cause,
-    Change,
-    CurveFit,
-    Departure,
-    Diagnosis,
-    Gain,
-    Refitted,
-    UnnamedCandidate,
-    departures,
-)
+from heartfit.discovery.sphere_model.cause import Change, Diagnosis, Gain, Refitted
 from heartfit.discovery.sphere_model.strokes import Strokes
-from heartfit.results.acting_places import acting_section, acting_sentence, separating_measurement
-from heartfit.results.text import AMPLITUDE_UNITS, printed_curve_unit
-
-CURVES = {
-    "lv_volume": "left ventricular volume",
-    "lv_pressure": "left ventricular pressure",
-    "aorta_pressure": "aortic pressure",
-    "rv_volume": "right ventricular volume",
-    "rv_pressure": "right ventricular pressure",
-}
-
-
-def verdict_sentence(diagnosis: Diagnosis) -> str:
-    """Return the verdict as one sentence: "Missing mechanism: mitral regurgitation, 0.31 cm² (95 % CI ...)."."""
-    named = "; ".join(mechanism_with_size(cause) for cause in diagnosis.mechanisms)
-    return {
-        "none": f"No missing mechanism detected: the simulation explains {_explained_recording(diagnosis)}.",
-        "model": "No missing mechanism detected: the misfit is of the size and shape that healthy hearts of other "
-        "simulators or controls leave; nothing can be said beyond it.",
-        "named": f"Missing mechanism: {named}.",
-        "two": f"Missing mechanisms: {named}.",
-        "group": f"Missing mechanism: one of {_mechanism_names(diagnosis)}; these data do not distinguish them.",
-        "unknown": _unknown(diagnosis),
-        "insufficient": "Insufficient data: no conclusion about a missing mechanism.",
-    }[diagnosis.verdict]
-
-
-def _unknown(diagnosis: Diagnosis) -> str:
-    where = (
-        acting_sentence(diagnosis.acting)
-        if diagnosis.acting
-        else "No mechanism of the library explains the misfit."
-    )
-    return f"Unknown missing mechanism. {where}"
-
-
-def _explained_recording(diagnosis: Diagnosis) -> str:
-    """Return "the recording", less the curves that depart, were not searched and are not explained by a refit."""
-    departing = {departure.curve for departure in departures(diagnosis) if departure.clear}
-    departing -= {fit.curve for fit in diagnosis.fits if fit.within_noise}
-    excepted = " and ".join(CURVES[name] for name in sorted(departing & set(diagnosis.unsearched)))
-    return f"the recording except the {excepted}, which was not searched" if excepted else "the recording"
-
-
-def mechanism_with_size(cause: Cause) -> str:
-    """Return a mechanism with its size, such as "mitral regurgitation, 0.31 cm² (95 % CI 0.24 to 0.39)"."""
-    unit, factor = AMPLITUDE_UNITS.get(cause.unit, (cause.unit, 1.0))
-    value, low, high = (f"{factor * amplitude:.3g}" for amplitude in (cause.amplitude, *cause.interval))
-    return f"{spaced_name(cause.name)}, {f'{value} {unit}'.strip()} (95 % CI {low} to {high})"
-
-
-def spaced_name(name: str) -> str:
-    """Return the name of a class as words: "mitral regurgitation" for MitralRegurgitation."""
-    return re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower()
-
-
-def candidate_sentence(candidate: UnnamedCandidate) -> str:
-    """Return the leading explanation with its sizes, and by which rule it is not named."""
-    causes, beside = "; ".join(map(mechanism_with_size, candidate.causes)), candidate.beside_process
-    subject = "the pair" if len(candidate.causes) == 2 else "the mechanism"
-    side = "above" if beside.over >= 0.0 else "below"
-    rules = {
-        f"The ln Bayes factor of {subject}, {beside.gain:.1f}, must exceed that of a Gaussian process, "
-        f"{beside.gain - beside.over:.1f}, by {beside.required:g}; it is {abs(beside.over):.1f} {side}.": (
-            beside.over < beside.required
-        ),
-        f"A Gaussian process beside {subject} gains {beside.left:.1f} more in ln evidence; "
-        f"at most {beside.allowed:.1f} may be left.": beside.left > beside.allowed,
-    }
-    return " ".join([f"Candidate, not named: {causes}.", *(rule for rule, broken in rules.items() if broken)])
-
-
-def candidate_names(diagnosis: Diagnosis) -> str:
-    """Return the mechanisms of the candidate, joined by "and"; empty without one."""
-    causes = diagnosis.candidate.causes if diagnosis.candidate else ()
-    return " and ".join(spaced_name(cause.name) for cause in causes)
-
-
-def _mechanism_names(diagnosis: Diagnosis) -> str:
-    return ", ".join(spaced_name(cause.name) for cause in diagnosis.mechanisms)
+from heartfit.results.acting_places import acting_section, separating_measurement
+from heartfit.results.misfit_text import added_name, misfit_lines
+from heartfit.results.text import CURVES, printed_curve_unit, spaced_name
+from heartfit.results.verdict_text import (
+    explanation_name,
+    mechanism_with_size,
+    verdict_lines,
+    verdict_sentence,
+)
 
 
 def markdown_card(diagnosis: Diagnosis, title: str) -> str:
-    """Return the card in Markdown: verdict, misfit, evidence, alternatives, next measurement and held-out error."""
-    misfits = [f"- {line}" for line in departure_sentences(diagnosis)]
-    misfits += [f"- {line}" for line in unsearched_sentences(diagnosis)]
+    """Return the card in Markdown: headline, misfit, evidence, alternatives, next measurement and held-out error."""
     parts = [
         f"# {title}\n\n**{verdict_sentence(diagnosis)}**",
-        *([candidate_sentence(diagnosis.candidate)] if diagnosis.candidate else []),
+        *verdict_lines(diagnosis),
         *([_warnings(diagnosis.warnings)] if diagnosis.warnings else []),
-        "## Misfit of the simulation\n\n" + "\n".join(misfits),
-        *([f"## Fit in three dimensions\n\n{fits_text(diagnosis.fits)}"] if diagnosis.fits else []),
+        "## Misfit\n\n" + "\n".join(f"- {line}" for line in misfit_lines(diagnosis)),
         *([structure_text(diagnosis)] if diagnosis.structural_scale else []),
         *([f"## Strokes of both ventricles\n\n{strokes_sentence(diagnosis.strokes)}"] if diagnosis.strokes else []),
-        *([acting_section(diagnosis.acting)] if diagnosis.acting else []),
+        *([acting_section(diagnosis.acting, diagnosis.threshold)] if diagnosis.acting else []),
         *([_changes(diagnosis.changes)] if diagnosis.changes else []),
         "## Evidence for each mechanism\n\n" + _ranking_table(diagnosis),
         "## Alternative explanations\n\n" + alternatives_text(diagnosis),
         "## Next measurement\n\n" + next_measurement_text(diagnosis),
-        f"## Held-out error with {gain_subject(diagnosis)}\n\n" + gains_text(diagnosis.gain),
-        *([_final_sizes(diagnosis.from_all_samples)] if diagnosis.from_all_samples else []),
-        *([f"## Refit in three dimensions\n\n{refit_section(diagnosis.refitted)}"] if diagnosis.refitted else []),
+        f"## Held-out error{gain_subject(diagnosis)}\n\n" + gains_text(diagnosis.gain),
+        *([f"## Refit in three dimensions\n\n{refit_section(diagnosis)}"] if diagnosis.refitted else []),
         *([self_test_sentence(diagnosis)] if diagnosis.self_test is not None else []),
         f"Simulated beats: {diagnosis.simulations}.",
     ]  # fmt: skip
@@ -152,12 +66,17 @@ def strokes_sentence(strokes: Strokes) -> str:
     ejected = f"The left ventricle ejects {left} mL in a beat and the right one {right} mL."
     if not strokes.differ:
         return f"{ejected} The difference of {difference} ± {sd} mL is within what the volumes err by."
-    cause = (
-        "the mitral or the aortic valve leaks, or blood passes from the left to the right ventricle"
+    reasons = (
+        "a leak of the mitral or the aortic valve, blood that passes from the left to the right ventricle, or a right "
+        "ventricle that images or labels hold incompletely"
         if strokes.difference > 0.0
-        else "the tricuspid or the pulmonary valve leaks, or blood passes from the left to the right atrium"
+        else "a leak of the tricuspid or the pulmonary valve, blood that passes from the left to the right atrium, or "
+        "a left ventricle that images or labels hold incompletely"
     )
-    return f"{ejected} The difference of {difference} ± {sd} mL exceeds what the volumes err by: {cause}."
+    return (
+        f"{ejected} The difference of {difference} ± {sd} mL exceeds what the volumes err by. Volumes alone do not "
+        f"tell the reason: {reasons}."
+    )
 
 
 def _changes(changes: Iterable[Change]) -> str:
@@ -182,60 +101,22 @@ def self_test_sentence(diagnosis: Diagnosis) -> str:
     )
 
 
-def departure_sentences(diagnosis: Diagnosis) -> tuple[str, ...]:
-    """Return one sentence per curve about its greatest departure."""
-    return tuple(map(departure_sentence, departures(diagnosis)))
-
-
-def departure_sentence(departure: Departure) -> str:
-    """Return "aortic pressure: simulation 0.8 ± 0.2 kPa too low in ejection (4.0 standard deviations, 120 ms ...)."."""
-    curve, (unit, size_of_unit) = (
-        CURVES.get(departure.curve, departure.curve),
-        printed_curve_unit(departure.curve),
-    )
-    if not departure.clear:
-        return f"{curve}: no misfit beyond the noise."
-    factor = 1.0 / size_of_unit
-    size, sd = factor * abs(departure.size), factor * departure.sd
-    return (
-        f"{curve}: simulation {size:.2g} ± {sd:.1g} {unit} {direction_and_phase(departure)} "
-        f"({abs(departure.deviations):.1f} standard deviations, {1e3 * departure.time:.0f} ms after the trigger)."
-    )
-
-
-def direction_and_phase(departure: Departure) -> str:
-    """Return "too low in ejection", or "too low" where the beat has no phases."""
-    direction = "too high" if departure.size > 0.0 else "too low"
-    return f"{direction} in {departure.phase}" if departure.phase else direction
-
-
-def unsearched_sentences(diagnosis: Diagnosis) -> list[str]:
-    """Return one sentence per recorded curve that the search left out, with the reason."""
-    return [
-        f"{CURVES[name]}: not searched, because {reason}." for name, reason in diagnosis.unsearched.items()
-    ]
-
-
-def fits_text(fits: Iterable[CurveFit]) -> str:
-    """Return one line per curve: whether the refit without a mechanism explains it to within its noise."""
-    return "\n".join(
-        f"- {CURVES.get(fit.curve, fit.curve)}: the refitted ventricles without a mechanism "
-        f"{'explain it to within its noise' if fit.within_noise else 'miss it by more than its noise'} (chi-squared "
-        f"{fit.chi_squared:.1f} of {fit.freedom:.1f} degrees of freedom, p = {fit.p:.2g})."
-        for fit in fits
-    )
-
-
 def next_measurement_text(diagnosis: Diagnosis) -> str:
     """Return the measurement that would decide between the alternatives, if one is needed."""
     if diagnosis.acting:
         return separating_measurement(diagnosis.acting)
-    return diagnosis.next_measurement or "None: the data decide."
+    if diagnosis.next_measurement:
+        return f"{diagnosis.next_measurement[0].upper()}{diagnosis.next_measurement[1:]}."
+    decided = diagnosis.verdict in ("none", "model", "named", "two")
+    return "None is needed to choose between mechanisms." if decided else "None was found that would decide."
 
 
 def _ranking_table(diagnosis: Diagnosis) -> str:
-    lines = [f"| {spaced_name(name)} | {value:.1f} |" for name, value in list(diagnosis.ranking.items())[:6]]
-    return "| mechanism | ln Bayes factor over baseline |\n|---|---|\n" + "\n".join(lines)
+    rows = [
+        f"| {explanation_name(name)} | {value:.1f} |" for name, value in list(diagnosis.ranking.items())[:6]
+    ]
+    head = f"| explanation | ln Bayes factor over no mechanism (threshold {diagnosis.threshold:g}) |"
+    return "\n".join([head, "|---|---|", *rows])
 
 
 def alternatives_text(diagnosis: Diagnosis) -> str:
@@ -252,49 +133,69 @@ def alternatives_text(diagnosis: Diagnosis) -> str:
     if diagnosis.candidate:
         return "None in the library: the candidate leads, but is not named."
     if diagnosis.verdict == "unknown":
-        best = next(name for name in diagnosis.ranking if name != "unknown")
+        best = next((name for name in diagnosis.ranking if name != "unknown"), "")
         return (
-            f"None in the library: the best candidate, {spaced_name(best)}, leaves a misfit beyond the noise."
+            f"None in the library: a smooth error of the model, in place of the best candidate{_named(best)} or on top "
+            "of it, is more probable."
         )
     if not diagnosis.alternatives:
         return "None in the library within a ln Bayes factor of 3."
     return "\n".join(f"- {' and '.join(map(spaced_name, effects))}" for effects in diagnosis.alternatives)
 
 
-def refit_section(refitted: Refitted) -> str:
-    """Return the evidence of the refit in three dimensions and a table of the parameters without and with it."""
-    added = "; ".join(mechanism_with_size(cause) for cause in refitted.extension)
-    convergence = (
-        "Both refits converged" if refitted.converged else "A refit had not converged at its last step"
-    )
+def _named(name: str) -> str:
+    return f", {spaced_name(name)}," if name else ""
+
+
+def refit_section(diagnosis: Diagnosis) -> str:
+    """Return the evidence of the refit in three dimensions and a table of the parameters without and with it.
+
+    A mechanism that is not named is told here with its size; that of a named one and of a candidate is above.
+    """
+    refitted = diagnosis.refitted
+    assert refitted is not None
     changes = [
         f"| {name} | {refitted.none[name]:.3g} | {value:.3g} | {100.0 * (value / refitted.none[name] - 1.0):+.0f} |"
         for name, value in refitted.extended.items()
     ]
+    convergence = (
+        "Both refits converged" if refitted.converged else "A refit had not converged at its last step"
+    )
     return (
-        f"Extension of the model: {added}. Its ln Bayes factor is {refitted.ln_bayes_factor:.1f} over the model "
-        f"without it; both were fitted to half of the samples in {refitted.simulations} beats. {convergence}."
-        f"{' ' if refitted.from_all_samples else ''}{_final_sizes(refitted.from_all_samples)}\n\n"
+        f"{_extension(diagnosis, refitted)} The ln Bayes factor of this refit over the one without it is "
+        f"{refitted.ln_bayes_factor:.1f}; it is kept above the threshold of 0 if the held-out error falls, too. Both "
+        f"were fitted to half of the samples, in {refitted.simulations} beats. {convergence}.\n\n"
         "| parameter (SI) | without | with | change (%) |\n|---|---|---|---|\n" + "\n".join(changes)
     )
 
 
-def _final_sizes(causes: Sequence[Cause]) -> str:
-    """Return the sentence on the sizes from both halves of the samples, empty where they were not computed."""
-    sizes = "; ".join(map(mechanism_with_size, causes))
-    return f"From all samples, after the other half has judged: {sizes}." if sizes else ""
+def _extension(diagnosis: Diagnosis, refitted: Refitted) -> str:
+    named = {cause.name for cause in diagnosis.mechanisms}
+    sized_above = named if diagnosis.verdict != "group" else set()
+    sized_above |= {cause.name for cause in diagnosis.candidate.causes} if diagnosis.candidate else set()
+    final = {cause.name: cause for cause in refitted.from_all_samples}
+    extension = [
+        spaced_name(cause.name)
+        if cause.name in sized_above
+        else f"{mechanism_with_size(final.get(cause.name, cause))}{'' if cause.name in named else ', not named'}"
+        for cause in refitted.extension
+    ]
+    return f"Added to the three-dimensional heart: {'; '.join(extension)}."
 
 
 def gain_subject(diagnosis: Diagnosis) -> str:
-    """Return "the named mechanism", or the extension that was refitted although none is named."""
-    if diagnosis.acting:
-        return "a free function at the best place"
-    if diagnosis.candidate and not diagnosis.refitted:
-        return "the candidate, which is not named"
-    if diagnosis.mechanisms or not diagnosis.refitted:
-        return "the named mechanism"
-    refitted = " and ".join(spaced_name(cause.name) for cause in diagnosis.refitted.extension)
-    return f"{refitted} ({'candidate' if diagnosis.candidate else 'refitted'}, not named)"
+    """Return what the held-out error was computed with: " with mitral regurgitation", empty where nothing was added."""
+    named = {cause.name for cause in diagnosis.mechanisms}
+    if diagnosis.refitted and not {cause.name for cause in diagnosis.refitted.extension} <= named:
+        return (
+            f" with {added_name(diagnosis)} ({'candidate' if diagnosis.candidate else 'refitted'}, not named)"
+        )
+    if diagnosis.candidate and not (diagnosis.mechanisms or diagnosis.acting):
+        return f" with {added_name(diagnosis)} (candidate, not named)"
+    if added_name(diagnosis):
+        return f" with {added_name(diagnosis)}"
+    withdrawn = " and ".join(map(spaced_name, diagnosis.withdrawn))
+    return f" with {withdrawn} (withdrawn)" if withdrawn and diagnosis.gain else ""
 
 
 def gains_text(gains: Iterable[Gain]) -> str:

@@ -7,21 +7,16 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heartfit.core.arrays import Floats
-from heartfit.discovery.sphere_model.cause import CLEAR_DEVIATIONS, Departure, Diagnosis, Trace, departures
+from heartfit.discovery.sphere_model.cause import Diagnosis, Trace
+from heartfit.discovery.sphere_model.misfit import Departure, departures, phase_names
 from heartfit.observation.beat import BeatPhases
 from heartfit.results.acting_figure import plot_functions
-from heartfit.results.cause_card import (
-    CURVES,
-    candidate_names,
-    departure_sentences,
-    direction_and_phase,
-    markdown_card,
-    spaced_name,
-    verdict_sentence,
-)
+from heartfit.results.cause_card import markdown_card
 from heartfit.results.figures import ARTERY, CALIBRATED, MEASURED, REFERENCE, clean
+from heartfit.results.misfit_text import added_name, mean_misfit, misfit_sentences
 from heartfit.results.residual import CURVE_LABELS, PHASE_LABELS
-from heartfit.results.text import printed_curve_unit
+from heartfit.results.text import CURVES, printed_curve_unit
+from heartfit.results.verdict_text import candidate_names, explanation_name, verdict_sentence
 
 RANKING_BARS = 8
 """Number of bars of the ranking."""
@@ -30,12 +25,14 @@ MARKED_SAMPLES = 50
 
 
 def plot_cause(diagnosis: Diagnosis) -> Figure:
-    """Plot one row per curve: measured and simulated, and the misfit of the simulation in units of the noise.
+    """Plot one row per curve: measured and simulated, and the residuals of the simulations beside the noise.
 
-    Both over the phases of the beat; the discrepancy has its 95 % band, and the phase of its largest departure is
-    shaded and named; a blue band is what structure lets the simulation err. Bars: ln Bayes factors over baseline with
-    the detection threshold (dashed). Of an unknown effect a last row shows the function at its place, with its 95 %
-    band, and its best law (dashed).
+    Both over the phases of the beat. A bar is the mean residual of a phase; the title tells that of the simulation
+    without a cause which is clearest beside its noise, and its phase is shaded where it exceeds it. A blue band is what
+    structure lets the simulation err; of the verdict unknown, a black line is the smooth error that explains more than
+    the library does, which is no residual. Bars on the right: ln Bayes factors over no mechanism with the detection
+    threshold (dashed). Of an unknown effect a last row shows the function at its place, with its 95 % band, and its
+    best law (dashed).
     """
     rows = len(diagnosis.traces)
     figure = Figure(figsize=(12.5, 1.4 + 2.6 * (rows + bool(diagnosis.functions))), layout="constrained")
@@ -47,12 +44,13 @@ def plot_cause(diagnosis: Diagnosis) -> Figure:
     panels = left.subplots(rows, 2, squeeze=False, sharex=True)
     for row, trace, departure in zip(panels, diagnosis.traces, departures(diagnosis), strict=True):
         _curves(row[0], trace, diagnosis)
-        _residuals(row[1], trace, diagnosis, departure)
+        _residuals(row[1], trace, diagnosis)
+        _mark(row[1], departure, diagnosis)
     for axes in panels[-1]:
         axes.set_xlabel("time after trigger (s)")
         axes.set_xlim(0.0, diagnosis.period)
-    panels[0, 0].legend(frameon=False, fontsize=8)
-    panels[0, 1].legend(frameon=False, fontsize=8, loc="lower right")
+    for axes in panels[0]:
+        axes.legend(frameon=False, fontsize=8, loc="best")
     _ranking(right.subplots(), diagnosis)
     title = [verdict_sentence(diagnosis)]
     title += [f"Candidate, not named: {candidate_names(diagnosis)}."] if diagnosis.candidate else []
@@ -65,67 +63,87 @@ def _curves(axes: Axes, trace: Trace, diagnosis: Diagnosis) -> None:
     factor = 1.0 / size
     order, times = _in_one_beat(trace.times, diagnosis.period)
     axes.plot(times, factor * trace.measured[order], "o", color=MEASURED, markersize=2.8, label="measured")
-    axes.plot(times, factor * trace.none[order], "--", color=ARTERY, linewidth=1.4, label="simulated")
-    label = _extension(diagnosis)
-    if label:
-        extended = factor * trace.extended[order]
+    label = f"{diagnosis.model}, no mechanism"
+    axes.plot(times, factor * trace.none[order], "--", color=ARTERY, linewidth=1.4, label=label)
+    if added_name(diagnosis):
+        extended, label = factor * trace.extended[order], f"with {added_name(diagnosis)}"
         axes.plot(times, extended, color=CALIBRATED, linewidth=1.4, label=label)
     axes.set_ylabel(f"{CURVES.get(trace.curve, trace.curve)}\n({unit})", fontsize=9)
     _phases(axes, diagnosis.phases)
     clean(axes)
 
 
-def _extension(diagnosis: Diagnosis) -> str:
-    """Return what the extended simulation has, as label; empty where none is shown."""
-    labels = {
-        "with the mechanism": diagnosis.mechanisms,
-        "with the free function": diagnosis.acting,
-        "with the candidate, not named": diagnosis.candidate,
-    }
-    return next((label for label, shown in labels.items() if shown), "")
-
-
-def _residuals(axes: Axes, trace: Trace, diagnosis: Diagnosis, departure: Departure) -> None:
+def _residuals(axes: Axes, trace: Trace, diagnosis: Diagnosis) -> None:
+    unit, size = printed_curve_unit(trace.curve)
     order, times = _in_one_beat(trace.times, diagnosis.period)
-    noise = trace.noise[order]
-    lacking = -trace.lacking[order] / noise
+    reach = 2.0 * trace.noise[order] / size
     axes.axhline(0.0, color="black", linewidth=0.6)
-    low, high = ((side * 2.0 * trace.band - trace.lacking)[order] / noise for side in (-1.0, 1.0))
-    axes.fill_between(times, low, high, color=REFERENCE, alpha=0.35, linewidth=0)
+    axes.fill_between(
+        times, -reach, reach, color=REFERENCE, alpha=0.3, linewidth=0, label="noise of a sample, 95 %"
+    )
     if trace.structure is not None and trace.structure.any():
-        allowed = 2.0 * (trace.structure / trace.noise)[order]
+        allowed = 2.0 * trace.structure[order] / size
         axes.fill_between(
             times, -allowed, allowed, color=ARTERY, alpha=0.12, linewidth=0, label="structure, 95 % band"
         )
-    mark = "o" if times.size < MARKED_SAMPLES else "."
-    misfit = (trace.none - trace.measured)[order] / noise
-    axes.plot(times, misfit, mark, color=ARTERY, markersize=3)
-    axes.plot(
-        times, -trace.lacking[order] / noise, color=MEASURED, linewidth=1.4, label="discrepancy, 95 % band"
-    )
-    if _extension(diagnosis):
-        explained = (trace.extended - trace.measured)[order] / noise
-        axes.plot(times, explained, mark, color=CALIBRATED, markersize=3)
-    reach = 1.25 * max(2.0 * CLEAR_DEVIATIONS, *np.abs([*misfit, *lacking]))
-    axes.set_ylim(-reach, reach)
-    axes.set_ylabel("simulated − measured\n(units of noise)", fontsize=9)
+    simulations = {ARTERY: trace.none} | ({CALIBRATED: trace.extended} if added_name(diagnosis) else {})
+    shown = [reach]
+    for shade, simulated in simulations.items():
+        residual = (simulated - trace.measured)[order] / size
+        mark = "o" if times.size < MARKED_SAMPLES else "."
+        axes.plot(times, residual, mark, color=shade, markersize=3)
+        _means(axes, times, residual, diagnosis, shade)
+        shown.append(np.abs(residual))
+    if diagnosis.verdict == "unknown" and trace.lacking is not None and trace.band is not None:
+        smooth, sd = -trace.lacking[order] / size, trace.band[order] / size
+        axes.plot(
+            times, smooth, color=MEASURED, linewidth=1.2, label="smooth error fitted with it, 95 % band"
+        )
+        low, high = smooth - 2.0 * sd, smooth + 2.0 * sd
+        axes.fill_between(times, low, high, color=MEASURED, alpha=0.08, linewidth=0)
+        shown.append(np.abs(smooth))
+    most = 1.25 * float(np.concatenate(shown).max())
+    axes.set_ylim(-most, most)
+    axes.set_ylabel(f"simulated − measured\n({unit})", fontsize=9)
     _phases(axes, diagnosis.phases)
-    _mark(axes, departure, diagnosis)
     clean(axes)
 
 
+def _means(axes: Axes, times: Floats, residual: Floats, diagnosis: Diagnosis, shade: str) -> None:
+    """Draw the mean of the residuals in each phase as a bar from its first to its last sample."""
+    names = phase_names(times, diagnosis.period, diagnosis.phases)
+    label = "mean of a phase" if shade == ARTERY else "_"
+    for place, name in enumerate(dict.fromkeys(names.tolist())):
+        inside = names == name
+        runs = np.split(times[inside], np.flatnonzero(np.diff(np.flatnonzero(inside)) > 1) + 1)
+        lows, highs = [run[0] for run in runs], [run[-1] for run in runs]
+        mean = np.full(len(runs), residual[inside].mean())
+        axes.hlines(
+            mean,
+            lows,
+            highs,
+            color=shade,
+            linewidth=2.4,
+            capstyle="round",
+            label=label if place == 0 else "_",
+        )
+
+
 def _mark(axes: Axes, departure: Departure, diagnosis: Diagnosis) -> None:
-    """Set the departure as title, and shade its phase."""
+    """Set the departure of the simulation without a cause as title, and shade its phase."""
     name, phases = CURVE_LABELS.get(departure.curve, departure.curve), diagnosis.phases
     name += " (not searched)" if departure.curve in diagnosis.unsearched else ""
+    size = f"{mean_misfit(departure)}: {abs(departure.deviations):.1f} sd"
     if not departure.clear:
-        axes.set_title(f"{name}: no misfit beyond the noise", fontsize=10, pad=24)
+        axes.set_title(
+            f"{name} without a mechanism: no mean beyond the noise\n(at most {size})", fontsize=9, pad=24
+        )
         return
-    title = f"{name} {direction_and_phase(departure)}: {abs(departure.deviations):.1f} sd"
-    axes.set_title(title, fontsize=10, fontweight="bold", color=CALIBRATED, pad=24)
+    title = f"{name} without a mechanism:\n{size}"
+    axes.set_title(title, fontsize=9, fontweight="bold", color=ARTERY, pad=24)
     for phase, start, end in [] if phases is None else phases.spans():
         if phase == departure.phase:
-            axes.axvspan(start, end, color=CALIBRATED, alpha=0.12, linewidth=0)
+            axes.axvspan(start, end, color=ARTERY, alpha=0.08, linewidth=0)
 
 
 def _phases(axes: Axes, phases: BeatPhases | None) -> None:
@@ -150,16 +168,18 @@ def _ranking(axes: Axes, diagnosis: Diagnosis) -> None:
     named = {cause.name for cause in diagnosis.mechanisms} or {diagnosis.verdict}
     colours = [CALIBRATED if name in named else REFERENCE for name, _ in shown]
     axes.barh(range(len(shown)), [max(value, 0.0) for _, value in shown], color=colours)
-    axes.set_yticks(range(len(shown)), [spaced_name(name) for name, _ in shown], fontsize=8)
+    axes.set_yticks(range(len(shown)), [explanation_name(name) for name, _ in shown], fontsize=8)
     axes.axvline(diagnosis.threshold, color="black", linewidth=0.8, linestyle="--")
-    axes.set_xlabel("ln Bayes factor\nover baseline", fontsize=9)
+    axes.set_xlabel(
+        f"ln Bayes factor\nover no mechanism\n(dashed: threshold {diagnosis.threshold:g})", fontsize=9
+    )
     axes.set_xlim(0.0, max(1.3 * diagnosis.threshold, 1.05 * max((value for _, value in shown), default=0.0)))
     clean(axes)
 
 
 @dataclass(frozen=True, eq=False)
 class RenderedCause:
-    """A diagnosis with its departures (one sentence per curve), its card (Markdown) and its figure."""
+    """A diagnosis with the sentences on its misfit, its card (Markdown) and its figure."""
 
     diagnosis: Diagnosis
     misses: tuple[str, ...]
@@ -170,5 +190,5 @@ class RenderedCause:
 def render_cause(diagnosis: Diagnosis, title: str) -> RenderedCause:
     """Return the content of the folder of a cause card; ``title`` is the heading of the card."""
     return RenderedCause(
-        diagnosis, departure_sentences(diagnosis), markdown_card(diagnosis, title), plot_cause(diagnosis)
+        diagnosis, misfit_sentences(diagnosis), markdown_card(diagnosis, title), plot_cause(diagnosis)
     )

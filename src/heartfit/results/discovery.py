@@ -9,17 +9,21 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Departure, Diagnosis, Gain, departures
-from heartfit.results.cause_card import CURVES, candidate_names, direction_and_phase, spaced_name
+from heartfit.discovery.inference.decide import BesideProcess
+from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain
+from heartfit.discovery.sphere_model.misfit import Departure, departures
 from heartfit.results.errors import root_mean_square
+from heartfit.results.misfit_text import mean_misfit
 from heartfit.results.text import (
     AMPLITUDE_UNITS,
+    CURVES,
     RenderedTable,
-    printed_curve_unit,
     printed_ratio,
+    spaced_name,
     to_latex,
     to_markdown,
 )
+from heartfit.results.verdict_text import candidate_names
 from heartfit.synthetic.campaign import Effect
 
 NAN = float("nan")
@@ -86,13 +90,13 @@ def printed_findings(results: Sequence[DiscoveryResult]) -> pd.DataFrame:
 
 
 NOTE = (
-    "Wrong by: largest departure of the refitted simulation without an added mechanism, in standard deviations of the "
-    "noise. The search on the sphere and the refits use one half of the samples; the error ratio, with the mechanism "
-    "over without it, is that of the other half and of the strain, to which nothing was fitted. Chi-squared of the "
-    "refits: of all samples of a curve, of its degrees of freedom, with the probability p that a correct model is "
-    "further off. The size from all samples "
-    "is one linear step from the refit, once the other half has judged. K has no true value. Refits are coarse where "
-    "the configuration has `discovery.coarse`."
+    "Wrong by: the misfit of the refitted three-dimensional heart without an added mechanism, on average over the "
+    "phase in which it is clearest, ± the noise of this average; sd: misfit over noise. The search on the sphere and "
+    "the refits use one half of the samples; the error ratio, with the mechanism over without it, is that of the other "
+    "half and of the strain, to which nothing was fitted. Chi-squared of the refits: of all samples of a curve, of its "
+    "degrees of freedom, with the probability p that a correct model is further off. The size from all samples is one "
+    "linear step from the refit, once the other half has judged. K has no true value. Refits are coarse where the "
+    "configuration has `discovery.coarse`."
 )
 
 
@@ -105,6 +109,8 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
     yield Entry("said by the search", _verdict(searched))
     yield _factor_of_the_search(searched)
     yield _number("its threshold", searched.threshold)
+    if searched.candidate:
+        yield _candidate_beside_process(searched.candidate.beside_process)
     yield Entry("said after the refit", _verdict(proved))
     if proved.refitted:
         yield from _sizes(proved.refitted.extension, "fitted half of the samples")
@@ -138,6 +144,15 @@ def _factor_of_the_search(searched: Diagnosis) -> Entry:
     return Entry("ln Bayes factor of the search", f"{factor:.1f} ({subject})", factor)
 
 
+def _candidate_beside_process(beside: BesideProcess) -> Entry:
+    side = "above" if beside.over >= 0.0 else "below"
+    text = (
+        f"{beside.gain:.1f}, {abs(beside.over):.1f} {side} a Gaussian process; "
+        f"a name needs {beside.required:g} above"
+    )
+    return Entry("ln Bayes factor of the candidate", text, beside.gain)
+
+
 def _hidden_effect(effect: Effect) -> str:
     return f"{spaced_name(effect.name)}, {_amplitude(effect.amplitude, effect.unit)} ({effect.scales:.1f} scales)"
 
@@ -157,11 +172,7 @@ def _verdict(diagnosis: Diagnosis) -> str:
 
 
 def _departure(departure: Departure) -> Entry:
-    unit, size = printed_curve_unit(departure.curve)
-    text = (
-        f"{abs(departure.size) / size:.2g} {unit} {direction_and_phase(departure)}, "
-        f"{1e3 * departure.time:.0f} ms: {abs(departure.deviations):.1f} sd"
-    )
+    text = f"{mean_misfit(departure)}: {abs(departure.deviations):.1f} sd"
     return Entry(f"wrong by: {CURVES.get(departure.curve, departure.curve)}", text, departure.deviations)
 
 

@@ -14,8 +14,9 @@ from heartfit.discovery.refit.target import fitted_mask
 from heartfit.discovery.sphere_model.cause import Diagnosis, Gain, Trace
 from heartfit.observation.curve import Curve
 from heartfit.observation.filling import volume_indices
-from heartfit.results.cause_card import candidate_names, spaced_name
 from heartfit.results.figures import CALIBRATED, MEASURED, REFERENCE, clean
+from heartfit.results.text import spaced_name
+from heartfit.results.verdict_text import candidate_names
 
 MILLILITRE, MILLISECOND, PERCENT = 1e-6, 1e-3, 1e-2
 SIDES = {"lv_volume": "left ventricle", "rv_volume": "right ventricle"}

@@ -52,5 +52,5 @@ def _is_true(hidden: str, verdict: str) -> bool:
     names = [effect.partition(",")[0] for effect in hidden.split("; ")]
     if names == [NOTHING]:
         return verdict == NONE
-    named = verdict.partition(" (withdrawn")[0].partition(": ")[2].split(" and ")
+    named = verdict.partition(" (")[0].partition(": ")[2].split(" and ")
     return set(names) <= set(named)

@@ -9,7 +9,7 @@ import pandas as pd
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS, FreeParameter
 from heartfit.observation.noise_model import Share
-from heartfit.results.cause_card import CURVES, spaced_name
+from heartfit.results.text import CURVES, spaced_name
 from heartfit.synthetic.other_worlds import EXPECTED, OtherHeart
 from heartfit.synthetic.scoring import SILENT
 from heartfit.synthetic.trial import ScoredDiagnosis

@@ -8,7 +8,7 @@ import pandas as pd
 
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.limits import SIZES, DetectionLimit
-from heartfit.results.cause_card import spaced_name
+from heartfit.results.text import spaced_name
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,6 +16,14 @@ RATES = {"dPdt_max": r"$dP/dt_{\max}$", "dPdt_min": r"$dP/dt_{\min}$"}
 RIGHT = "_rv"
 """End of the names of right ventricular observations."""
 
+CURVES = {
+    "lv_volume": "left ventricular volume",
+    "lv_pressure": "left ventricular pressure",
+    "aorta_pressure": "aortic pressure",
+    "rv_volume": "right ventricular volume",
+    "rv_pressure": "right ventricular pressure",
+}
+"""Words for the curves of a recording."""
 CURVE_UNITS = {"volume": "m^3", "pressure": "Pa", "flow": "m^3/s"}
 """SI unit of a curve by the last word of its name."""
 
@@ -123,6 +131,16 @@ AMPLITUDE_UNITS = {
     "m^3/(s Pa)": ("mL/(s kPa)", 1e9), "1/m^4": ("1/cm⁴", 1e-8), "1": ("", 1.0),
 }  # fmt: skip
 """Printed unit of an amplitude and the factor from SI, by SI unit."""
+
+
+def spaced_name(name: str) -> str:
+    """Return the name of a class as words: "mitral regurgitation" for MitralRegurgitation."""
+    return re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower()
+
+
+def two_digits(value: float) -> str:
+    """Return a value with two digits: "120", not "1.2e+02"."""
+    return f"{float(f'{value:.2g}'):g}"
 
 
 def printed_ratio(ratio: float, interval: tuple[float, float]) -> str:

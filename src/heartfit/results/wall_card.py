@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.figure import Figure
 
-from heartfit.discovery.wall_model.search import WallFindings
+from heartfit.discovery.wall_model.search import RULES, WallFindings
 from heartfit.results.bullseye import plot_bullseye
 from heartfit.results.wall_summary import NAMES, WallSummary, summarise_wall
 
@@ -52,7 +52,9 @@ def wall_figure(summary: WallSummary) -> Figure | None:
 
 def _evidence(summary: WallSummary) -> str:
     rows = [f"| {explanation} | {gain:.1f} |" for explanation, gain in summary.evidence.items()]
-    return "\n".join(["| explanation | ln Bayes factor |", "|---|---|", *rows])
+    return "\n".join(
+        [f"| explanation | ln Bayes factor (threshold {RULES.detected:g}) |", "|---|---|", *rows]
+    )
 
 
 def _segments(summary: WallSummary) -> str:

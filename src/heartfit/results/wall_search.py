@@ -10,7 +10,7 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import Effects
 from heartfit.discovery.sphere_model.searched_recording import NAMING_VERDICTS
 from heartfit.discovery.wall_model.search import RULES
-from heartfit.results.cause_card import spaced_name
+from heartfit.results.text import spaced_name
 
 RIGHT_TERRITORY = 45.0
 """Largest error [degrees] of the middle of a territory that counts as right; a segment is 60 degrees wide."""

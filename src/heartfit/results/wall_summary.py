@@ -7,11 +7,10 @@ import numpy as np
 
 from heartfit.discovery.inference.decide import Verdict
 from heartfit.discovery.wall_model.hypotheses import is_regional
-from heartfit.discovery.wall_model.search import WallFindings
+from heartfit.discovery.wall_model.search import RULES, WallFindings
 from heartfit.discovery.wall_model.territory import probability_of_segments
-from heartfit.results.cause_card import spaced_name
 from heartfit.results.residual import SEGMENT_NAMES
-from heartfit.results.text import AMPLITUDE_UNITS
+from heartfit.results.text import AMPLITUDE_UNITS, spaced_name
 from heartfit.roles import registered
 
 PROBABLE = 0.5
@@ -75,9 +74,10 @@ def _sentence(findings: WallFindings) -> str:
     """The verdict as a sentence that a cardiologist reads first."""
     decision = findings.decision
     if decision.verdict == "none":
+        largest = max([*findings.gains.values(), findings.discrepancy])
         return (
-            "No missing mechanism detected: volumes, pressures and the strain of the wall are those of a "
-            "normal heart of this shape, within their noise."
+            "No missing mechanism detected (none) in volumes, pressures and the strain of the wall: the largest ln "
+            f"Bayes factor is {largest:.1f}, the threshold is {RULES.detected:g}."
         )
     if decision.verdict == "unknown":
         return (
@@ -87,7 +87,12 @@ def _sentence(findings: WallFindings) -> str:
     names = [_with_size(findings, effects[0]) for effects in (decision.effects, *decision.alternatives)]
     if decision.verdict == "group":
         return f"Missing mechanism: one of {'; '.join(names)}. These data do not distinguish them."
-    return f"Missing mechanism: {names[0]} (ln Bayes factor {findings.log_bayes_factor(decision.effects[0]):.1f})."
+    return f"Missing mechanism: {names[0]} ({_evidence(findings)})."
+
+
+def _evidence(findings: WallFindings) -> str:
+    factor = findings.log_bayes_factor(findings.decision.effects[0])
+    return f"ln Bayes factor {factor:.1f}, threshold {RULES.detected:g}"
 
 
 def _with_size(findings: WallFindings, name: str) -> str:

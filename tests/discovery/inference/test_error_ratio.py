@@ -48,7 +48,7 @@ def test_half_the_error_is_called_better_in_four_of_five(times: np.ndarray, corr
 
 
 def test_many_independent_errors_have_the_interval_of_fisher() -> None:
-    """Of errors that share nothing the F distribution is exact, and the number of samples hardly reduced."""
+    """The F distribution is exact for errors that share nothing."""
     rng, times = np.random.default_rng(3), np.arange(400.0)
     baseline, extended = rng.standard_normal((2, 400))
     ratio, (low, high) = error_ratio(times, baseline, 0.5 * extended)
@@ -77,6 +77,6 @@ def test_segments_that_repeat_each_other_add_nothing() -> None:
     times = np.repeat(EVERY_FRAME, 4)
     alone = error_ratio(EVERY_FRAME, *first)[1]
     copied = error_ratio(times, *np.repeat(first, 4, axis=1))[1]
-    apart = error_ratio(times, *np.moveaxis(others, 0, -1).reshape(2, -1))[1]
+    separate = error_ratio(times, *np.moveaxis(others, 0, -1).reshape(2, -1))[1]
     assert np.log(copied[1] / copied[0]) == pytest.approx(np.log(alone[1] / alone[0]), rel=0.05)
-    assert np.log(apart[1] / apart[0]) < 0.7 * np.log(alone[1] / alone[0])
+    assert np.log(separate[1] / separate[0]) < 0.7 * np.log(alone[1] / alone[0])

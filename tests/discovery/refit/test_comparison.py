@@ -13,7 +13,8 @@ from heartfit.discovery.refit.model import ObservedBeat
 from heartfit.discovery.refit.prove import ExtensionTrial, FittedExtension
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase, sample, stack
-from heartfit.discovery.refit.verdict import curve_gains
+from heartfit.discovery.refit.verdict import Proof, curve_gains
+from heartfit.discovery.sphere_model.cause import Gain
 from heartfit.observation.curve import Curve
 from heartfit.personalise.setting import Setting
 
@@ -62,6 +63,12 @@ class Trial(ExtensionTrial):
 
     def at(self, extension: Extension, refit: Refit) -> FittedExtension:
         return FittedExtension(extension, refit, self.beats[len(extension.added)])
+
+
+@pytest.fixture(autouse=True)
+def _same_strain(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The beats have no motion: their strain does not change."""
+    monkeypatch.setattr(Proof, "strain_gains", (Gain("strain", "never fitted", 1.0, 1.0, 1.0, (0.9, 1.1)),))
 
 
 def trial(*beats: ObservedBeat) -> Trial:

@@ -86,6 +86,21 @@ def test_held_out_samples_change_neither_the_choice_of_a_name_nor_the_target(bot
     assert np.abs(np.subtract(*held)).max() > 0.0
 
 
+def test_held_out_frames_of_a_second_reading_change_neither_noise_nor_target() -> None:
+    """A second reading that errs on the frames that judge, with a drift that another scale would take up."""
+    rng, volume = np.random.default_rng(6), case().raw["lv_volume"]
+    second = volume.values + 2e-6 * rng.standard_normal(FRAMES)
+    spoilt = np.where(HELD["lv_volume"], 0.8 * second + 5e-6, second)
+    sound, misread = (
+        MeasuredCase.from_curves({"lv_volume": volume}, [], Curve(volume.times, values, PERIOD))
+        for values in (second, spoilt)
+    )
+    assert misread.frames == sound.frames
+    assert misread.target.values() == pytest.approx(sound.target.values())
+    assert misread.target.covariance == pytest.approx(sound.target.covariance)
+    assert misread.split.held["lv_volume"].values != pytest.approx(sound.split.held["lv_volume"].values)
+
+
 def test_a_correct_model_is_expected_to_miss_the_target_by_its_roughness() -> None:
     """Noiseless curves of one harmonic: the covariance is that of the roughness, of memory 50 ms and periodic."""
     target = case(both=False).target

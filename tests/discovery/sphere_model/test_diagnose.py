@@ -6,8 +6,9 @@ import pytest
 
 from heartfit.discovery.sphere_model.diagnose import diagnose, near_best
 from heartfit.io.causes import read_cause, write_cause_card
-from heartfit.results.cause_card import markdown_card, verdict_sentence
+from heartfit.results.cause_card import markdown_card
 from heartfit.results.cause_figure import render_cause
+from heartfit.results.verdict_text import verdict_sentence
 from heartfit.synthetic.case import plant
 from tests.discovery.sphere_model.hearts import LEAK, healthy, recorded
 

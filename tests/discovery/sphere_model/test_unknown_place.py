@@ -79,6 +79,9 @@ class Searched:
             explanation=lambda effects: SimpleNamespace(fit=SimpleNamespace(x=effects[0])),
         )
 
+    def traces(self, explained: SimpleNamespace) -> tuple[str, ...]:
+        return (explained.fit.x,)
+
     def refit(self, effects: tuple[str, ...]) -> SimpleNamespace:
         return SimpleNamespace(log_evidence=self.factors.get(effects, 0.0))
 
@@ -127,7 +130,6 @@ def located(
     monkeypatch.setattr(module, "PlaceSearch", lambda *_: search)
     monkeypatch.setattr(module, "FitContext", lambda _: None)
     monkeypatch.setattr(module, "predict_extension", gained)
-    monkeypatch.setattr(module, "traces", lambda _, explained, __: (explained.fit.x,))
     monkeypatch.setattr(module.ShownPlace, "from_search", shown)
     return locate(before, cast("SearchedRecording", case or Searched()), {}, PLACES)
 

@@ -64,7 +64,9 @@ class Searched:
     library: Mapping[str, str] = field(default_factory=lambda: {"Leak": "leak", "Delay": "delay"})
     data: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(values=np.zeros(3)))
     model: SimpleNamespace = field(
-        default_factory=lambda: SimpleNamespace(simulations=7, nominal=SimpleNamespace(stands_for="people"))
+        default_factory=lambda: SimpleNamespace(
+            simulations=7, nominal=SimpleNamespace(stands_for="people"), base=range(23)
+        )
     )
     recording: SimpleNamespace = field(
         default_factory=lambda: SimpleNamespace(
@@ -72,6 +74,7 @@ class Searched:
             curves={"lv_volume": VOLUME, "lv_pressure": PRESSURE},
             searched=("lv_volume", "lv_pressure"),
             unsearched={},
+            noise={},
         )
     )
 
@@ -92,6 +95,7 @@ class Searched:
             survey=SimpleNamespace(baseline=baseline, singles=list(at.values())),
             evidences=SimpleNamespace(baseline=0.0, discrepancy=self.discrepancy),
             structural_scale=self.scale,
+            margin=None,
         )
 
     @property
@@ -130,8 +134,10 @@ class Searched:
     def ranking(self) -> dict[str, float]:
         return {}
 
-    def phases(self) -> None:
-        return None
+    phases: None = field(default=None, init=False)
+
+    def traces(self, explained: object) -> tuple[()]:
+        return ()
 
     def tried(self) -> tuple[()]:
         return ()
@@ -144,7 +150,6 @@ def concluded(
     conditions: Mapping[str, Recording] = RAISED,
 ) -> Diagnosis:
     """The conclusion where each effect has these gains on held-out data."""
-    monkeypatch.setattr(module, "traces", lambda *_: ())
     monkeypatch.setattr(module, "next_measurement", lambda *_: "the flow")
     monkeypatch.setattr(
         module, "predict_explanation", lambda _, effects, __: list(map(Gained, gains[effects]))
@@ -212,7 +217,6 @@ def test_another_condition_adds_its_evidence_to_that_of_each_member_of_a_group(
 
 
 def test_a_name_whose_beat_fails_on_held_out_data_is_withdrawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "traces", lambda *_: ())
     monkeypatch.setattr(module, "next_measurement", lambda *_: "the flow")
     monkeypatch.setattr(module, "predict_explanation", lambda *_: [Gained(2.0), None])
     case = Searched("named", {LEAK: 12.0})

@@ -124,6 +124,11 @@ HALF_MUTANTS = changes(
         "return rough + frame_noise(curve) ** 2 * np.eye(times.size)",
         "return frame_noise(curve) ** 2 * np.eye(times.size)",
     ),
+    (
+        "frames that judge tell the noise of a second reading",
+        "fitted_mask(second.times.size)",
+        "np.ones(second.times.size, dtype=bool)",
+    ),
     ("a second reading adds no noise", "return rough + read_twice.covariance(times)", "return rough"),
 )
 

@@ -14,14 +14,19 @@ PROOF_MUTANTS = (
         UNSEEN,
         (
             "every extension helps on unseen data",
-            "for name, held in self.case.split.held.items()) < 0.0",
-            "for name, held in self.case.split.held.items()) < np.inf",
+            "float(np.mean(strain)) < 0.0",
+            "float(np.mean(strain)) < np.inf",
         ),
         (
             "fitted samples prove an extension",
             "in self.case.split.held.items())",
             "in self.case.split.fitted.items())",
         ),
+    ),
+    *changes(
+        "discovery/refit/verdict.py",
+        "tests/discovery/refit/test_unseen.py::test_the_strain_votes_on_an_extension",
+        ("the strain has no vote", "gain.ratio**2 - 1.0 for", "0.0 for"),
     ),
     *changes(
         "discovery/refit/verdict.py",
@@ -53,8 +58,22 @@ PROOF_MUTANTS = (
         ),
         (
             "the final size is judged at the prior mean",
-            "predicted = stack(sample(fitted.shown.curves, self.complete.samples))",
-            "predicted = 0.0 * stack(sample(fitted.shown.curves, self.complete.samples))",
+            "return stack(sample(fitted.shown.curves, self.complete.samples))",
+            "return 0.0 * stack(sample(fitted.shown.curves, self.complete.samples))",
+        ),
+    ),
+    *changes(
+        "results/discovery.py",
+        "tests/results/test_discovery_table.py",
+        (
+            "the factor printed is that of the weakest mechanism",
+            "owner, factor = max(ranked.items()",
+            "owner, factor = min(ranked.items()",
+        ),
+        (
+            "the factor printed is the largest of the ranking",
+            "elif ranked := factors or {",
+            "elif ranked := {",
         ),
     ),
     *changes(

@@ -26,12 +26,23 @@ SEARCH_MUTANTS = (
             "return 0.5 * np.linalg.slogdet",
             "return 0.0 * np.linalg.slogdet",
         ),
+        ("the interval of a size holds 68 %", "level: float = 0.95", "level: float = 0.68"),
         ("half a prior of one side", "share + bounded.size * np.log(2.0)", "share"),
         (
             "the prior shrinks reported amplitudes",
             "self.posterior.mean[index] / (1.0 - variance)",
             "self.posterior.mean[index]",
         ),
+    ),
+    *changes(
+        "discovery/inference/orthant.py",
+        f"{INFERENCE}/test_orthant.py {INFERENCE}/test_evidence.py",
+        (
+            "two one-sided amplitudes count as independent",
+            "if mean.shape[-1] == 2:",
+            "if mean.shape[-1] == 0:",
+        ),
+        ("the range about the peak stays wide", "in range(NARROWINGS):", "in range(1):"),
     ),
     *changes(
         "discovery/inference/context.py",

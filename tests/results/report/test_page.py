@@ -8,9 +8,9 @@ from html.parser import HTMLParser
 import pytest
 
 from heartfit.geometry.mesh import VentricularMesh
-from heartfit.results.cause_card import verdict_sentence
 from heartfit.results.report.cases import facts, status
 from heartfit.results.report.page import Assets, data, render
+from heartfit.results.verdict_text import verdict_sentence
 from tests.results.report.conftest import ASSETS, HOSTILE
 from tests.results.report.small_report import SETTING, diagnosis, study, volumes
 
@@ -98,10 +98,30 @@ def test_a_case_shows_the_outcome_of_its_fit_and_its_causes(page: str, ventricle
     assert "†</td>" in weak
     assert "†</td>" not in sound
     assert sound.count(f'<p class="verdict named">{verdict_sentence(diagnosis())}</p>') == 2
+    table = part(page, "cohort")
+    assert table.count(verdict_sentence(diagnosis())) == 1, "one headline and size, of the last card"
     refits = [
         re.search(r"<h4>(.*?)</h4>", article)[1] for article in sound.split('<article class="cause">')[1:]
     ]
     assert len(set(refits)) == 2
+
+
+def test_the_misfit_of_the_calibrated_heart_comes_first_and_under_its_name(page: str) -> None:
+    """Its target is missed by 1.5 noises; a curve that is missed says so above the cards of other models."""
+    sound, weak = part(page, "heart1"), part(page, "heart2")
+    calibrated = [line for line in re.findall(r"<li>(.*?)</li>", sound) if "alibrated 3-D heart" in line]
+    assert len(calibrated) == 4, "targets, both volumes, pressure"
+    assert "V_min +1.5" in calibrated[0]
+    assert all("2 free parameters" in line for line in calibrated)
+    assert sound.index(calibrated[-1]) < sound.index('<article class="cause">')
+    assert "failed: nothing is compared" in weak
+    missed = [line for line in calibrated if "left ventricular volume" in line]
+    assert "too high in" in missed[0]
+    others = [line for line in re.findall(r"<li>(.*?)</li>", sound) if "no misfit" in line]
+    assert all(
+        re.match(r"The (sphere of the search|refitted 3-D heart|calibrated 3-D heart) \(", line)
+        for line in others
+    )
 
 
 def test_a_case_shows_its_kind_its_conduction_and_its_curves(page: str, ventricle: VentricularMesh) -> None:

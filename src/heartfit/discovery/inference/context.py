@@ -24,7 +24,13 @@ from scipy.special import logsumexp
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Block, Data, Whitening
-from heartfit.discovery.inference.evidence import SIMULATION_LIMIT, Explanation, Fit, fit, linear_posterior
+from heartfit.discovery.inference.evidence import (
+    SIMULATION_LIMIT,
+    Explanation,
+    Fit,
+    fit,
+    linear_posterior,
+)
 from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
 
 DISCREPANCY_SIZES = (0.4, 1.0, 2.5)

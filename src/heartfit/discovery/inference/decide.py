@@ -23,6 +23,7 @@ class Rules:
     - start_amplitude: the amplitude with which every effect starts from the prior mean; from 1 a leak of 3 is missed.
     - refitted, respread: number of effects in the second round, and number of these that start again from every
       placement, with slopes of their own.
+    - settled: number of best effects, and of best pairs, that are settled.
     - over_discrepancy: the leading explanation, one effect or two, over the Gaussian process alone.
     - on_top: the largest gain of a Gaussian process on top of the named explanation.
     - strong, strong_share: an explanation over the Gaussian process by ``strong`` is named although one on top of it
@@ -42,6 +43,7 @@ class Rules:
     start_amplitude: float = 2.0
     refitted: int = 8
     respread: int = 2
+    settled: int = 3
     over_discrepancy: float = 2.0
     on_top: float = 4.0
     strong: float = 10.0

@@ -19,7 +19,7 @@ m_a < 0, a posterior that the bound cuts to its tail. Z is averaged over the lev
 References: Kass and Raftery 1995, doi:10.1080/01621459.1995.10476572.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import reduce
 
 import numpy as np
@@ -49,7 +49,10 @@ SCHEDULE = Schedule(
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """The end of one minimisation: x (d,), predicted (n,), jacobian (n, d) and the objective."""
+    """The end of one minimisation: x (d,), predicted (n,), jacobian (n, d) and the objective.
+
+    kink: of a settled fit, the slope (d,) of the objective that no step could follow; empty of another one.
+    """
 
     hypothesis: Hypothesis
     x: Floats
@@ -57,6 +60,12 @@ class Fit:
     jacobian: Floats
     objective: float
     converged: bool
+    kink: Floats = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def settled(self) -> bool:
+        """True if the fit ended with mean slopes."""
+        return self.kink.size > 0
 
     @classmethod
     def at_end(cls, hypothesis: Hypothesis, descent: Descent) -> "Fit":
@@ -130,12 +139,20 @@ class LaplacePosterior:
 
 
 def posterior(
-    whitening: Whitening, x: Floats, residual: Floats, jacobian: Floats, one_sided: np.ndarray
+    whitening: Whitening,
+    x: Floats,
+    residual: Floats,
+    jacobian: Floats,
+    one_sided: np.ndarray,
+    kink: Floats | float = 0.0,
 ) -> LaplacePosterior:
-    """The posterior of the model that is linear about x: coordinates (d,), residual (n,), Jacobian (n, d)."""
+    """The posterior of the model that is linear about x: coordinates (d,), residual (n,), Jacobian (n, d).
+
+    kink (d,): a slope that x has but the model about it has not.
+    """
     gram, peak = _level_combinations(whitening, residual, jacobian)
     covariance = np.asarray(np.linalg.inv(np.eye(x.size) + gram[:, 1:, 1:]), np.float64)
-    slope = gram[:, 1:, 0] - x
+    slope = gram[:, 1:, 0] - x - kink
     step = np.einsum("cij,cj->ci", covariance, slope)
     log_z = peak - 0.5 * gram[:, 0, 0] - 0.5 * x @ x + 0.5 * np.sum(step * slope, axis=1)
     volume, kept = laplace(x + step, covariance, one_sided)
@@ -220,4 +237,5 @@ class Explanation:
 
 def linear_posterior(fit: Fit, values: Floats, whitening: Whitening) -> LaplacePosterior:
     """The posterior of the model that is linear about the fit, under this noise."""
-    return posterior(whitening, fit.x, values - fit.predicted, fit.jacobian, fit.hypothesis.one_sided)
+    kink = fit.kink if fit.settled else 0.0
+    return posterior(whitening, fit.x, values - fit.predicted, fit.jacobian, fit.hypothesis.one_sided, kink)

@@ -98,12 +98,15 @@ class CountedHypothesis:
 
         The differences are those of the forward model near x, or of the other one where that one fails.
         """
+        models = self._models_near(x, predicted)
+        return np.column_stack([self._column(models, x, index, step) for index in range(first, x.size)])
+
+    def _models_near(self, x: Floats, predicted: Floats) -> list[tuple[Forward, Floats]]:
+        """The forward models that slopes at x (d,) may follow from, the best first, with their predictions (n,)."""
         models = [(self.hypothesis.forward, predicted)]
         near = self.hypothesis.near(x)
         centre = None if near is None else self._run(near, x)
-        if near is not None and centre is not None:
-            models = [(near, centre), *models]
-        return np.column_stack([self._column(models, x, index, step) for index in range(first, x.size)])
+        return models if near is None or centre is None else [(near, centre), *models]
 
     def _column(self, models: Sequence[tuple[Forward, Floats]], x: Floats, index: int, step: float) -> Floats:
         for forward, centre in models:
@@ -114,6 +117,27 @@ class CountedHypothesis:
                 prediction = self._run(forward, shifted) if within else None
                 if prediction is not None:
                     return (prediction - centre) / difference
+        return np.zeros_like(models[0][1])
+
+    def mean_slopes(self, x: Floats, predicted: Floats, reach: float) -> Floats:
+        """Mean slopes (n, d) from ``reach`` below x (d,), or from the bound, to ``reach`` above it.
+
+        A slope is one-sided where a simulation fails, and zero where those to both sides do.
+        """
+        models = self._models_near(x, predicted)
+        return np.column_stack([self._mean_slope(models, x, index, reach) for index in range(x.size)])
+
+    def _mean_slope(
+        self, models: Sequence[tuple[Forward, Floats]], x: Floats, index: int, reach: float
+    ) -> Floats:
+        low, high = max(x[index] - reach, self.hypothesis.lower[index]), x[index] + reach
+        for forward, centre in models:
+            ends = {x[index]: centre}
+            for value in {low, high} - {x[index]}:
+                prediction = self._run(forward, np.where(np.arange(x.size) == index, value, x))
+                ends |= {} if prediction is None else {value: prediction}
+            if len(ends) > 1:
+                return (ends[max(ends)] - ends[min(ends)]) / (max(ends) - min(ends))
         return np.zeros_like(models[0][1])
 
     def _run(self, forward: Forward, x: Floats) -> Floats | None:

@@ -7,7 +7,7 @@ baseline, which it contains, and the baseline is fitted again from the best effe
 was no effect.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -28,12 +28,14 @@ from heartfit.discovery.inference.decide import (
 )
 from heartfit.discovery.inference.evidence import Explanation
 from heartfit.discovery.inference.hypothesis import Hypothesis
+from heartfit.discovery.inference.margin import Margin, margin
 from heartfit.discovery.inference.predicted_evidence import (
     CombineEffects,
     best_prediction,
     fit_pairs,
     predict_placements,
 )
+from heartfit.discovery.inference.settling import rank, settle_leading
 
 EQUAL_MARGIN = 0.05
 """Objective above the baseline's up to which an effect counts as its equal."""
@@ -64,11 +66,6 @@ class Survey:
             {explanation.effects: discrepancy.log_evidence(explanation.fit) for explanation in best},
             {pair.effects: pair.log_evidence for pair in self.pairs},
         )
-
-
-def rank(explanations: Iterable[Explanation]) -> tuple[Explanation, ...]:
-    """Sort by descending evidence."""
-    return tuple(sorted(explanations, key=lambda explanation: explanation.log_evidence, reverse=True))
 
 
 def survey_singles(
@@ -162,14 +159,20 @@ def _refine(context: FitContext, at_mean: Explanation, survey: Survey, rules: Ru
         _refit_from_placements(context, at_mean, single, rules) for single in refitted[: rules.respread]
     ]
     singles = rank([*respread, *refitted[rules.respread :], *survey.singles[rules.refitted :]])
-    baseline = _refit_baseline(context, survey.baseline, singles[0])
+    baseline = survey.baseline
+    for single in singles[: rules.settled]:
+        baseline = _refit_baseline(context, baseline, single)
     nested = [
         single
-        if _not_worse(single, baseline)
-        else fit_from_baseline(context, baseline, single.fit.hypothesis)
-        for single in singles
+        if place >= rules.settled and _not_worse(single, baseline)
+        else _better(single, fit_from_baseline(context, baseline, single.fit.hypothesis))
+        for place, single in enumerate(singles)
     ]
-    return replace(survey, singles=rank(single for single in nested if single is not None), baseline=baseline)
+    return replace(survey, singles=rank(nested), baseline=baseline)
+
+
+def _better(single: Explanation, other: Explanation | None) -> Explanation:
+    return other if other is not None and other.fit.objective < single.fit.objective else single
 
 
 def _refit_fresh(context: FitContext, single: Explanation) -> Explanation:
@@ -203,6 +206,13 @@ def _polish_single(context: FitContext, single: Explanation, amplitudes: Sequenc
     return single
 
 
+def settle_best(context: FitContext, survey: Survey, rules: Rules) -> Survey:
+    """Settle the baseline and the leading singles and pairs, which a decision compares."""
+    (baseline,) = settle_leading(context, (survey.baseline,), 1)
+    singles, pairs = (settle_leading(context, fits, rules.settled) for fits in (survey.singles, survey.pairs))
+    return replace(survey, baseline=baseline, singles=singles, pairs=pairs)
+
+
 @dataclass(frozen=True, eq=False)
 class Findings:
     """The decision and its grounds.
@@ -225,6 +235,11 @@ class Findings:
     def best(self) -> Explanation:
         """The explanation that the decision names: the baseline where it names none."""
         return self.explanation(self.decision.effects)
+
+    @property
+    def margin(self) -> Margin | None:
+        """The smallest change of one ln evidence that changes the decision; None where it is not close."""
+        return margin(self.evidences, self.rules)
 
     def explanation(self, effects: Effects) -> Explanation:
         """The explanation by these effects; raises KeyError for effects that were not fitted."""
@@ -249,7 +264,7 @@ def search(
     fails at the centre of the priors, or that of every effect.
     """
     context = FitContext(data)
-    survey = survey_singles(context, baseline, singles, rules)
+    survey = settle_best(context, survey_singles(context, baseline, singles, rules), rules)
     scale = _structural_scale(context, survey.baseline)
     rules = rules.beside_structure(_structural_scale(context, survey.singles[0]))
     survey = _complete(context, survey, combine, rules)
@@ -266,5 +281,6 @@ def _complete(context: FitContext, survey: Survey, combine: CombineEffects, rule
     if not is_detected(evidences, rules):
         return survey
     if not is_explained(evidences, evidences.single, rules):
-        survey = polish_best(context, survey, rules)
-    return replace(survey, pairs=rank(fit_pairs(context, survey.singles, combine, rules)))
+        survey = settle_best(context, polish_best(context, survey, rules), rules)
+    pairs = rank(fit_pairs(context, survey.singles, combine, rules))
+    return settle_best(context, replace(survey, pairs=pairs), rules)

@@ -22,12 +22,17 @@ from heartfit.roles import registered
 RIGHT_PARAMETERS = (
     FreeParameter(("tissue.right.contractility",), 0.25),
     FreeParameter(("tissue.right.delay",), 0.6),
+    FreeParameter(("circulation.pulmonary_tree.tau",), 0.25),
     FreeParameter(("circulation.pulmonary_tree.Z_c",), 0.25),
+    FreeParameter(("circulation.pulmonary_tree.L",), 0.30),
+    FreeParameter(("circulation.tricuspid.open",), 0.40),
+    FreeParameter(("circulation.pulmonary.open",), 0.40),
     FreeParameter(("circulation.right_atrium",), 0.25),
     FreeParameter(("AtrialKick.right",), 0.3),
 )
-"""Unknowns of the right ventricle, free where its volume was measured. A heart without a delay keeps none: its prior is
-log-normal. The peripheral resistance and the stiffness are left out: a volume alone does not decide them."""
+"""Unknowns of the right ventricle, free where its volume was measured: as on the left those of its muscle, arteries,
+valves and atrium. A heart without a delay keeps none: its prior is log-normal. The peripheral resistance and the
+stiffness are left out: a volume alone does not decide them."""
 
 
 @dataclass(frozen=True)

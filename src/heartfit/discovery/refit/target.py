@@ -181,14 +181,16 @@ class MeasuredCase:
     ) -> "MeasuredCase":
         """Remove the bias of measured curves.
 
-        second: another reading of the left volume; reading: whether their mean or one of them is the volume.
+        second: another reading of the left volume; reading: whether their mean or one of them is the volume. The
+        fitted frames alone give the second reading its scale, and the noise.
         """
         corrected = {name: unbiased_with_noise(name, curve, models) for name, curve in measured.items()}
         curves = {name: curve for name, (curve, _) in corrected.items()}
         noise = {name: sd for name, (_, sd) in corrected.items()}
         frames: dict[str, FrameNoise] = {}
         if second is not None:
-            curves["lv_volume"], frames["lv_volume"] = TwoReadings(curves["lv_volume"], second).take(reading)
+            readings = TwoReadings(curves["lv_volume"], second, fitted_mask(second.times.size))
+            curves["lv_volume"], frames["lv_volume"] = readings.take(reading)
             scatter = np.hypot(frames["lv_volume"].deviation, SIMULATION_ROUGHNESS["volume"])
             noise["lv_volume"] = np.full(second.times.size, scatter)
         return cls(measured, curves, noise, models, frames)
@@ -214,7 +216,11 @@ class MeasuredCase:
         return self._target(self.split.complete())
 
     def _target(self, samples: Sampled) -> Target:
-        return Target(samples, covariance(samples, self.raw, self.models, self.frames))
+        return Target(samples, self.covariance(samples))
+
+    def covariance(self, samples: Sampled) -> Floats:
+        """Covariance (n, n) of a correct model about the samples, in their order."""
+        return covariance(samples, self.raw, self.models, self.frames)
 
     def recording(self) -> Recording:
         """All curves as the recording for the search on the sphere."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -14,8 +15,10 @@ from heartfit.discovery.refit.model import ObservedBeat
 from heartfit.discovery.refit.refit import Refit
 from heartfit.discovery.refit.target import MeasuredCase
 from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain, Refitted, Trace
+from heartfit.discovery.sphere_model.misfit import deviation_of_means, phase_names
 from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.observation.beat import BeatPhases
 from heartfit.observation.curve import Curve
 from heartfit.observation.strain import DIRECTIONS, segment_strain
 from heartfit.personalise.setting import Setting
@@ -40,10 +43,14 @@ class Proof:
 
     def gains(self) -> list[Gain]:
         """Return the gains on the held-out part of each curve and on the strain."""
-        return [*curve_gains(self.case, self.baseline.curves, self.extended.curves), *self._strain_gains()]
+        return [*curve_gains(self.case, self.baseline.curves, self.extended.curves), *self.strain_gains]
+
+    @cached_property
+    def strain_gains(self) -> tuple[Gain, ...]:
+        """Gains on circumferential and longitudinal strain over all segments and frames."""
+        return tuple(self._strain_gains())
 
     def _strain_gains(self) -> Iterator[Gain]:
-        """Yield the gains on circumferential and longitudinal strain over all segments and frames."""
         times = self.measured.times
         simulated = (beat.motion.resample(times) for beat in (self.baseline, self.extended))
         motions = (self.measured, *simulated)
@@ -55,14 +62,17 @@ class Proof:
             yield _gain(f"{name} strain", "never fitted", frames, before, after)
 
     def helps(self) -> bool:
-        r"""Return True if the extension brings all held-out curves together nearer to the measurement.
+        r"""Return True if the extension brings all held-out curves and the strain together nearer to the measurement.
 
         .. math:: \sum_c \frac{e_c^2 - b_c^2}{\sigma_c^2 + b_c^2} < 0
 
         with the mean square errors b without and e with the extension, and the noise sigma. A curve that the model
-        misses by far without the extension is no better known than this miss, so it does not outvote the others.
+        misses by far without the extension is no better known than this miss, so it does not outvote the others. The
+        strain of the wall, one registered motion, has one vote: the mean over its directions, b being its noise, too.
         """
-        return sum(self._relative_change(name, held) for name, held in self.case.split.held.items()) < 0.0
+        curves = sum(self._relative_change(name, held) for name, held in self.case.split.held.items())
+        strain = [gain.ratio**2 - 1.0 for gain in self.strain_gains]
+        return curves + float(np.mean(strain)) < 0.0
 
     def _relative_change(self, name: str, held: Samples) -> float:
         before, after = (
@@ -71,16 +81,17 @@ class Proof:
         )
         return (after - before) / (self.case.deviation(name) ** 2 + before)
 
-    def traces(self) -> tuple[Trace, ...]:
-        """Return each measured curve with both fits and the residual of the baseline."""
-        return tuple(self._trace(name) for name in self.case.curves)
+    def traces(self, phases: BeatPhases | None = None) -> tuple[Trace, ...]:
+        """Return each measured curve with both fits; phases: of the beat, over which residuals are averaged."""
+        return tuple(self._trace(name, phases) for name in self.case.curves)
 
-    def _trace(self, name: str) -> Trace:
-        curve, noise = self.case.curves[name], self.case.noise[name]
+    def _trace(self, name: str, phases: BeatPhases | None) -> Trace:
+        curve = self.case.curves[name]
         baseline, extended = (beat.curves[name](curve.times) for beat in (self.baseline, self.extended))
-        return Trace(
-            name, curve.times, curve.values, baseline, extended, noise, curve.values - baseline, noise
-        )
+        noise = self.case.covariance({name: Samples.from_curve(curve)})
+        means = deviation_of_means(noise, phase_names(curve.times, curve.period, phases))
+        sd = self.case.noise[name]
+        return Trace(name, curve.times, curve.values, baseline, extended, sd, None, None, mean_noise=means)
 
 
 def curve_gains(
@@ -164,12 +175,17 @@ def apply_proof(
     candidate = tuple(causes.get(cause.name, cause) for cause in _candidates(diagnosis))
     known = replace(
         diagnosis,
-        mechanisms=tuple(causes.get(cause.name, cause) for cause in diagnosis.mechanisms),
+        mechanisms=tuple(
+            replace(causes.get(cause.name, cause), ln_bayes_factor=cause.ln_bayes_factor)
+            for cause in diagnosis.mechanisms
+        ),
         candidate=diagnosis.candidate and replace(diagnosis.candidate, causes=candidate),
         gain=tuple(proof.gains()) if refitted else (),
         simulations=diagnosis.simulations + tried.simulations,
-        traces=proof.traces(),
+        traces=proof.traces(diagnosis.phases),
         refitted=refitted,
+        model="3-D heart",
+        free_parameters=len(tried.baseline.names),
         fits=tuple(fits),
     )
     return withdraw_unhelpful(known, tried.kept)
@@ -183,7 +199,11 @@ def withdraw_unhelpful(diagnosis: Diagnosis, kept: Sequence[str]) -> Diagnosis:
     names = [cause.name for cause in diagnosis.mechanisms]
     if not names or set(names) <= set(kept) or (diagnosis.verdict == "group" and kept):
         return diagnosis
-    left = tuple(cause for cause in diagnosis.mechanisms if cause.name in kept)
+    left = tuple(
+        replace(cause, ln_bayes_factor=diagnosis.ranking.get(cause.name, cause.ln_bayes_factor))
+        for cause in diagnosis.mechanisms
+        if cause.name in kept
+    )
     withdrawn_names = (
         names[:1] if diagnosis.verdict == "group" else [name for name in names if name not in kept]
     )

@@ -4,10 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-import numpy as np
-
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.decide import BesideProcess, Verdict
+from heartfit.discovery.inference.margin import Margin
 from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.observation.beat import BeatPhases
 from heartfit.places import Region
@@ -46,6 +45,11 @@ class Gain:
     ratio: float
     interval: tuple[float, float]
 
+    @property
+    def objects(self) -> bool:
+        """True if the cause makes the curve worse beyond chance."""
+        return self.interval[0] > 1.0
+
 
 SMALLEST_P = 0.01
 """Probability of a larger chi-squared below which a model misses a curve by more than its noise."""
@@ -70,9 +74,11 @@ class CurveFit:
 class Trace:
     """A measured curve (k,) [SI] beside the fitted ones: ``none`` without and ``extended`` with the cause.
 
-    noise (k,): standard deviation of the samples; lacking, band (k,): discrepancy of the model without the cause and
-    its standard deviation; structure (k,): standard deviation that the structural covariance allows it, at the most
-    probable scale, None where the model is trusted.
+    noise (k,): standard deviation of the samples; lacking, band (k,): GP discrepancy that the search fits in place of
+    the cause, and its standard deviation, no residual of a curve shown; None where none was fitted; structure (k,):
+    standard deviation that the structural covariance allows the model, at the most probable scale, None where the model
+    is trusted; mean_noise (k,): standard deviation of the mean over all samples in the phase of each, None where the
+    samples err independently.
     """
 
     curve: str
@@ -81,9 +87,10 @@ class Trace:
     none: Floats
     extended: Floats
     noise: Floats
-    lacking: Floats
-    band: Floats
+    lacking: Floats | None
+    band: Floats | None
     structure: Floats | None = None
+    mean_noise: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -192,6 +199,10 @@ class FittedModel:
     unknowns: int
 
 
+ShownModel = Literal["sphere", "3-D heart"]
+"""The model of the search, or the refitted one."""
+
+
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
     """The verdict and its grounds.
@@ -216,7 +227,11 @@ class Diagnosis:
     - acting: of an unknown effect the regions on which it may act, the most probable first; functions: what acts there,
       one for each; both empty where no place is detected.
     - strokes: of both ventricles, None without a right volume.
+    - read_twice: standard deviation of the noise [SI] of curves that were read twice.
+    - model, free_parameters: whose curves the traces show, and how many parameters it has free without a cause, 0 where
+      it is not told.
     - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
+    - margin: the smallest change of one ln Z that changes the decision of the search; None if it is not close.
     - fits: of the curves about the 3-D model without a cause, empty where none was refitted.
     """
 
@@ -244,45 +259,13 @@ class Diagnosis:
     acting: tuple[ActingPlace, ...] = ()
     functions: tuple[PlaceFunction, ...] = ()
     strokes: Strokes | None = None
-    fits: tuple[CurveFit, ...] = ()
+    read_twice: Mapping[str, float] = field(default_factory=dict)
+    model: ShownModel = "sphere"
+    free_parameters: int = 0
     candidate: UnnamedCandidate | None = None
+    fits: tuple[CurveFit, ...] = ()
+    margin: Margin | None = None
 
 
 CLEAR_DEVIATIONS = 2.0
-"""Standard deviations from which a departure exceeds noise."""
-
-
-@dataclass(frozen=True)
-class Departure:
-    """Simulated minus measured value of a curve [SI], its standard deviation, time after the trigger [s], and phase.
-
-    The phase is empty where the beat has none.
-    """
-
-    curve: str
-    phase: str
-    time: float
-    size: float
-    sd: float
-
-    @property
-    def deviations(self) -> float:
-        """The size in standard deviations; positive where the simulation is too high."""
-        return self.size / self.sd
-
-    @property
-    def clear(self) -> bool:
-        """True if the departure exceeds noise."""
-        return abs(self.deviations) >= CLEAR_DEVIATIONS
-
-
-def departures(diagnosis: Diagnosis) -> list[Departure]:
-    """The largest departure of each curve, of the simulation without a cause."""
-    return [_departure(trace, diagnosis) for trace in diagnosis.traces]
-
-
-def _departure(trace: Trace, diagnosis: Diagnosis) -> Departure:
-    worst = int(np.argmax(np.abs(trace.lacking) / trace.band))
-    time = float(trace.times[worst] % diagnosis.period)
-    phase = "" if diagnosis.phases is None else diagnosis.phases.names_at(np.array([time]))[0]
-    return Departure(trace.curve, phase, time, -float(trace.lacking[worst]), float(trace.band[worst]))
+"""Standard deviations from which a change or a function of time is clear."""

@@ -13,7 +13,7 @@ from heartfit.discovery.sphere_model.limits import RECORD_PRESSURE, next_measure
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
 from heartfit.discovery.sphere_model.problem import DiscrepancyPrior
 from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.discovery.sphere_model.searched_recording import SearchedRecording, traces
+from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 from heartfit.discovery.sphere_model.strokes import Strokes
 from heartfit.discovery.sphere_model.unknown_place import locate
 from heartfit.places import Place
@@ -89,11 +89,11 @@ def conclude(
         case.rules.detected,
         case.ranking(),
         tuple(name for effects in tried if effects not in helping for name in effects),
-        traces(case.findings, case.findings.explanation(best), case.data),
+        case.traces(case.findings.explanation(best)),
         unsearched={
             name: why for name, why in case.recording.unsearched.items() if name in case.recording.curves
         },
-        phases=case.phases(),
+        phases=case.phases,
         tried=case.tried(),
         samples=case.data.values.size,
         from_all_samples=case.sizes_from_all_samples(kept),
@@ -101,7 +101,10 @@ def conclude(
         structural_scale=case.findings.structural_scale,
         changes=case.changes(best),
         strokes=Strokes.from_recording(case.recording),
+        read_twice={name: noise.deviation for name, noise in case.recording.noise.items()},
+        free_parameters=len(case.model.base),
         candidate=case.candidate(),
+        margin=case.findings.margin,
     )
 
 

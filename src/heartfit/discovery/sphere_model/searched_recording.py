@@ -33,37 +33,11 @@ from heartfit.discovery.sphere_model.forward_model import (
     hypothesis,
 )
 from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS, TIME_SHIFT_INDEX, FreeParameter
+from heartfit.discovery.sphere_model.misfit import deviation_of_means, phase_names
 from heartfit.discovery.sphere_model.nominal_heart import NominalHeart
 from heartfit.discovery.sphere_model.problem import DiscrepancyPrior, SphereProblem
 from heartfit.discovery.sphere_model.recording import BALANCE, Recording
 from heartfit.observation.beat import BeatPhases, beat_curves
-
-
-def traces(findings: Findings, explained: Explanation, data: Data) -> tuple[Trace, ...]:
-    """One trace for each curve; noise: at the level that is most probable under the explanation."""
-    baseline, best = findings.survey.baseline.fit, explained.fit
-    levels, scale = Whitening.from_data(data).most_probable_levels(data.values - best.predicted)
-    noise = np.sqrt(np.diag(data.noise_covariance(levels)))
-    parts = [
-        part
-        for part in zip(data.blocks, data.rows, findings.baseline_discrepancy, strict=True)
-        if part[0].curve != BALANCE
-    ]
-    return tuple(
-        Trace(
-            block.curve,
-            block.times,
-            data.values[rows],
-            baseline.predicted[rows],
-            best.predicted[rows],
-            noise[rows],
-            lacking.mean,
-            lacking.sd,
-            None if data.structure is None else scale * np.sqrt(np.diag(data.structure)[rows]),
-        )
-        for block, rows, lacking in parts
-    )
-
 
 VOLUME_ALONE = ("lv_volume",)
 VOLUME_ONLY_THRESHOLD = 10.0
@@ -234,11 +208,37 @@ class SearchedRecording:
         factors["unknown"] = evidences.discrepancy - evidences.baseline
         return dict(sorted(factors.items(), key=lambda item: -item[1]))
 
+    def traces(self, explained: Explanation) -> tuple[Trace, ...]:
+        """One trace for each curve; noise: at the level that is most probable under the explanation."""
+        data, baseline, best = self.data, self.findings.survey.baseline.fit, explained.fit
+        levels, scale = Whitening.from_data(data).most_probable_levels(data.values - best.predicted)
+        covariance = data.noise_covariance(levels)
+        parts = zip(data.blocks, data.rows, self.findings.baseline_discrepancy, strict=True)
+        return tuple(
+            Trace(
+                block.curve,
+                block.times,
+                data.values[rows],
+                baseline.predicted[rows],
+                best.predicted[rows],
+                np.sqrt(np.diag(covariance)[rows]),
+                lacking.mean,
+                lacking.sd,
+                None if data.structure is None else scale * np.sqrt(np.diag(data.structure)[rows]),
+                deviation_of_means(
+                    covariance[rows, rows], phase_names(block.times, block.period, self.phases)
+                ),
+            )
+            for block, rows, lacking in parts
+            if block.curve != BALANCE
+        )
+
     def tried(self) -> tuple[FittedModel, ...]:
         """Every fitted model: without effects, with one, with two."""
         survey = self.findings.survey
         return tuple(map(_tried, (survey.baseline, *survey.singles, *survey.pairs)))
 
+    @cached_property
     def phases(self) -> BeatPhases | None:
         """Phases of the baseline's beat; None where one of its valves never moves."""
         simulated = self.model.simulate(self.findings.survey.baseline.fit.x)

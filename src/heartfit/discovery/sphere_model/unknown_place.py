@@ -25,7 +25,7 @@ from heartfit.discovery.sphere_model.place_search import (
     place_hypothesis,
 )
 from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.discovery.sphere_model.searched_recording import VOLUME_ALONE, SearchedRecording, traces
+from heartfit.discovery.sphere_model.searched_recording import VOLUME_ALONE, SearchedRecording
 from heartfit.discovery.sphere_model.shown_place import ShownPlace
 from heartfit.places import Place, regions_of
 
@@ -133,9 +133,7 @@ class _Competition:
             return None
         choice = max(refits, key=lambda place: place.ln_bayes_factor)
         gains = self._gains(partial(place_hypothesis, kind=choice.kind), choice.explanation)
-        return (
-            None if gains is None else _Preferred(traces(case.findings, choice.explanation, case.data), gains)
-        )
+        return None if gains is None else _Preferred(case.traces(choice.explanation), gains)
 
     def _gains(self, extension: Extension, explained: Explanation) -> tuple[Gain, ...] | None:
         """Return the gains of an extension fitted to the searched half; None where a held-out test shows none."""
@@ -158,7 +156,7 @@ def _named(diagnosis: Diagnosis, case: SearchedRecording, confirmed: _Confirmed)
         next_measurement="",
         gain=confirmed.gains,
         withdrawn=_withdrawn(diagnosis),
-        traces=traces(case.findings, case.findings.explanation(effects), case.data),
+        traces=case.traces(case.findings.explanation(effects)),
         from_all_samples=case.sizes_from_all_samples([effects]),
     )
 

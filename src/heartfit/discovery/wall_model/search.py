@@ -21,7 +21,8 @@ from heartfit.discovery.inference.decide import STRICT_RULES, Decision, Evidence
 from heartfit.discovery.inference.evidence import Explanation, fit_from_slopes
 from heartfit.discovery.inference.hypothesis import CountedHypothesis, Hypothesis
 from heartfit.discovery.inference.predicted_evidence import PredictedEvidence, predict_evidence
-from heartfit.discovery.inference.search import Survey, rank
+from heartfit.discovery.inference.search import Survey
+from heartfit.discovery.inference.settling import rank
 from heartfit.discovery.sphere_model.forward_model import Candidate, hypothesis
 from heartfit.discovery.wall_model.forward_model import WallForwardModel
 from heartfit.discovery.wall_model.hypotheses import candidates, is_regional, placements

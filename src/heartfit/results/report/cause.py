@@ -5,18 +5,15 @@ from dataclasses import dataclass
 from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.results.cause_card import (
     alternatives_text,
-    candidate_sentence,
-    departure_sentences,
     gain_subject,
     gains_text,
     next_measurement_text,
     self_test_sentence,
-    spaced_name,
-    unsearched_sentences,
-    verdict_sentence,
 )
 from heartfit.results.cause_figure import plot_cause
+from heartfit.results.misfit_text import misfit_lines
 from heartfit.results.report.picture import WIDTH, Picture, as_picture
+from heartfit.results.verdict_text import explanation_name, verdict_lines, verdict_sentence
 
 RANKING_ROWS = 6
 """Number of rows of the ranking."""
@@ -24,12 +21,12 @@ RANKING_ROWS = 6
 
 @dataclass(frozen=True)
 class CauseCard:
-    """Content of a cause card in reading order: verdict, misfit, evidence, alternatives, next measurement."""
+    """Content of a cause card in reading order: headline, lines below it, misfit, evidence, next measurement."""
 
     title: str
     verdict: str
     sentence: str
-    candidate: str
+    lines: list[str]
     misses: list[str]
     ranking: list[tuple[str, float]]
     threshold: float
@@ -49,10 +46,10 @@ def cause_card(diagnosis: Diagnosis, title: str) -> CauseCard:
         title=title,
         verdict=diagnosis.verdict,
         sentence=verdict_sentence(diagnosis),
-        candidate=candidate_sentence(diagnosis.candidate) if diagnosis.candidate else "",
-        misses=[*departure_sentences(diagnosis), *unsearched_sentences(diagnosis)],
+        lines=verdict_lines(diagnosis),
+        misses=list(misfit_lines(diagnosis)),
         ranking=[
-            (spaced_name(name), value) for name, value in list(diagnosis.ranking.items())[:RANKING_ROWS]
+            (explanation_name(name), value) for name, value in list(diagnosis.ranking.items())[:RANKING_ROWS]
         ],
         threshold=diagnosis.threshold,
         alternatives=_lines(alternatives_text(diagnosis)),

@@ -14,18 +14,19 @@ import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from heartfit.results.cause_card import verdict_sentence
 from heartfit.results.discovery import NOTE, printed_findings
 from heartfit.results.errors import PAPER, mean_error
 from heartfit.results.report.cases import facts, observations, plot_cohort, status
 from heartfit.results.report.cause import CauseCard, cause_card
 from heartfit.results.report.curves import plot_curves
+from heartfit.results.report.misfit import calibrated_misfits
 from heartfit.results.report.parameters import plot_estimates, plot_parameters
 from heartfit.results.report.picture import Picture, still_address
 from heartfit.results.report.record import CaseRecord, FittedCase, ReportTable, StudyRecord
 from heartfit.results.report.surface import colour_scales, viewer_data
 from heartfit.results.report.wall import WallCard, wall_section
 from heartfit.results.text import GREEK, LONG_STEP_LEGEND, LONG_STEP_MARK, RATES, cell_texts
+from heartfit.results.verdict_text import verdict_sentence
 
 LETTERS = {"alpha": "α", "sigma": "σ", "mu": "μ", "tau": "τ", "eta": "η"}
 
@@ -99,12 +100,14 @@ def _allowed(script: str) -> str:
 
 @dataclass(frozen=True)
 class Section:
-    """Content of the page for one case besides its numbers."""
+    """Content of the page for one case besides its numbers; headlines: of its causes the last card of each setting."""
 
     case: CaseRecord
     curves: Picture
     parameters: Picture
+    misfits: list[str]
     causes: list[CauseCard]
+    headlines: list[CauseCard]
     walls: list[WallCard]
     viewed: dict[str, Any]
     still: str
@@ -136,11 +139,13 @@ def _discovery(study: StudyRecord) -> ReportTable | None:
 
 def _section(case: CaseRecord, cases: list[CaseRecord]) -> Section:
     curves = plot_curves(case)
-    causes = [card for setting, fit in case.fits.items() for card in _causes(setting, fit)]
+    cards = [_causes(setting, fit) for setting, fit in case.fits.items()]
+    causes, headlines = [card for group in cards for card in group], [group[-1] for group in cards if group]
     walls = [wall_section(setting, summary) for setting, summary in case.walls.items()]
     moving = viewer_data(case) | {"follow": curves.follow}
     still_image = "" if case.still is None else still_address(case.still)
-    return Section(case, curves, plot_estimates(case, cases), causes, walls, moving, still_image)
+    estimates, misfits = plot_estimates(case, cases), calibrated_misfits(case)
+    return Section(case, curves, estimates, misfits, causes, headlines, walls, moving, still_image)
 
 
 def _causes(setting: str, fit: FittedCase) -> list[CauseCard]:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from heartfit.discovery.wall_model.search import RULES
 from heartfit.results.report.picture import WIDTH, Picture, as_picture
 from heartfit.results.wall_card import UNSEEN, wall_figure
 from heartfit.results.wall_summary import WallSummary
@@ -9,12 +10,13 @@ from heartfit.results.wall_summary import WallSummary
 
 @dataclass(frozen=True)
 class WallCard:
-    """A summary with its title on the page, its bull's-eye if it has one, and the note above the unseen effects."""
+    """A summary with its title, its bull's-eye if it has one, a note on unseen effects, and the threshold."""
 
     title: str
     summary: WallSummary
     figure: Picture | None
     note: str = UNSEEN
+    threshold: float = RULES.detected
 
 
 def wall_section(setting: str, summary: WallSummary) -> WallCard:
