@@ -1,9 +1,7 @@
-"""One thread for the mesher, because more of them decide its mesh by which finishes first.
+"""One thread for the mesher, because with more of them some meshes in a hundred differ.
 
-fTetWild lists the tetrahedra that a triangle may cut in the order in which threads of oneTBB find them
-(`tbb::concurrent_vector` in `TriangleInsertion.cpp`), and its Python package ignores `max_threads`. So oneTBB is
-limited from outside by its own `tbb::global_control`, as fTetWild's own program does; see
-docs/decisions/052-meshes-without-luck.md.
+The Python package of fTetWild ignores `max_threads`. So oneTBB, which it uses, is limited from outside by its own
+`tbb::global_control`, as fTetWild's own program does; see docs/decisions/052-meshes-without-luck.md.
 """
 
 import ctypes

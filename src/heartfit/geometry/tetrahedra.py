@@ -75,7 +75,7 @@ def _limit_threads(library: str) -> None:
 
 
 def _require_no_new_thread(before: int) -> None:
-    """Raise RuntimeError if the process has more threads than before the meshing, which depend on their luck."""
+    """Raise RuntimeError if the process has more threads than before the meshing, which may decide about the mesh."""
     started = living_threads() - before
     if started > 0:
         raise RuntimeError(
