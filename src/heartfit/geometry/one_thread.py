@@ -6,7 +6,6 @@ The Python package of fTetWild ignores `max_threads`. So oneTBB, which it uses, 
 
 import ctypes
 import os
-from pathlib import Path
 
 CREATE_CONTROL = "_ZN3tbb6detail2r16createERNS0_2d114global_controlE"
 """Symbol of tbb::detail::r1::create(global_control&), which the constructor of the class calls."""
@@ -14,7 +13,7 @@ MAX_ALLOWED_PARALLELISM = 0
 """Parameter of tbb::global_control: number of threads at work at a time, the calling one among them."""
 NUMBERS_OF_THREADS = ("OMP_NUM_THREADS", "IGL_NUM_THREADS")
 """Variables of the environment that limit the mesher's other libraries; set before they are loaded."""
-LIVING_THREADS = Path("/proc/self/task")
+LIVING_THREADS = "/proc/self/task"
 
 
 class _GlobalControl(ctypes.Structure):
@@ -45,4 +44,8 @@ def limit_threading_blocks(library: str) -> bool:
 
 def living_threads() -> int:
     """Return the number of threads of this process, idle ones of a pool too; 0 where the system does not list them."""
-    return len(list(LIVING_THREADS.iterdir())) if LIVING_THREADS.is_dir() else 0
+    try:
+        with os.scandir(LIVING_THREADS) as threads:
+            return sum(1 for _ in threads)
+    except FileNotFoundError:
+        return 0

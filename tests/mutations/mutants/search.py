@@ -87,15 +87,19 @@ SEARCH_MUTANTS = (
             "return context.improve(from_base, from_mean.fit.x, from_mean.fit.jacobian, patience=CENTRE_PATIENCE)",
             "return from_base",
         ),
-        ("no effect starts from other amplitudes", "survey = polish_best(context, survey, rules)", "pass"),
+        (
+            "no effect starts from other amplitudes",
+            "survey = settle_best(context, polish_best(context, survey, rules), rules)",
+            "pass",
+        ),
         (
             "the baseline stays in its local minimum",
-            "baseline = _refit_baseline(context, survey.baseline, singles[0])",
-            "baseline = survey.baseline",
+            "        baseline = _refit_baseline(context, baseline, single)\n",
+            "        pass\n",
         ),
         (
             "an effect may fit worse than none",
-            "        if _not_worse(single, baseline)\n",
+            "        if place >= LEADING and _not_worse(single, baseline)\n",
             "        if True\n",
         ),
     ),
