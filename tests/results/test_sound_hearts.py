@@ -11,7 +11,7 @@ REFERENCE = Path(__file__).parents[2] / "resources" / "reference"
 CURVES = ("left ventricular volume", "left ventricular pressure", "right ventricular volume")
 
 
-@pytest.mark.parametrize("study", ["study", "smoke", "full"])
+@pytest.mark.parametrize("study", ["study", "smoke"])
 def test_no_curve_of_a_sound_heart_is_missed_by_more_than_its_noise(study: str) -> None:
     table = pd.read_csv(REFERENCE / study / "discovery.csv")
     sound = table[(table.quantity == "hidden") & (table.text == "nothing")].case
