@@ -129,7 +129,8 @@ def test_a_number_drifts_elsewhere_beyond_a_thousandth_and_its_last_digit(value:
     ],
 )
 def test_one_line_says_whether_the_tables_agree(text: str, machine: dict[str, str], expected: str) -> None:
-    drift = StoredTables(STORED, HERE, {}).compared(changed("table1", 1, "V_min (%)", text), machine)
+    measured = {("table1", 0, "V_min (%)"): 0.1}
+    drift = StoredTables(STORED, HERE, measured).compared(changed("table1", 1, "V_min (%)", text), machine)
     line = drift.line("drift.csv")
     assert expected in line
     assert "\n" not in line
@@ -166,3 +167,12 @@ def test_a_study_without_some_cases_is_not_compared() -> None:
     assert drift_table(drift, reason).to_dict("list") == {"not compared": [reason]}
     assert drift.line("drift.csv", reason) == f"The tables are not compared with the stored ones: {reason}"
     assert len(drift_table(drift)) == len(STORED)
+
+
+def test_a_processor_of_which_nothing_is_known_is_not_judged() -> None:
+    tables = changed("table1", 1, "V_min (%)", "1.8")
+    unknown = StoredTables(STORED, HERE, {}).compared(tables, THERE)
+    known = StoredTables(STORED, HERE, {("table1", 0, "V_min (%)"): 0.1}).compared(tables, THERE)
+    here = StoredTables(STORED, HERE, {}).compared(tables, HERE)
+    assert [drift.judged for drift in (unknown, known, here)] == [False, True, True]
+    assert "of which it is not known what it moves" in unknown.line("drift.csv")

@@ -60,7 +60,7 @@ def drift_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def drift(arguments: argparse.Namespace) -> int:
-    """Print every cell in which the tables of a study differ from the stored ones; 1 if one drifted."""
+    """Print every cell in which the tables of a study differ from the stored ones; 1 if one drifted that is judged."""
     from heartfit.io import reference as stored_tables  # imported here: needs pandas
 
     tables, folder = stored_tables.read_held_tables(arguments.tables), arguments.reference
@@ -71,6 +71,7 @@ def drift(arguments: argparse.Namespace) -> int:
     stored = stored_tables.read_reference(folder)
     outcome = stored.compared(tables, stored_tables.machine())
     where = "this machine" if outcome.same_machine else "another machine"
+    where += "" if outcome.judged else ", and not judged: no other one was measured"
     print(
         f"{len(outcome.moves)} of {outcome.cells} cells differ, {len(outcome.drifted)} drifted; stored on {where}"
     )
@@ -81,7 +82,7 @@ def drift(arguments: argparse.Namespace) -> int:
         stored_tables.write_reference(folder, tables)
     elif arguments.processor:
         stored_tables.write_processors(folder, stored.with_processor(tables).items())
-    return int(bool(outcome.drifted) and not (arguments.renew or arguments.processor))
+    return int(bool(outcome.drifted) and outcome.judged and not (arguments.renew or arguments.processor))
 
 
 MOVED_COMMANDS = {

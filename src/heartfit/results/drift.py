@@ -77,7 +77,8 @@ class StoredTables:
             for move in moves
             if same or not move.change <= move.allowed(self.elsewhere.get(move.cell, 0.0))
         ]
-        return Drift(moves, drifted, sum(table.size for table in self.tables.values()), same)
+        cells = sum(table.size for table in self.tables.values())
+        return Drift(moves, drifted, cells, same, judged=same or bool(self.elsewhere))
 
     def with_processor(self, tables: Tables) -> dict[Cell, float]:
         """Return the changes on other processors and in these tables of one more: the larger of each cell."""
@@ -94,13 +95,15 @@ class StoredTables:
 class Drift:
     """Cells that differ from the stored ones, those that drifted among them, and the number of compared cells.
 
-    moves, drifted: in the order of the study, so that the others may follow from the first.
+    moves, drifted: in the order of the study, so that the others may follow from the first; judged: False on another
+    processor or software where it is not known what these move.
     """
 
     moves: Sequence[Move]
     drifted: Sequence[Move]
     cells: int
     same_machine: bool
+    judged: bool
 
     def line(self, listed_in: str, left_out: str = "") -> str:
         """Return in one line whether the tables agree with the stored ones; listed_in: file that lists the cells."""
@@ -117,6 +120,8 @@ class Drift:
             "the processor and software of the stored ones"
             if self.same_machine
             else "another processor or software"
+            if self.judged
+            else "another processor or software, of which it is not known what it moves"
         )
         return (
             f"{len(self.drifted)} of {self.cells} cells lie outside the stored tables, on {here}; the first in the "
