@@ -13,6 +13,7 @@ from heartfit.discovery.inference.decide import BesideProcess
 from heartfit.discovery.sphere_model.cause import Cause, CurveFit, Diagnosis, Gain
 from heartfit.discovery.sphere_model.misfit import Departure, departures
 from heartfit.results.errors import root_mean_square
+from heartfit.results.found import HIDDEN, NOTHING, SAID
 from heartfit.results.misfit_text import mean_misfit
 from heartfit.results.text import (
     AMPLITUDE_UNITS,
@@ -103,7 +104,7 @@ NOTE = (
 def _entries(result: DiscoveryResult) -> Iterator[Entry]:
     searched, proved = result.searched, result.proved
     if result.hidden is not None:
-        yield Entry("hidden", "; ".join(map(_hidden_effect, result.hidden)) or "nothing")
+        yield Entry(HIDDEN, "; ".join(map(_hidden_effect, result.hidden)) or NOTHING)
     yield from map(_departure, departures(proved))
     yield from (_fit(fit, "without a mechanism") for fit in proved.fits)
     yield Entry("said by the search", _verdict(searched))
@@ -111,7 +112,7 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
     yield _number("its threshold", searched.threshold)
     if searched.candidate:
         yield _candidate_beside_process(searched.candidate.beside_process)
-    yield Entry("said after the refit", _verdict(proved))
+    yield Entry(SAID, _verdict(proved))
     if proved.refitted:
         yield from _sizes(proved.refitted.extension, "fitted half of the samples")
         yield from _sizes(proved.refitted.from_all_samples, "all samples")

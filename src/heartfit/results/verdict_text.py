@@ -79,10 +79,12 @@ def sizes(diagnosis: Diagnosis, causes: Sequence[Cause]) -> tuple[Cause, ...]:
 
     It is that of the model in three dimensions where there was a refit, and from all samples where it was computed.
     """
-    proved = diagnosis.refitted
-    final = proved.from_all_samples if proved else diagnosis.from_all_samples
-    known = {cause.name: cause for cause in final}
+    known = {cause.name: cause for cause in _from_all_samples(diagnosis)}
     return tuple(known.get(cause.name, cause) for cause in causes)
+
+
+def _from_all_samples(diagnosis: Diagnosis) -> tuple[Cause, ...]:
+    return (diagnosis.refitted or diagnosis).from_all_samples
 
 
 def mechanism_with_size(cause: Cause) -> str:
@@ -178,9 +180,8 @@ def size_lines(diagnosis: Diagnosis) -> Iterable[str]:
         if kind is not None:
             yield f"Size of {spaced_name(cause.name)}: {kind.switch().meaning}."
     if sized:
-        proved = diagnosis.refitted
-        model = "the refit in three dimensions" if proved else "the fit of the sphere"
-        final = proved.from_all_samples if proved else diagnosis.from_all_samples
+        model = "the refit in three dimensions" if diagnosis.refitted else "the fit of the sphere"
+        final = _from_all_samples(diagnosis)
         samples = "all samples, after one half of them had judged" if final else "the samples that choose"
         yield f"Sizes are from {model} to {samples}."
 
