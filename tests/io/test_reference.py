@@ -4,10 +4,17 @@ import json
 from pathlib import Path
 
 import pytest
+from pandas.testing import assert_frame_equal
 
 from heartfit.cli import main as cli
 from heartfit.core.errors import InputError
-from heartfit.io.reference import machine, read_held_tables, read_reference, write_reference
+from heartfit.io.reference import (
+    machine,
+    read_held_tables,
+    read_reference,
+    write_ensemble,
+    write_reference,
+)
 from heartfit.results.drift import Drift
 
 TABLE1 = "# made by heartfit\ncase,V_min (%)\nv1,{v1}\n"
@@ -52,7 +59,7 @@ def test_another_machine_may_round_otherwise(tmp_path: Path, stored: Path) -> No
     assert stated == machine()
     (stored / "machine.json").write_text(json.dumps(stated | {"compiled for": "a processor of 2008"}))
     outcome = drift(write(tmp_path / "again", v1="1.2501"), stored)
-    assert (len(outcome.moves), outcome.drifted, outcome.same_machine) == (1, [], False)
+    assert (len(outcome.moves), outcome.same_machine, outcome.judged) == (1, False, False)
 
 
 def test_a_folder_without_stored_tables_is_refused(tmp_path: Path) -> None:
@@ -72,10 +79,13 @@ def test_one_command_prints_what_moved_and_stores_it(tmp_path: Path, stored: Pat
     assert cli.main(["drift", str(tmp_path / "empty"), str(stored)]) == 2
 
 
-def test_what_another_processor_moves_is_stored_and_then_allowed(tmp_path: Path, stored: Path) -> None:
-    tables = write(tmp_path / "other", v1="1.30")
-    assert cli.main(["drift", str(tables), str(stored), "--processor"]) == 0
+def test_what_rounding_moves_is_stored_and_then_allowed(tmp_path: Path, stored: Path) -> None:
+    members = [read_held_tables(write(tmp_path / v1, v1=v1)) for v1 in ("1.25", "1.26", "1.24", "1.25")]
+    ensemble = write_ensemble(stored, members)
+    again = read_reference(stored).ensemble
+    assert again is not None
+    assert_frame_equal(again.table(), ensemble.table(), rtol=1e-6)
     stated = json.loads((stored / "machine.json").read_text())
     (stored / "machine.json").write_text(json.dumps(stated | {"compiled for": "a processor of 2008"}))
-    assert drift(write(tmp_path / "third", v1="1.35"), stored).drifted == []
-    assert drift(write(tmp_path / "fourth", v1="1.45"), stored).drifted
+    assert drift(write(tmp_path / "third", v1="1.27"), stored).drifted == []
+    assert drift(write(tmp_path / "fourth", v1="2.25"), stored).drifted

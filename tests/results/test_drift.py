@@ -4,10 +4,10 @@ from math import inf
 
 import pandas as pd
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from heartfit.results.drift import StoredTables, drift_table, find_moves
+from heartfit.results.cells import find_moves
+from heartfit.results.drift import StoredTables, drift_table
+from heartfit.results.ensemble import Ensemble
 from heartfit.results.stages import in_order
 
 STORED = {
@@ -28,19 +28,23 @@ def changed(table: str, row: int, column: str, text: str) -> dict[str, pd.DataFr
 HERE, THERE = {"compiled for": "this"}, {"compiled for": "another"}
 
 
+STILL = Ensemble.of(STORED, [STORED] * 12)
+"""Of runs in which nothing moved."""
+
+
 def drifted(
-    tables: dict[str, pd.DataFrame], same_machine: bool = False, elsewhere: dict | None = None
+    tables: dict[str, pd.DataFrame], same_machine: bool = False, ensemble: Ensemble = STILL
 ) -> list[str]:
-    stored = StoredTables(STORED, HERE, elsewhere or {})
+    stored = StoredTables(STORED, HERE, ensemble)
     return [str(move) for move in stored.compared(tables, HERE if same_machine else THERE).drifted]
 
 
 def test_equal_tables_do_not_move() -> None:
     assert find_moves(STORED, STORED) == []
-    assert StoredTables(STORED, HERE, {}).compared(STORED, HERE).cells == 8
+    assert StoredTables(STORED, HERE).compared(STORED, HERE).cells == 8
 
 
-@pytest.mark.parametrize("size", [0.002, 0.01, 0.25, 1.0])
+@pytest.mark.parametrize("size", [0.003, 0.01, 0.25, 1.0])
 def test_any_number_that_moves_by_a_share_of_itself_drifts_on_any_machine(size: float) -> None:
     for text in ("0.4", "1.73412"):
         row = [*STORED["table1"]["V_min (%)"]].index(text)
@@ -59,18 +63,9 @@ def test_the_last_digit_counts_on_the_same_machine_only() -> None:
     assert drifted(changed("table1", 1, "V_min (%)", "1.7373"))
 
 
-def test_a_cell_that_moved_on_another_processor_may_move_three_times_as_far() -> None:
-    cell = ("table1", 1, "V_min (%)")
-    elsewhere = {cell: 0.1}
-    assert drifted(changed(*cell, "1.95"), elsewhere=elsewhere) == []
-    assert drifted(changed(*cell, "2.2"), elsewhere=elsewhere)
-    assert drifted(changed(*cell, "1.95"), same_machine=True, elsewhere=elsewhere)
-    assert drifted(changed("table1", 0, "V_min (%)", "0.7"), elsewhere=elsewhere), "another cell may not"
-
-
 def test_numbers_in_words_are_held_and_words_as_such() -> None:
     cell = ("discovery", 0, "text")
-    assert drifted(changed(*cell, "3 kPa too high in ejection: 4.0 sd"))
+    assert drifted(changed(*cell, "3 kPa too high in ejection: 3.2 sd"))
     assert drifted(changed(*cell, "3 kPa too high in ejection: 3.1 sd")) == [], "its last printed digit"
     assert drifted(changed(*cell, "3 kPa too low in ejection: 3.0 sd"))
     assert find_moves(STORED, changed(*cell, "3 kPa too low in ejection: 3.0 sd"))[0].change == inf
@@ -87,28 +82,6 @@ def test_a_missing_number_table_or_row_drifts() -> None:
     assert drifted(shorter) == [
         "table1: 2 rows of case, V_min (%), failed points before, 1 rows of case, V_min (%), failed points now"
     ]
-
-
-def test_moves_of_another_processor_are_kept_where_they_exceed_rounding() -> None:
-    small, large = changed("table1", 1, "V_min (%)", "1.73413"), changed("table1", 1, "V_min (%)", "1.8")
-    cell = ("table1", 1, "V_min (%)")
-    assert StoredTables(STORED, HERE, {}).with_processor(small) == {}
-    assert StoredTables(STORED, HERE, {}).with_processor(large) == {cell: pytest.approx(0.06588)}
-    assert StoredTables(STORED, HERE, {cell: 0.5}).with_processor(large) == {cell: 0.5}
-
-
-@given(st.floats(1e-3, 1e6), st.floats(-1.0, 1.0))
-def test_a_number_drifts_elsewhere_beyond_a_thousandth_and_its_last_digit(value: float, share: float) -> None:
-    before, now = f"{value:.6g}", f"{value * (1.0 + 0.01 * share):.6g}"
-    stored = StoredTables({"t": pd.DataFrame({"x": [before]})}, HERE, {})
-    drift = stored.compared({"t": pd.DataFrame({"x": [now]})}, THERE)
-    change = abs(float(now) - float(before))
-    digits, _, exponent = before.partition("e")
-    unit = 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
-    if change > 1.001e-3 * float(before) + 1.001 * unit:
-        assert drift.drifted
-    if change < 1e-3 * float(before):
-        assert not drift.drifted
 
 
 @pytest.mark.parametrize(
@@ -129,8 +102,7 @@ def test_a_number_drifts_elsewhere_beyond_a_thousandth_and_its_last_digit(value:
     ],
 )
 def test_one_line_says_whether_the_tables_agree(text: str, machine: dict[str, str], expected: str) -> None:
-    measured = {("table1", 0, "V_min (%)"): 0.1}
-    drift = StoredTables(STORED, HERE, measured).compared(changed("table1", 1, "V_min (%)", text), machine)
+    drift = StoredTables(STORED, HERE, STILL).compared(changed("table1", 1, "V_min (%)", text), machine)
     line = drift.line("drift.csv")
     assert expected in line
     assert "\n" not in line
@@ -140,7 +112,7 @@ def test_a_mesh_that_differs_is_named_before_the_numbers_that_follow_from_it() -
     meshes = pd.DataFrame({"mesh": ["template coarse"], "nodes": ["607"], "hash": ["6017b703fd248010"]})
     stored = {**STORED, "meshes": meshes}
     other = meshes.assign(nodes="627", hash="46524a818edc0000")
-    drift = StoredTables(stored, HERE, {}).compared(
+    drift = StoredTables(stored, HERE).compared(
         {**changed("discovery", 0, "text", "no"), "meshes": other}, HERE
     )
     assert [move.cell[0] for move in drift.drifted] == ["meshes", "meshes", "discovery"]
@@ -162,7 +134,7 @@ def test_tables_are_in_the_order_in_which_a_study_makes_them() -> None:
 
 
 def test_a_study_without_some_cases_is_not_compared() -> None:
-    drift = StoredTables(STORED, HERE, {}).compared({}, HERE)
+    drift = StoredTables(STORED, HERE).compared({}, HERE)
     reason = "patient1 left out"
     assert drift_table(drift, reason).to_dict("list") == {"not compared": [reason]}
     assert drift.line("drift.csv", reason) == f"The tables are not compared with the stored ones: {reason}"
@@ -171,8 +143,8 @@ def test_a_study_without_some_cases_is_not_compared() -> None:
 
 def test_a_processor_of_which_nothing_is_known_is_not_judged() -> None:
     tables = changed("table1", 1, "V_min (%)", "1.8")
-    unknown = StoredTables(STORED, HERE, {}).compared(tables, THERE)
-    known = StoredTables(STORED, HERE, {("table1", 0, "V_min (%)"): 0.1}).compared(tables, THERE)
-    here = StoredTables(STORED, HERE, {}).compared(tables, HERE)
+    unknown = StoredTables(STORED, HERE).compared(tables, THERE)
+    known = StoredTables(STORED, HERE, STILL).compared(tables, THERE)
+    here = StoredTables(STORED, HERE).compared(tables, HERE)
     assert [drift.judged for drift in (unknown, known, here)] == [False, True, True]
     assert "of which it is not known what it moves" in unknown.line("drift.csv")

@@ -11,6 +11,7 @@ from heartfit.io.configuration import read_configuration
 from heartfit.io.plan import plan_study
 from heartfit.io.run import Run
 from heartfit.io.files import keep_sums
+from heartfit.io.jitter import MEMBER
 from heartfit.results.case import Groups, Origin
 
 # one thread per job: Snakemake runs the jobs in parallel
@@ -49,6 +50,7 @@ onerror:
 
 
 STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources
+os.environ[MEMBER] = str(STUDY.jitter)
 SETTINGS = list(STUDY.settings)
 COMMON_SETTINGS = list(STUDY.common_settings())
 CALIBRATIONS = [(name, setting) for name, case in CASES.items() for setting in STUDY.settings_of(case)]

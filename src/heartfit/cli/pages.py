@@ -48,14 +48,8 @@ def drift_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "reference", type=Path, help="folder of the stored tables, such as resources/reference/study"
     )
-    change = command.add_mutually_exclusive_group()
-    change.add_argument(
+    command.add_argument(
         "--renew", action="store_true", help="store these tables instead, after a deliberate change"
-    )
-    change.add_argument(
-        "--processor",
-        action="store_true",
-        help="store that another processor moves what differs, beyond 0.1 %%",
     )
 
 
@@ -71,7 +65,7 @@ def drift(arguments: argparse.Namespace) -> int:
     stored = stored_tables.read_reference(folder)
     outcome = stored.compared(tables, stored_tables.machine())
     where = "this machine" if outcome.same_machine else "another machine"
-    where += "" if outcome.judged else ", and not judged: no other one was measured"
+    where += "" if outcome.judged else ", and not judged: no ensemble was run"
     print(
         f"{len(outcome.moves)} of {outcome.cells} cells differ, {len(outcome.drifted)} drifted; stored on {where}"
     )
@@ -80,9 +74,7 @@ def drift(arguments: argparse.Namespace) -> int:
     print(f"not held: {', '.join(further)}\n" if further else "", end="")
     if arguments.renew:
         stored_tables.write_reference(folder, tables)
-    elif arguments.processor:
-        stored_tables.write_processors(folder, stored.with_processor(tables).items())
-    return int(bool(outcome.drifted) and outcome.judged and not (arguments.renew or arguments.processor))
+    return int(bool(outcome.drifted) and outcome.judged and not arguments.renew)
 
 
 MOVED_COMMANDS = {

@@ -18,6 +18,7 @@ from heartfit.io.files import replacing
 from heartfit.io.image_file import MILLIMETRE, grid_of, load, numbers, read_frames
 from heartfit.io.image_names import is_image
 from heartfit.io.image_times import Timing, read_sidecar, settle, sidecar, write_sidecar
+from heartfit.io.jitter import moved_voxels
 
 WRITTEN = (".nrrd", ".nii.gz", ".mha")
 NIFTI_TIMES = 8, 16, 24
@@ -41,7 +42,7 @@ def read_images(
     sources = Timing(period, times), read_sidecar(path), own, Timing(usual)
     times, period = settle(path, len(voxels), *sources)
     try:
-        return ImageSequence(grid, voxels, times, period)
+        return ImageSequence(grid, moved_voxels(voxels), times, period)
     except InputError as fault:
         raise InputError(f"{path}: {fault}") from None
 

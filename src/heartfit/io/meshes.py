@@ -1,4 +1,4 @@
-"""Meshes (.vtu) and motions (.npz); a file is read back exactly as it was written."""
+"""Meshes (.vtu) and motions (.npz); a file is read back exactly as it was written, unless the study has a jitter."""
 
 from pathlib import Path
 from zipfile import BadZipFile
@@ -13,6 +13,7 @@ from heartfit.geometry.soundness import require_indices, require_sound
 from heartfit.geometry.surface import SURFACES
 from heartfit.heart.beat import Beat, nodal_motion
 from heartfit.io.files import replacing
+from heartfit.io.jitter import moved_positions
 from heartfit.io.text import parsing, require_file
 
 
@@ -72,7 +73,7 @@ def read_prepared_mesh(file: Path) -> VentricularMesh:
 
 
 def _mesh(path: Path, stored: meshio.Mesh) -> VentricularMesh:
-    points, tets = stored.points.astype(float), stored.cells_dict["tetra"].astype(np.int64)
+    points, tets = moved_positions(stored.points.astype(float)), stored.cells_dict["tetra"].astype(np.int64)
     triangles, surface_id = stored.cells_dict["triangle"], stored.cell_data_dict["surface"]["triangle"]
     surfaces = {name: triangles[surface_id == i].astype(np.int64) for i, name in enumerate(SURFACES)}
     fields = {name: stored.cell_data_dict[name]["tetra"] for name in CELL_FIELDS if name in stored.cell_data}
@@ -95,7 +96,7 @@ def write_motion(path: Path, motion: Motion) -> None:
 def read_motion(path: Path) -> Motion:
     """Read a motion of write_motion; raises InputError for a missing file or impossible times."""
     stored = read_arrays(path, "times", "period", "positions")
-    return Motion(stored["times"], float(stored["period"]), stored["positions"])
+    return Motion(stored["times"], float(stored["period"]), moved_positions(stored["positions"]))
 
 
 def write_simulated_motion(path: Path, beat: Beat, times: Floats) -> None:

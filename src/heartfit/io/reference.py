@@ -1,13 +1,14 @@
 """Stored tables of a study, to which later runs are held, and the machine that made them.
 
 A folder of resources/reference holds the tables as CSV, ``machine.json`` with the processor and the software behind
-them, and ``processors.csv`` with the cells that moved on another processor.
+them, and ``ensemble.csv`` with what rounding moves in them.
 """
 
 import json
 import os
+import re
 import shutil
-from collections.abc import Iterable
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,9 @@ from threadpoolctl import threadpool_info
 from heartfit.core.errors import InputError
 from heartfit.io.files import write_text
 from heartfit.io.fingerprint import versions
-from heartfit.results.drift import Cell, StoredTables, Tables
+from heartfit.results.cells import Tables
+from heartfit.results.drift import StoredTables
+from heartfit.results.ensemble import Ensemble
 
 FREE = ("costs", "posteriors", "curves", "drift")
 """Tables that are not held: times, and the values behind the other tables."""
@@ -26,7 +29,7 @@ FREE_COLUMNS = ("run", "parameters", "fingerprint")
 """Columns of `numbers` that name files and code, or repeat other rows."""
 TIME = "min"
 """Unit of a claim about computing time."""
-MACHINE, PROCESSORS = "machine.json", "processors.csv"
+MACHINE, ENSEMBLE = "machine.json", "ensemble.csv"
 
 
 def machine() -> dict[str, str]:
@@ -46,7 +49,7 @@ def read_held_tables(folder: Path) -> dict[str, pd.DataFrame]:
 
     Raises InputError for a folder without tables.
     """
-    files = [file for file in sorted(Path(folder).glob("*.csv")) if file.name != PROCESSORS]
+    files = [file for file in sorted(Path(folder).glob("*.csv")) if file.name != ENSEMBLE]
     if not files:
         raise InputError(f"{folder}: no table; expected the CSV tables of a study: run `snakemake --cores 2`")
     return {file.stem: _held_part(file) for file in files if file.stem not in FREE}
@@ -61,29 +64,37 @@ def _held_part(file: Path) -> pd.DataFrame:
 
 def read_reference(folder: Path) -> StoredTables:
     """Read stored tables; raises InputError for a folder without them."""
-    stated, processors = Path(folder, MACHINE), Path(folder, PROCESSORS)
+    stated = Path(folder, MACHINE)
     if not stated.is_file():
         raise InputError(
             f"{folder}: no stored tables; expected {MACHINE} beside them: store those of a study, "
             "`heartfit drift TABLES FOLDER --renew`"
         )
-    rows = pd.read_csv(processors).to_dict("records") if processors.is_file() else []
-    elsewhere: dict[Cell, float] = {
-        (row["table"], int(row["row"]), str(row["column"])): float(row["change"]) for row in rows
-    }
-    return StoredTables(read_held_tables(folder), json.loads(stated.read_text(encoding="utf-8")), elsewhere)
+    tables, made_by = read_held_tables(folder), json.loads(stated.read_text(encoding="utf-8"))
+    return StoredTables(tables, made_by, _read_ensemble(Path(folder, ENSEMBLE)))
+
+
+def _read_ensemble(file: Path) -> Ensemble | None:
+    if not file.is_file():
+        return None
+    with file.open(encoding="utf-8") as stream:
+        members, tested = re.findall(r"\d+", stream.readline())
+        table = pd.read_csv(stream, dtype=str, keep_default_na=False)
+    return Ensemble.from_table(table, int(members), int(tested))
 
 
 def write_reference(folder: Path, tables: Tables) -> None:
-    """Store held tables of a study with the machine that made them; changes on other processors are forgotten."""
+    """Store held tables of a study with the machine that made them; an ensemble of earlier ones is forgotten."""
     shutil.rmtree(folder, ignore_errors=True)
     for name, table in tables.items():
         write_text(Path(folder, f"{name}.csv"), table.to_csv(index=False, lineterminator="\n"))
     write_text(Path(folder, MACHINE), json.dumps(machine(), indent=1) + "\n")
 
 
-def write_processors(folder: Path, changes: Iterable[tuple[Cell, float]]) -> None:
-    """Store the changes of cells on other processors."""
-    rows = [(*cell, change) for cell, change in changes]
-    frame = pd.DataFrame(rows, columns=["table", "row", "column", "change"])
-    write_text(Path(folder, PROCESSORS), frame.to_csv(index=False, float_format="%.3g", lineterminator="\n"))
+def write_ensemble(folder: Path, members: Sequence[Tables]) -> Ensemble:
+    """Store what rounding moves in stored tables, by the tables of runs that differ in it alone, and return it."""
+    ensemble = Ensemble.of(read_held_tables(folder), members)
+    rows = ensemble.table().to_csv(index=False, float_format="%.7g", lineterminator="\n")
+    head = f"# {ensemble.members} runs, {ensemble.tested} numbers\n"
+    write_text(Path(folder, ENSEMBLE), head + rows)
+    return ensemble
