@@ -29,7 +29,7 @@ HERE, THERE = {"compiled for": "this"}, {"compiled for": "another"}
 
 
 STILL = Ensemble.of(STORED, [STORED] * 12)
-"""Of runs in which nothing moved."""
+"""Ensemble of runs in which nothing moved."""
 
 
 def drifted(

@@ -76,4 +76,4 @@ def test_another_number_of_rows_is_allowed_only_if_a_member_has_it() -> None:
 
 def test_the_stored_form_is_read_back() -> None:
     table = ENSEMBLE.table().astype(str)
-    assert Ensemble.from_table(table, ENSEMBLE.members, ENSEMBLE.tested).moved == ENSEMBLE.moved
+    assert Ensemble.from_table(table, ENSEMBLE.members, ENSEMBLE.tested).spreads == ENSEMBLE.spreads

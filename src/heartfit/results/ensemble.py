@@ -57,7 +57,7 @@ class Ensemble:
 
     members: int
     tested: int
-    moved: Mapping[Cell, Mapping[str, Sequence[Spread]]]
+    spreads: Mapping[Cell, Mapping[str, Sequence[Spread]]]
 
     @classmethod
     def of(cls, stored: Tables, members: Sequence[Tables]) -> "Ensemble":
@@ -75,12 +75,12 @@ class Ensemble:
             same_form = len(members) - (reshaped[table] if column else 0)
             texts += [before[table, row, column]] * (same_form - len(texts))
         tested = sum(len(numbers(text)) for table in held.values() for text in table.to_numpy().ravel())
-        moved = {cell: _spreads(cell, texts) for cell, texts in printed.items()}
-        return cls(len(members), tested, moved)
+        spreads = {cell: _spreads(cell, texts) for cell, texts in printed.items()}
+        return cls(len(members), tested, spreads)
 
     def holds(self, move: Move) -> bool:
         """True if a cell that differs from the stored one is one of this ensemble, as far as can be told."""
-        by_words = {**_spreads(move.cell, [move.before] * self.members), **self.moved.get(move.cell, {})}
+        by_words = {**_spreads(move.cell, [move.before] * self.members), **self.spreads.get(move.cell, {})}
         stated, values = _read(move.cell, move.now)
         if stated not in by_words:
             return False
@@ -102,14 +102,14 @@ class Ensemble:
     def digits(self, cell: Cell, text: str) -> float:
         """Significant digits of the worst number of a stored cell; infinite for a cell of words alone."""
         stated, _ = _read(cell, text)
-        spreads = self.moved.get(cell, {}).get(stated) or _spreads(cell, [text])[stated]
+        spreads = self.spreads.get(cell, {}).get(stated) or _spreads(cell, [text])[stated]
         return min((spread.digits for spread in spreads), default=inf)
 
     def table(self) -> pd.DataFrame:
         """Return one row for each number of each cell that moved; one without a number for words alone."""
         rows = [
             (*cell, text, place, *entry)
-            for cell, by_words in self.moved.items()
+            for cell, by_words in self.spreads.items()
             for text, spreads in by_words.items()
             for place, entry in _numbered(spreads)
         ]
@@ -118,12 +118,12 @@ class Ensemble:
     @classmethod
     def from_table(cls, table: pd.DataFrame, members: int, tested: int) -> "Ensemble":
         """Return the ensemble of a table of `table`."""
-        moved: dict[Cell, dict[str, list[Spread]]] = defaultdict(lambda: defaultdict(list))
+        read: dict[Cell, dict[str, list[Spread]]] = defaultdict(lambda: defaultdict(list))
         for row in table.to_dict("records"):
-            spreads = moved[row["table"], int(row["row"]), row["column"]][row["words"]]
+            spreads = read[row["table"], int(row["row"]), row["column"]][row["words"]]
             if row["number"]:
                 spreads.append(Spread(int(row["members"]), float(row["mean"]), float(row["sd"])))
-        return cls(members, tested, {cell: dict(by_words) for cell, by_words in moved.items()})
+        return cls(members, tested, {cell: dict(by_words) for cell, by_words in read.items()})
 
 
 def leave_one_out(stored: Tables, members: Mapping[str, Tables]) -> dict[str, list[Move]]:

@@ -42,9 +42,7 @@ class Study(Strict):
     measured_heart: str | None = Field(
         None, min_length=1, description="folder of the fit that serves measured cases without sources"
     )
-    jitter: int = Field(
-        0, ge=0, description="number of the member of a perturbed ensemble; 0 moves nothing of what jobs read"
-    )
+    jitter: int = Field(0, ge=0, description="member of a perturbed ensemble; 0 moves nothing that jobs read")
     methods: bool = Field(
         False,
         description="also compare methods: of calibration, with its coverage, on spheres; Sobol's indices; images",
