@@ -3,26 +3,34 @@
 NAME: a folder of resources/reference. Each member is a run whose jobs read positions moved by 1e-12 of themselves and
 voxels by one unit in the last place; two more are unmoved, with the arithmetic of older processors. Two members run at
 a time, those that have ended are kept in results/ensemble, and their means, deviations and words are stored beside the
-tables.
+tables; docs/measured/ensemble.tsv says how many digits hold. With --store no member is run.
 """
 
 import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from math import inf
 from pathlib import Path
 
+import pandas as pd
+
+from benchmarks.measured_table import read_table, store_table
 from benchmarks.ventricles import ROOT
 from heartfit.core.errors import InputError
-from heartfit.io.reference import read_held_tables, write_ensemble
+from heartfit.io.reference import ENSEMBLE, read_held_tables, write_ensemble
+from heartfit.results.cells import Tables
+from heartfit.results.ensemble import MOST_DIGITS, Ensemble, leave_one_out
 
+MODULE, TABLE = "benchmarks.ensemble", "ensemble"
 CONFIGURATIONS = {
-    "smoke": ("config/smoke.yaml",),
     "study": ("config/config.yaml",),
-    "measured_heart_smoke": ("config/measured_heart.yaml", "config/measured_heart_smoke.yaml"),
     "measured_heart": ("config/measured_heart.yaml",),
+    "smoke": ("config/smoke.yaml",),
+    "measured_heart_smoke": ("config/measured_heart.yaml", "config/measured_heart_smoke.yaml"),
 }
 REFERENCE, RESULTS = Path("resources/reference"), Path("results/ensemble")
 WIDEST = "X86_V4 AVX512_ICL AVX512_SPR"
@@ -39,41 +47,42 @@ PROCESSORS = {
     },
 }
 """Settings of the libraries that give the arithmetic of an older processor: with AVX2 and FMA, and without."""
-RUN = (sys.executable, "-m", "snakemake", "--cores", "1", "--scheduler", "greedy", "--quiet", "all")
+RUN = (sys.executable, "-m", "snakemake", "--cores", "1", "--scheduler", "greedy")
 
 
-def main(name: str, members: int, store: bool) -> None:
-    """Run the members that are missing, two at a time, and store the ensemble; `store` stores those that there are."""
-    names = [*PROCESSORS, *map(str, range(1, members + 1))]
+def main(name: str, count: int, store: bool) -> None:
+    """Run the members that are missing, two at a time, and store the ensemble; ``store``: of those that there are."""
+    names = [*PROCESSORS, *map(str, range(1, count + 1))]
     if not store:
         with ThreadPoolExecutor(2) as pool:
             list(pool.map(lambda member: run(name, member), names))
-    there = [folder_of(name, member) for member in names if folder_of(name, member).is_dir()]
-    write_ensemble(REFERENCE / name, list(map(read_held_tables, there)))
-    sys.stdout.write(f"{name}: ensemble of {len(there)} members\n")
-
-
-def folder_of(name: str, member: str) -> Path:
-    """Return the folder of the tables of a member that has ended."""
-    return RESULTS / name / member
+    folders = {member: RESULTS / name / member for member in names}
+    members = {member: read_held_tables(folder) for member, folder in folders.items() if folder.is_dir()}
+    ensemble = write_ensemble(REFERENCE / name, list(members.values()))
+    row = {"tables": name, **summary(ensemble, read_held_tables(REFERENCE / name), members)}
+    earlier = read_table(TABLE)
+    rows = {row["tables"]: row for row in (*earlier.to_dict("records"), row)}
+    table = pd.DataFrame([rows[each] for each in CONFIGURATIONS if each in rows])
+    store_table(TABLE, table, MODULE)
+    sys.stdout.write(f"{table.to_string(index=False)}\n")
 
 
 def run(name: str, member: str) -> None:
     """Make the tables of a member, unless they are there, and keep nothing else; InputError if the run fails."""
-    kept, results = folder_of(name, member), RESULTS / name / f"{member}.part"
+    kept, results = RESULTS / name / member, RESULTS / name / f"{member}.part"
     if kept.is_dir():
         return
-    tables = [f"{results}/tables/{file.name}" for file in sorted((REFERENCE / name).glob("*.csv"))]
+    files = [file.name for file in sorted((REFERENCE / name).glob("*.csv")) if file.name != ENSEMBLE]
     stated = (f"results={results}", f"jitter={0 if member in PROCESSORS else member}")
-    command: Sequence[str] = [
-        *(*RUN, "--configfile", *CONFIGURATIONS[name], "--config", *stated),
-        *("--", *(table for table in tables if not table.endswith("/ensemble.csv"))),
-    ]
+    command = (*RUN, "--configfile", *CONFIGURATIONS[name], "--config", *stated, "--")
     log = RESULTS / name / f"{member}.log"
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("w") as stream:
         code = subprocess.run(
-            command, cwd=ROOT, env=os.environ | PROCESSORS.get(member, {}), stdout=stream, stderr=stream
+            [*command, *(f"{results}/tables/{file}" for file in files)],
+            env=os.environ | PROCESSORS.get(member, {}),
+            stdout=stream,
+            stderr=stream,
         ).returncode
     if code:
         raise InputError(f"{log}: the run of member {member} ended with {code}; mend its cause and run again")
@@ -81,6 +90,27 @@ def run(name: str, member: str) -> None:
     shutil.rmtree(results)
     sys.stdout.write(f"{name}: member {member} has ended\n")
     sys.stdout.flush()
+
+
+def summary(ensemble: Ensemble, stored: Tables, members: Mapping[str, Tables]) -> dict[str, str]:
+    """Return how many cells hold how many digits, how many have words that vary, and which members disagree."""
+    held = Counter(
+        inf if digits == inf else int(digits)
+        for name, table in stored.items()
+        for column in table
+        for row, text in enumerate(table[column])
+        for digits in (ensemble.digits((name, row, str(column)), text),)
+    )
+    outside = leave_one_out(stored, members)
+    return {
+        "runs": str(ensemble.members),
+        "cells with numbers": str(sum(held.values()) - held[inf]),
+        **{f"{digits} digits": str(held[digits]) for digits in range(MOST_DIGITS)},
+        "all that are printed": str(held[MOST_DIGITS]),
+        "words vary": str(sum(len(by_words) > 1 for by_words in ensemble.spreads.values())),
+        "agree, left out": str(sum(not moves for moves in outside.values())),
+        "cells outside": " ".join(f"{name} {len(moves)}" for name, moves in outside.items() if moves),
+    }
 
 
 if __name__ == "__main__":
