@@ -124,22 +124,3 @@ def test_a_quantity_that_is_not_stored_is_named(pages):
     assert (values("V_min", 1), values("V_min", 2, plus=True), values("V_min")) == ("1.2", "+1.25", "1.25")
     with pytest.raises(KeyError, match=r"study\.tsv has no 'q_max'"):
         values("q_max")
-
-
-def test_the_page_of_the_search_counts_the_effects_of_the_detection_limits():
-    rows = re.findall(
-        r"^\| (\w+) ?[+-]? \| (not seen|[^|]+) \| > 4 \||^\| (\w+) ?[+-]? \| [^|]+ \| ([\d.]+) \|",
-        (ROOT / "docs" / "detection_limits.md").read_text(),
-        re.MULTILINE,
-    )
-    least: dict[str, float] = {}
-    for hidden, _, detected, scales in rows:
-        name = hidden or detected
-        least[name] = min(least.get(name, float("inf")), float(scales or "inf"))
-    never = sum(scales == float("inf") for scales in least.values())
-    late = sum(2.0 < scales <= 4.0 for scales in least.values())
-    text = " ".join((ROOT / "docs" / "discovery.md").read_text().split())
-    assert (
-        f"of the {len(least)} effects of the library {never} are not expected to show even at 4 scales, {late} more"
-        in text
-    )

@@ -15,7 +15,7 @@ SUBJECTS = (simulate, init, check, diagnose, wall, campaign, pages)
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; return 0 for success, 1 for a failed simulation, 2 for invalid input, reported in one line."""
     try:
-        namespace = _parser().parse_args(arguments)
+        namespace = command_parser().parse_args(arguments)
         return int(namespace.carry_out(namespace))
     except (InputError, OSError, MemoryError) as problem:
         print(f"heartfit: {refusal(problem)}", file=sys.stderr)
@@ -30,7 +30,8 @@ class _PrintVersions(Action):
         parser.exit()
 
 
-def _parser() -> Parser:
+def command_parser() -> Parser:
+    """Return the parser of all commands, which also writes the reference page docs/command_line.md."""
     parser = Parser(prog="heartfit", description=__doc__)
     parser.add_argument(
         "--version",

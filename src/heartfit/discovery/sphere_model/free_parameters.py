@@ -1,8 +1,8 @@
 """Free parameters of the nominal heart, and their priors.
 
 The calibrated parameters are among them, and the others are free too: a parameter held at a wrong value leaves a misfit
-that some mechanism explains, in every heart (docs/discovery.md). Those of the right heart are free where its volume is
-searched.
+that some mechanism explains, in every heart (docs/how_a_mechanism_is_named.md). Those of the right heart are free where
+its volume is searched.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
