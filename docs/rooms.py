@@ -51,17 +51,18 @@ def floor(room: str, imports: Imports) -> int:
 def draw(rooms: Imports, beside: Imports) -> str:
     """The matrix of imports: a mark where the room of the row imports the room of the column."""
     order = sorted(rooms, key=lambda room: (floor(room, rooms), room))
-    numbers = "".join(f"{number:>3}" for number in range(1, len(order) + 1))
-    lines = [f"floor      room        {numbers}"]
+    tens, units = zip(*(divmod(number, 10) for number in range(1, len(order) + 1)), strict=True)
+    columns = ["".join(str(digit) for digit in digits) for digits in (tens, units)]
+    lines = [f"floor      room          {columns[0]}", f"{'':>25}{columns[1]}"]
     for number, room in enumerate(order, 1):
         marks = _marks(rooms[room], order[: number - 1])
-        lines.append(f"{floor(room, rooms):>5} {number:>3}  {room:<12}{marks}".rstrip())
-    lines += [f"{'':>11}{name:<12}{_marks(lower, order)}".rstrip() for name, lower in beside.items()]
+        lines.append(f"{floor(room, rooms):>5} {number:>3}  {room:<14}{marks}".rstrip())
+    lines += [f"{'':>11}{name:<14}{_marks(lower, order)}".rstrip() for name, lower in beside.items()]
     return "```text\n" + "\n".join(lines) + "\n```\n"
 
 
 def _marks(lower: set[str], columns: list[str]) -> str:
-    return "".join("  x" if column in lower else "  ." for column in columns)
+    return "".join("x" if column in lower else "." for column in columns)
 
 
 def main(arguments: list[str]) -> int:

@@ -21,7 +21,7 @@ def test_every_mechanism_has_its_rows():
 def test_the_paper_s_parameters_have_a_prior():
     page = parameter_page()
     assert [name for name in PAPER_PARAMETERS if declaration(name).sd is None] == []
-    assert [name for name in PAPER_PARAMETERS if f"| {name} * |" not in page] == []
+    assert [name for name in PAPER_PARAMETERS if f".{name}`* |" not in page] == []
 
 
 def test_a_dotted_path_names_a_parameter():

@@ -56,15 +56,13 @@ def _all_parameters() -> Iterator[tuple[str, Parameter]]:
 def _row(path: str, entry: Parameter) -> str:
     of_the_paper = entry.name in PAPER_PARAMETERS and "pulmonary_tree" not in path
     return table_row(
-        f"{entry.name}{' *' if of_the_paper else ''}",
+        f"`{path}`{'*' if of_the_paper else ''}",
         f"${entry.symbol}$",
-        f"{entry.value:g}",
-        entry.unit,
+        f"{entry.value:g}{'' if entry.unit == '1' else f' {entry.unit}'}",
         "" if entry.sd is None else f"{100 * entry.sd:g} %",
         "" if entry.off is None else f"{entry.off:g}",
         "" if entry.scale is None else f"{'' if entry.one_sided else '±'}{entry.scale:g}",
         entry.meaning,
-        f"`{path}`",
     )
 
 
