@@ -216,11 +216,6 @@ def stored_tables(_):
     return sorted(map(str, Path(STUDY.reference).glob("*.*")))
 
 
-def page_template(name):
-    """Template of a generated page, so that an edit of its sentences regenerates the page."""
-    return str(Path(workflow.basedir, "docs", "templates", f"{name}.md.j2"))
-
-
 def report_templates(_):
     """Templates of the report, which its code fingerprint does not cover."""
     return sorted(map(str, PACKAGE.glob("results/report/*/*.*")))
