@@ -37,6 +37,7 @@ rule plot_residual:
     params:
         setting=setting_of,
         mechanisms=setting_mechanisms,
+        colour=colour_of,
         stated=configuration_text(setting_of),
     script:
         "../scripts/plot_residual.py"

@@ -33,6 +33,7 @@ rule make_cards:
         results=results_folder,
         calibrated=CALIBRATIONS,
         groups=GROUPS,
+        colours=COLOURS,
         stated=configuration_text(GROUPS),
     script:
         "../scripts/make_cards.py"

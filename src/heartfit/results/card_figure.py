@@ -1,6 +1,6 @@
 """Card of a case as a figure: prior, posteriors and truth of each parameter, and the informed directions."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -8,31 +8,32 @@ from matplotlib.figure import Figure
 
 from heartfit.calibration.gaussian import INFORMED_SHARE, Gaussian
 from heartfit.results.card import INTERVAL_REACH, Card
-from heartfit.results.figures import ARTERY, CALIBRATED, MEASURED, REFERENCE, clean
+from heartfit.results.figures import CALIBRATED, MEASURED, REFERENCE, clean
 from heartfit.results.text import LONG_STEP_LEGEND, LONG_STEP_MARK, symbol
 
 AXIS_LIMIT = 4.0
 """Prior standard deviations; marks beyond are arrows at the edge."""
 
-NOISE_FREE_COLOUR, NOISE_AWARE_COLOUR = CALIBRATED, ARTERY
+PRIOR, SECONDARY = "#e6e6e6", "#333333"
+"""Colours of the prior and of the noise-free estimate."""
 
 
-def plot_cards(cards: Iterable[Card]) -> dict[str, Figure]:
-    """Return the cards by file name."""
-    return {f"{card.case}_{card.setting}_card": plot_card(card) for card in cards}
+def plot_cards(cards: Iterable[Card], colours: Mapping[str, str]) -> dict[str, Figure]:
+    """Return the cards by file name; colours: of the settings."""
+    return {f"{card.case}_{card.setting}_card": plot_card(card, colours[card.setting]) for card in cards}
 
 
-def plot_card(card: Card) -> Figure:
+def plot_card(card: Card, colour: str) -> Figure:
     """Plot the parameters in prior standard deviations, and the share of the prior variance that the data remove.
 
-    Left: 95 % of the prior in grey, 95 % of the posterior in colour, and the truth. Right: one bar per direction, from
-    the best informed to the least informed.
+    Left: 95 % of the prior in grey, 95 % of the noise-aware estimate in the colour of the setting, and the truth.
+    Right: one bar per direction, from the best informed to the least informed.
     """
     count = len(card.prior.names)
     figure = Figure(figsize=(8.0, 1.75 + 0.42 * count), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=(3.4, 1))
-    draw_parameters(left, card)
-    _directions(right, card)
+    draw_parameters(left, card, colour)
+    _directions(right, card, colour)
     figure.suptitle(
         f"{card.case}, {card.setting}: {card.information.rank} of {count} directions informed by the data",
         fontsize=11,
@@ -44,15 +45,16 @@ def plot_card(card: Card) -> Figure:
     return figure
 
 
-def draw_parameters(axes: Axes, card: Card) -> None:
-    """Draw one row per parameter in prior standard deviations: prior, posterior, estimate, truth."""
+def draw_parameters(axes: Axes, card: Card, colour: str) -> None:
+    """Draw one row per parameter in prior standard deviations: prior, both estimates, truth.
+
+    colour: of the noise-aware estimate and its interval.
+    """
     rows = np.arange(len(card.prior.names))
     covered = card.covered(card.noise_aware.estimate)
-    axes.barh(
-        rows, 2 * INTERVAL_REACH, left=-INTERVAL_REACH, height=0.62, color="#e6e6e6", label="prior, 95 %"
-    )
-    _intervals(axes, card, card.noise_aware.estimate, NOISE_AWARE_COLOUR, "noise-aware posterior, 95 %")
-    _marks(axes, card.place(card.noise_free.estimate), "|", NOISE_FREE_COLOUR, "noise-free estimate")
+    axes.barh(rows, 2 * INTERVAL_REACH, left=-INTERVAL_REACH, height=0.62, color=PRIOR, label="prior, 95 %")
+    _intervals(axes, card, card.noise_aware.estimate, colour, "noise-aware estimate, 95 %")
+    _marks(axes, card.place(card.noise_free.estimate), "|", SECONDARY, "noise-free estimate")
     _marks(axes, card.true_place(), "D", MEASURED, "truth")
     for row, name in enumerate(card.prior.names):
         verdict = (", covered" if covered[name] else ", missed") if name in covered else ""
@@ -105,9 +107,9 @@ def _marks(axes: Axes, places: np.ndarray, marker: str, colour: str, label: str)
         axes.plot(np.sign(place) * AXIS_LIMIT, row, ">" if place > 0 else "<", color=colour, markersize=7)
 
 
-def _directions(axes: Axes, card: Card) -> None:
+def _directions(axes: Axes, card: Card, colour: str) -> None:
     reduction = card.information.reduction
-    colours = [NOISE_AWARE_COLOUR if share > INFORMED_SHARE else REFERENCE for share in reduction]
+    colours = [colour if share > INFORMED_SHARE else REFERENCE for share in reduction]
     axes.barh(np.arange(len(reduction)), reduction, height=0.62, color=colours)
     axes.axvline(INFORMED_SHARE, color="black", linewidth=0.8, linestyle=":")
     axes.set_yticks(np.arange(len(reduction)), [str(place) for place in range(1, len(reduction) + 1)])

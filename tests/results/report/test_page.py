@@ -143,7 +143,10 @@ def own_setting(ventricle: VentricularMesh) -> str:
     first = next(iter(whole.cases.values()))
     fit = replace(first.fits[SETTING], searched=None, proved=None)
     own = replace(first, fits={SETTING: fit, "own": fit})
-    return render(replace(whole, cases={**whole.cases, first.name: own}, discoveries=()), ASSETS)
+    return render(
+        replace(whole, cases={**whole.cases, first.name: own}, settings=(SETTING, "own"), discoveries=()),
+        ASSETS,
+    )
 
 
 def test_a_setting_of_one_case_leaves_the_others_unfitted(own_setting: str) -> None:

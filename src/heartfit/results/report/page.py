@@ -116,15 +116,17 @@ class Section:
 def render(study: StudyRecord, assets: Assets) -> str:
     """Return the whole page; equal studies give equal text."""
     cases = list(study.cases.values())
-    settings = list(dict.fromkeys(setting for case in cases for setting in case.fits))
+    settings = [name for name in study.settings if any(name in case.fits for case in cases)]
+    colours = study.colours
     page = _environment().get_template("page.html")
     return page.render(
         assets=assets,
         study=study,
         settings=settings,
-        cohort=plot_cohort(cases),
-        parameters={setting: plot_parameters(cases, setting) for setting in settings},
-        sections=[_section(case, cases) for case in cases],
+        colours=colours,
+        cohort=plot_cohort(cases, colours),
+        parameters={setting: plot_parameters(cases, setting, colours[setting]) for setting in settings},
+        sections=[_section(case, cases, colours) for case in cases],
         shades=colour_scales(cases),
         discovery=_discovery(study),
     )
@@ -137,14 +139,14 @@ def _discovery(study: StudyRecord) -> ReportTable | None:
     return ReportTable("Missing mechanisms", printed_findings(study.discoveries), NOTE)
 
 
-def _section(case: CaseRecord, cases: list[CaseRecord]) -> Section:
-    curves = plot_curves(case)
+def _section(case: CaseRecord, cases: list[CaseRecord], colours: Mapping[str, str]) -> Section:
+    curves = plot_curves(case, colours)
     cards = [_causes(setting, fit) for setting, fit in case.fits.items()]
     causes, headlines = [card for group in cards for card in group], [group[-1] for group in cards if group]
     walls = [wall_section(setting, summary) for setting, summary in case.walls.items()]
     moving = viewer_data(case) | {"follow": curves.follow}
     still_image = "" if case.still is None else still_address(case.still)
-    estimates, misfits = plot_estimates(case, cases), calibrated_misfits(case)
+    estimates, misfits = plot_estimates(case, cases, colours), calibrated_misfits(case)
     return Section(case, curves, estimates, misfits, causes, headlines, walls, moving, still_image)
 
 
