@@ -234,7 +234,7 @@ rule compare_elements:
         kernels="<results>/kernels.json",
     output:
         table=table_files("element"),
-        figure=expand("<results>/figures/element.{suffix}", suffix=("png", "pdf")),
+        figure=expand("<results>/figures/element.{suffix}", suffix=STUDY.figures),
     params:
         **ELEMENT_PARAMS,
         setting=element_setting,

@@ -25,6 +25,6 @@ motion = motion_shape(read_mesh(Path(files.mesh)), read_motion(Path(files.motion
 shapes = {"measured": shape_table(motion), "calibrated": read_shape(Path(files.shape))}
 features, posterior = params.operator.features(measured)["lv_volume"], read_posterior(Path(files.posterior))
 figures = case_figures(result, curves, features, posterior, shapes, params.colour)
-write_figures(Path(out.curves[0]).parent, figures)
+write_figures([*out.curves, *out.sensitivity, *out.shape], figures)
 table = render_tables({f"{result.case}_{result.setting}_shape": end_systole_table(shapes)})
 write_tables(Path(out.table[0]).parent, table)
