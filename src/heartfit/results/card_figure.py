@@ -15,7 +15,7 @@ AXIS_LIMIT = 4.0
 """Prior standard deviations; marks beyond are arrows at the edge."""
 
 PRIOR, SECONDARY = "#e6e6e6", "#333333"
-"""Colours of the prior and of the noise-free estimate."""
+"""Colours of the prior, and of the parameters of the calibrated beat: the noise-free estimate as in the paper."""
 
 
 def plot_cards(cards: Iterable[Card], colours: Mapping[str, str]) -> dict[str, Figure]:
@@ -46,15 +46,16 @@ def plot_card(card: Card, colour: str) -> Figure:
 
 
 def draw_parameters(axes: Axes, card: Card, colour: str) -> None:
-    """Draw one row per parameter in prior standard deviations: prior, both estimates, truth.
+    """Draw one row per parameter in prior standard deviations: prior, estimate, calibrated beat, truth.
 
-    colour: of the noise-aware estimate and its interval.
+    The estimate is the noise-aware one, in this colour.
     """
     rows = np.arange(len(card.prior.names))
     covered = card.covered(card.noise_aware.estimate)
     axes.barh(rows, 2 * INTERVAL_REACH, left=-INTERVAL_REACH, height=0.62, color=PRIOR, label="prior, 95 %")
-    _intervals(axes, card, card.noise_aware.estimate, colour, "noise-aware estimate, 95 %")
-    _marks(axes, card.place(card.noise_free.estimate), "|", SECONDARY, "noise-free estimate")
+    _intervals(axes, card, card.noise_aware.estimate, colour, "estimate, 95 %")
+    _marks(axes, card.place(card.noise_aware.estimate), "o", colour, "_")
+    _marks(axes, card.place(card.noise_free.estimate), "|", SECONDARY, "calibrated beat")
     _marks(axes, card.true_place(), "D", MEASURED, "truth")
     for row, name in enumerate(card.prior.names):
         verdict = (", covered" if covered[name] else ", missed") if name in covered else ""
@@ -76,8 +77,9 @@ def draw_parameters(axes: Axes, card: Card, colour: str) -> None:
     axes.set_xlim(-AXIS_LIMIT - 0.1, AXIS_LIMIT + 0.1)
     axes.set_xlabel("ln parameter − prior mean (prior sd)", fontsize=9)
     axes.legend(
-        loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, frameon=False, fontsize=8, columnspacing=1.0
-    )
+        loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, frameon=False, fontsize=8, columnspacing=1.0,
+        reverse=True,
+    )  # fmt: skip
     clean(axes)
 
 
@@ -101,6 +103,7 @@ def _marks(axes: Axes, places: np.ndarray, marker: str, colour: str, label: str)
             color=colour,
             markersize=size,
             markeredgewidth=2,
+            markeredgecolor="white" if marker == "o" else colour,
             label=label,
         )
     for place, row in zip(places[finite & ~within], rows[finite & ~within], strict=True):

@@ -18,9 +18,10 @@ from heartfit.results.discovery import NOTE, printed_findings
 from heartfit.results.errors import PAPER, mean_error
 from heartfit.results.report.cases import facts, observations, plot_cohort, status
 from heartfit.results.report.cause import CauseCard, cause_card
+from heartfit.results.report.contents import contents, tables_of
 from heartfit.results.report.curves import plot_curves
-from heartfit.results.report.misfit import calibrated_misfits
-from heartfit.results.report.parameters import plot_estimates, plot_parameters
+from heartfit.results.report.misfit import calibrated_misfits, distance
+from heartfit.results.report.parameters import estimates, plot_estimates, plot_parameters
 from heartfit.results.report.picture import Picture, still_address
 from heartfit.results.report.record import CaseRecord, FittedCase, ReportTable, StudyRecord
 from heartfit.results.report.surface import colour_scales, viewer_data
@@ -123,6 +124,9 @@ def render(study: StudyRecord, assets: Assets) -> str:
         assets=assets,
         study=study,
         settings=settings,
+        parts=contents(study),
+        paper=tables_of(study, paper=True),
+        checks=tables_of(study, paper=False),
         colours=colours,
         cohort=plot_cohort(cases, colours),
         parameters={setting: plot_parameters(cases, setting, colours[setting]) for setting in settings},
@@ -173,6 +177,8 @@ def _environment() -> Environment:
     environment.globals |= {
         "facts": facts,
         "observations": observations,
+        "distance": distance,
+        "estimates": estimates,
         "status": status,
         "sentence": verdict_sentence,
         "mean_error": mean_error,

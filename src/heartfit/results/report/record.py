@@ -72,6 +72,9 @@ TITLES = {
 }
 
 
+PAPER_TABLES = tuple(name for name in TITLES if name not in ("plausibility", "costs"))
+"""Tables that compare with the paper."""
+
 TABLES_OF_TEXT = ("claims", "table1_as_printed", "table2_as_printed")
 """Tables whose cells are rounded as printed, and read as text."""
 
@@ -207,6 +210,11 @@ class StudyRecord:
     provenance: Provenance
     left_out: str = ""
     discoveries: Sequence[DiscoveryResult] = ()
+
+    @property
+    def of_paper(self) -> bool:
+        """Return if it has the paper's virtual volunteers, with which its tables compare."""
+        return any(case.kind == "virtual" for case in self.cases.values())
 
     @property
     def colours(self) -> Mapping[str, str]:
