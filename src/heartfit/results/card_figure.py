@@ -41,7 +41,7 @@ def plot_card(card: Card, colour: str) -> Figure:
     values = ", ".join(f"{value:.2f}" for value in card.noise_free.singular_values)
     least = f"least informed ({100 * card.information.reduction[-1]:.0f} %): {_weakest_direction(card)}"
     legend = f"; {LONG_STEP_MARK} {LONG_STEP_LEGEND}" if card.long_steps(card.noise_free.estimate) else ""
-    figure.supxlabel(f"{least}; singular values of Cov(X, Z): {values}{legend}", fontsize=8)
+    figure.supxlabel(f"{least}\nsingular values of Cov(X, Z): {values}{legend}", fontsize=8)
     return figure
 
 

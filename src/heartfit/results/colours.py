@@ -1,7 +1,7 @@
 """Colour of each setting of a study: the same in all its figures and in its report.
 
-No colour of a setting has another meaning in a figure of a case: measured black, prior grey, and in a cause card blue
-without and vermilion with a mechanism.
+Among curves and estimates no colour of a setting has another meaning: measured is black, the prior grey, and in a cause
+card blue is without and vermilion with a mechanism.
 
 References
 ----------
