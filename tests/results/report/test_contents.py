@@ -1,4 +1,4 @@
-"""What was found comes first: one heart before all else, and the paper's tables in its own study only."""
+"""Order of the page: a single heart first, findings before tables, the paper's tables in its own study only."""
 
 import re
 from dataclasses import replace
@@ -40,7 +40,7 @@ def own_page(own: StudyRecord) -> str:
 
 
 def places(page: str, *identities: str) -> list[int]:
-    """Where the elements of these identities begin."""
+    """Places in the page at which the elements of these identities begin."""
     return [page.index(f'id="{identity}"') for identity in identities]
 
 

@@ -118,7 +118,7 @@ def render(study: StudyRecord, assets: Assets) -> str:
     """Return the whole page; equal studies give equal text."""
     cases = list(study.cases.values())
     settings = [name for name in study.settings if any(name in case.fits for case in cases)]
-    colours = study.colours
+    colours, several = study.colours, len(cases) > 1
     page = _environment().get_template("page.html")
     return page.render(
         assets=assets,
@@ -128,8 +128,8 @@ def render(study: StudyRecord, assets: Assets) -> str:
         paper=tables_of(study, paper=True),
         checks=tables_of(study, paper=False),
         colours=colours,
-        cohort=plot_cohort(cases, colours),
-        parameters={setting: plot_parameters(cases, setting, colours[setting]) for setting in settings},
+        cohort=plot_cohort(cases, colours) if several else None,
+        parameters={name: plot_parameters(cases, name, colours[name]) for name in settings if several},
         sections=[_section(case, cases, colours) for case in cases],
         shades=colour_scales(cases),
         discovery=_discovery(study),
