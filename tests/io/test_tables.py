@@ -73,7 +73,7 @@ def test_a_figure_is_the_same_file_every_time(tmp_path: Path, suffix: str) -> No
 
 def test_tables_and_figures_are_written_by_name_with_their_note(tmp_path: Path) -> None:
     write_tables(tmp_path, render_tables({"table1": TABLE, "other": TABLE}))
-    write_figures(tmp_path, {"card": Figure()})
+    write_figures([f"{tmp_path}/card.{end}" for end in ("png", "pdf")], {"card": Figure(), "other": Figure()})
     suffixes = [("table1", ("csv", "md", "tex")), ("other", ("csv", "md", "tex")), ("card", ("png", "pdf"))]
     assert {file.name for file in tmp_path.iterdir()} == {
         f"{name}.{end}" for name, ends in suffixes for end in ends

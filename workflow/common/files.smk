@@ -38,8 +38,8 @@ def reported_tables(*names):
 
 def figure_files(name, caption, category="{case}"):
     """Files of a figure, which Snakemake's report shows with a caption of workflow/report."""
-    shown = report(f"<results>/figures/{name}.png", caption=f"../report/{caption}.rst", category=category)
-    return [shown, f"<results>/figures/{name}.pdf"]
+    shown, *others = expand("<results>/figures/{name}.{suffix}", name=name, suffix=STUDY.figures)
+    return [report(shown, caption=f"../report/{caption}.rst", category=category), *others]
 
 
 def cause_card(folder):
@@ -231,7 +231,7 @@ CASE_FIGURES = [
     f"{case}_{setting}{topic}.{suffix}"
     for case, setting in CALIBRATIONS
     for topic in ("", "_sensitivity", "_shape", "_card")
-    for suffix in ("png", "pdf")
+    for suffix in STUDY.figures
 ]
 STUDY_FIGURES = [
     *METHOD_FIGURES,
