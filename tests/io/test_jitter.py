@@ -77,7 +77,7 @@ def test_moved_voxels_change_a_registered_motion(tmp_path: Path, monkeypatch: py
     centres = np.moveaxis(np.indices((14, 14, 14)), 0, -1) * 3e-3 - 3e-3
     times = 0.1 * np.arange(8)
     shift = 3e-3 * np.sin(np.pi * times / 0.8) ** 2
-    voxels = [np.sin((centres + each) @ np.array([600.0, 500.0, 700.0])) for each in shift]
+    voxels = [np.sin((centres + step) @ np.array([600.0, 500.0, 700.0])) for step in shift]
     write_images(tmp_path / "a.nrrd", ImageSequence(grid, np.array(voxels, np.float32), times, 0.8))
     registered = track(read_images(tmp_path / "a.nrrd"), cube(2, 36e-3), FreeForm()).motion.positions
     monkeypatch.setenv(MEMBER, "1")
