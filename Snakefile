@@ -34,7 +34,7 @@ rule all:
 #   discovery_benchmark    diagnose planted effects in spheres and in ventricles, score the diagnoses, write the pages
 #   check_discovery        compare these scores with the claims of config/discovery_claims.tsv
 #   discovery_ventricles   score the diagnoses of ventricles alone; check_ventricles compares them with their claims
-#   warped_cine            warp the measured cine by a simulation, register it back and compare: docs/deviations.md
+#   warped_cine            warp the measured cine by a simulation, register it back and compare: studies/calibration/deviations.md
 #   compare_elements       test whether linear tetrahedra explain the misfit of a heart on a finer mesh
 
 

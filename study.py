@@ -8,17 +8,17 @@ python3 study.py smoke        run both coarse and short, in some ten minutes
 python3 study.py run ARGS     run the study with further arguments for Snakemake, such as --configfile config/smoke.yaml
 python3 study.py test ARGS    run the tests; ARGS go to pytest
 python3 study.py lint         check style and types, and lint the workflow
-python3 study.py benchmark    measure the cost of a beat and write docs/performance.md; half an hour
+python3 study.py benchmark    measure the cost of a beat and store it in docs/measured; half an hour
 python3 study.py verification compare the simulator with closed forms and published results; one or two minutes
-python3 study.py convergence  measure the effect of mesh and time step, write docs/convergence.md; half an hour
-python3 study.py mutations    try new mutants of the sources, or --all; write the tests that fail into docs/mutations.md
+python3 study.py convergence  measure the effect of mesh and time step, store it in docs/measured; half an hour
+python3 study.py mutations    try new mutants of the sources, or --all; store the tests that fail in docs/measured
 python3 study.py browser      test the report in a headless browser: no error, no network access, hearts that beat
 python3 study.py docs         build the site of docs/ and of the library in site/; any warning fails
 python3 study.py numbers      write the pages with numbers of docs/measured, or first store a NUMBERS.csv there
 python3 study.py malformed    check that every malformed input is rejected in one line; under a minute
 python3 study.py tutorial     run every command of docs/own_heart.md with the coarse study; some minutes
 python3 study.py slurm        run a small study on a local SLURM that loses a job and its node; as root
-python3 study.py faults       kill and damage the smallest study, repair it and write docs/faults.md; 22 min
+python3 study.py faults       kill and damage the smallest study, repair it and store the outcomes; 22 min
 python3 study.py lock         update requirements.lock and that of profiles/slurm from pyproject.toml
 """
 
@@ -228,22 +228,22 @@ def workflow_advice() -> list[str]:
 
 
 def benchmark(arguments: list[str]) -> int:
-    """Measure the cost of a beat and write docs/performance.md; `--small` omits the fine meshes."""
+    """Measure the cost of a beat and store it in docs/measured; `--small` omits the fine meshes."""
     return subprocess.run(tool("python", "-m", "benchmarks", *arguments), check=False).returncode
 
 
 def verification(arguments: list[str]) -> int:
-    """Print the page of verification; the arguments are those of `python -m verification`."""
+    """Print the checks of verification; the arguments are those of `python -m verification`."""
     return subprocess.run(tool("python", "-m", "verification", *arguments), check=False).returncode
 
 
 def convergence(_: list[str]) -> int:
-    """Measure convergence and write docs/convergence.md."""
+    """Measure convergence and store it in docs/measured."""
     return subprocess.run(tool("python", "-m", "benchmarks.convergence"), check=False).returncode
 
 
 def mutations(arguments: list[str]) -> int:
-    """Try the mutants without a stored verdict, the named ones or --all, and write docs/mutations.md."""
+    """Try the mutants without a stored verdict, the named ones or --all, and store the tests that fail."""
     return subprocess.run(tool("python", "-m", "tests.mutations", *arguments), check=False).returncode
 
 
@@ -254,7 +254,7 @@ def browser(arguments: list[str]) -> int:
 
 def docs(_: list[str]) -> int:
     """Build the site from scratch; a broken link, anchor, reference or formula fails."""
-    for folder in ("site", "docs/api", "build/doctrees"):
+    for folder in ("site", "docs/api", "docs/studies", "build/doctrees"):
         shutil.rmtree(folder, ignore_errors=True)
     warnings = ("--nitpicky", "--fail-on-warning", "--keep-going", "--quiet", "--jobs", "2")
     sphinx = tool("python", "-m", "sphinx", *warnings, "-d", "build/doctrees", "docs", "site")
@@ -297,7 +297,7 @@ def slurm(arguments: list[str]) -> int:
 
 
 def faults(arguments: list[str]) -> int:
-    """Test recovery from faults and write docs/faults.md; `--quick` tests a part in some minutes, without the page."""
+    """Test recovery from faults and store the outcomes; `--quick` tests a part in some minutes and stores nothing."""
     return subprocess.run(tool("python", "-m", "tests.faults", *arguments), check=False).returncode
 
 

@@ -1,4 +1,4 @@
-"""Run all benchmarks and write docs/performance.md; `--small` omits the meshes above 10k tetrahedra.
+"""Run all benchmarks and store docs/measured/performance_*.tsv; `--small` omits the meshes above 10k tetrahedra.
 
 `--before COMMIT` measures the engine of an earlier version in the same run.
 """
@@ -11,13 +11,12 @@ from benchmarks import sphere
 from benchmarks.beat import cost
 from benchmarks.engine import costs_in_turn
 from benchmarks.job import job
+from benchmarks.measured_table import store_table
 from benchmarks.newton import newton_steps
-from benchmarks.page import ELEMENTS, Measured, page
+from benchmarks.performance import ELEMENTS, Measured, tables
 from benchmarks.process import ask, install_peers
 from benchmarks.targets import figures
-from benchmarks.ventricles import ROOT, mesh_file
-from heartfit.io.configuration import read_study
-from heartfit.io.files import write_text
+from benchmarks.ventricles import mesh_file
 from heartfit.synthetic.kernels import compile_kernels
 
 SMALL, ALL = ("3k", "10k"), ("3k", "10k", "30k", "100k")
@@ -42,15 +41,15 @@ def main(arguments: list[str]) -> None:
     ]
     one = announced("one job", lambda: job("3k", "physical"))
     spheres = announced("spheres", sphere.costs)
-    time_step = read_study([ROOT / "config" / "config.yaml"]).numerics.time_step
     commit = arguments[arguments.index("--before") + 1] if "--before" in arguments else ""
     before, now = (
         announced(f"engine of {commit} and now", lambda: costs_in_turn(commit))
         if commit
         else ({}, announced("engine", lambda: ask("-m", "benchmarks.engine")))
     )
-    measured = Measured(beats, steps, one, spheres, time_step, now, before, commit)
-    write_text(ROOT / "docs" / "performance.md", page(measured, figures(measured)))
+    measured = Measured(beats, steps, one, spheres, now, before)
+    for name, table in tables(measured, figures(measured)).items():
+        store_table(f"performance_{name}", table, " ".join(("benchmarks", *arguments)))
 
 
 def announced(what: str, work: Callable[[], T]) -> T:

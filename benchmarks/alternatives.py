@@ -1,4 +1,4 @@
-"""Calibration methods in 3-D and on the spheres of a finished study; writes docs/alternatives.md, ten minutes.
+"""Calibration methods in 3-D and on the spheres of a finished study, ten minutes.
 
 `--kept` reuses the results in 3-D on disk, such as after an interrupted run; `--small` omits 3-D.
 """
@@ -12,7 +12,7 @@ from itertools import chain
 import numpy as np
 import pandas as pd
 
-from benchmarks.alternatives_page import SOLID, page
+from benchmarks.measured_table import store_table
 from benchmarks.ventricles import FOLDER, ROOT, SIZES
 from heartfit.calibration.unscented import CachedForward, Forward, Outcome
 from heartfit.geometry.mesh import VentricularMesh
@@ -26,7 +26,8 @@ from heartfit.observation.beat import observe_beats
 from heartfit.observation.operator import CurveFeatures
 from heartfit.personalise.run import run_beat
 from heartfit.personalise.setting import Setting
-from heartfit.results.race import plot_race, race_table
+from heartfit.results.race import POOLED, plot_race, race_table
+from heartfit.results.text import cell_texts
 from heartfit.study.case import Case
 from heartfit.study.study import Study
 from heartfit.synthetic.race import CalibrationProblem, MethodScore, compare_methods, methods
@@ -34,6 +35,8 @@ from heartfit.synthetic.volunteer import generate, hide_heart
 
 HEARTS, SETTING, SIZE = ("volunteer1", "volunteer3"), "physical", "3k"
 TABLES = "alternatives", "coverage_sphere"
+SOLID = "volume, in 3-D"
+"""Comparison on two volunteers in 3-D."""
 SIMULATIONS, STEPS = 32, 2
 """Simulations of a heart in 3-D, where a beat takes seconds."""
 
@@ -47,7 +50,14 @@ def main(arguments: list[str]) -> None:
     )
     table = pd.concat([spheres, race_table({SOLID: list(chain(*marks))})], ignore_index=True)
     write_figure(ROOT / "docs" / "figures" / "alternatives.png", plot_race(table))
-    write_text(ROOT / "docs" / "alternatives.md", page(table, shares, study.sphere_study))
+    module = " ".join(("benchmarks.alternatives", *arguments))
+    store_table("calibration_methods", cell_texts(table), module)
+    store_table("interval_coverage", cell_texts(pooled(shares)), module)
+
+
+def pooled(shares: pd.DataFrame) -> pd.DataFrame:
+    """Coverage over all parameters, by measurement, unknowns and noise."""
+    return shares[shares["parameter"] == POOLED].drop(columns=["parameter", "hearts"])
 
 
 def kept(study: Study, case: Case, again: bool) -> list[MethodScore]:

@@ -1,4 +1,4 @@
-"""Fifty coarse virtual hearts in two shards compared with their forecast; writes docs/campaign.md, 15 minutes.
+"""Fifty coarse virtual hearts in two shards compared with their forecast, 15 minutes.
 
 The forecast uses the costs of five other hearts, run before. All steps are user commands: costs, shards, join.
 """
@@ -14,8 +14,8 @@ import pandas as pd
 import psutil
 import yaml
 
-from benchmarks.campaign_page import Ran, campaign_page
-from benchmarks.ventricles import ROOT
+from benchmarks.campaign_tables import Ran, forecast_table, snakemake_table
+from benchmarks.measured_table import store_table
 from heartfit.cli.main import main as heartfit
 from heartfit.io.campaign import FOOTPRINTS, NEEDS, read_benchmarks, read_table
 from heartfit.io.configuration import read_cases, read_study, read_yaml
@@ -35,7 +35,7 @@ DRAWN = ("sigma_0", "mu", "c_1", "R_p")
 
 
 def main() -> int:
-    """Run a small study, forecast the large one, run it, and write the page."""
+    """Run a small study, forecast the large one, run it, and store the tables."""
     shutil.rmtree(FOLDER, ignore_errors=True)
     few = ran(configured("few", SMALL))
     print(f"{SMALL} subjects took {few.wall:.0f} s", flush=True)
@@ -49,7 +49,9 @@ def main() -> int:
     runs = [ran(shard) for shard in shards]
     run_heartfit("join", *(run.results for run in runs), "--output", FOLDER / "joined")
     merged = len(calibrated_cases(read_numbers(FOLDER / "joined" / "numbers.csv")))
-    write_text(ROOT / "docs" / "campaign.md", campaign_page(few, planned, runs, merged, CPUS))
+    print(f"{merged} subjects in the joined table", flush=True)
+    store_table("campaign_forecast", forecast_table(planned, runs), "benchmarks.campaign")
+    store_table("campaign_snakemake", snakemake_table([few, *runs], CPUS), "benchmarks.campaign")
     return 0
 
 

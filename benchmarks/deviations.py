@@ -2,7 +2,7 @@
 
 python -m benchmarks.deviations RESULTS   RESULTS: folder of a finished study, of which virtual hearts are read
 
-Then `python3 study.py numbers` writes docs/deviations.md.
+Then `python3 study.py numbers` fills studies/calibration/deviations.md.
 """
 
 import subprocess

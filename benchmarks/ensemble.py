@@ -62,7 +62,7 @@ def main(name: str, count: int, store: bool) -> None:
     row = {"tables": name, **summary(ensemble, read_held_tables(REFERENCE / name), members)}
     earlier = read_table(TABLE)
     rows = {row["tables"]: row for row in (*earlier.to_dict("records"), row)}
-    table = pd.DataFrame([rows[each] for each in CONFIGURATIONS if each in rows])
+    table = pd.DataFrame([rows[key] for key in CONFIGURATIONS if key in rows])
     store_table(TABLE, table, MODULE)
     sys.stdout.write(f"{table.to_string(index=False)}\n")
 

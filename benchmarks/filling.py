@@ -1,4 +1,4 @@
-"""Filling of the standard and the extended heart against normal values; writes docs/filling.md, two minutes.
+"""Filling of the standard and the extended heart against normal values, two minutes; stores docs/measured/filling_*.
 
 python -m benchmarks.filling MESH   MESH: a coarse mesh of the measured heart, patient1/geometry/mesh.vtu of a study
 """
@@ -21,13 +21,13 @@ from benchmarks.filling_hearts import (
     sphere_costs,
     sphere_curves,
 )
-from benchmarks.filling_page import Measured, Range, page
+from benchmarks.filling_tables import Measured, Range, tables
+from benchmarks.measured_table import store_table
 from benchmarks.ventricles import ROOT
 from heartfit.heart.beat import Beat
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.io.configuration import read_cases, read_study
 from heartfit.io.figures import write_figure
-from heartfit.io.files import write_text
 from heartfit.io.meshes import read_prepared_mesh
 from heartfit.io.tables import read_published
 from heartfit.observation.beat import beat_curves
@@ -74,10 +74,10 @@ def main(arguments: list[str]) -> int:
         drawn_indices(),
         kept_prior(limits),
         {SPHERE: sphere_costs(), SOLID: solid.costs},
-        solid.tetrahedra,
     )
     write_figure(ROOT / "docs" / "figures" / "filling.png", plot_filling(groups, {SOLID: volume}))
-    write_text(ROOT / "docs" / "filling.md", page(measured, ranges))
+    for name, table in tables(measured, ranges).items():
+        store_table(f"filling_{name}", table, "benchmarks.filling MESH")
     return 0
 
 
@@ -112,11 +112,10 @@ def measured_volume(study: Study, case: Case) -> Curve:
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """Curves and CPU time of a beat [s] by heart in 3-D, and the size of the mesh."""
+    """Curves and CPU time of a beat [s] by heart in 3-D."""
 
     curves: Mapping[str, Mapping[str, Curve]]
     costs: Mapping[str, float]
-    tetrahedra: int
 
 
 def run_in_3d(study: Study, case: Case, mesh_file: Path) -> Solid:
@@ -134,7 +133,7 @@ def run_in_3d(study: Study, case: Case, mesh_file: Path) -> Solid:
         return beats[name]
 
     costs = alternated_costs({name: lambda name=name: run(name) for name in hearts}, REPEATS)
-    return Solid({name: beat_curves(beat) for name, beat in beats.items()}, costs, len(mesh.tets))
+    return Solid({name: beat_curves(beat) for name, beat in beats.items()}, costs)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 import pandas as pd
 
 from benchmarks.ventricles import ROOT
-from heartfit.io.files import write_text
+from heartfit.io.tables import write_measured
 
 FOLDER = ROOT / "docs" / "measured"
 
@@ -18,5 +18,4 @@ def read_table(name: str) -> pd.DataFrame:
 
 def store_table(name: str, table: pd.DataFrame, module: str) -> None:
     """Write docs/measured/NAME.tsv, made by a module with its arguments."""
-    text = table.to_csv(sep="\t", index=False)
-    write_text(FOLDER / f"{name}.tsv", f"# made by: python -m {module}\n{text}")
+    write_measured(FOLDER / f"{name}.tsv", table, f"python -m {module}")

@@ -27,10 +27,6 @@ CASES = {
 REPEATS, SMALL, MANY = 100, 5, 25
 THEIRS = "PhysioBlocks, reference case of 1000 steps a beat"
 OURS = "ours, the same case"
-SPHERE = (
-    "A sphere: a step takes 0.6 µs, two Newton iterations of wall, fibres and circuit, all of it compiled; a search "
-    "spends half of its time in such beats, five for each heart, and the rest in Python around them."
-)
 TOLERANCE = 0.02
 """Largest relative L2 deviation of volume and pressure; the tests also apply it to their rates."""
 
@@ -91,7 +87,6 @@ def figures(measured: dict[str, tuple[float, float]], before: float = math.nan) 
             1e3 * first,
             0.12,
             "CPU ms",
-            tried=SPHERE,
             before=1e3 * before,
         ),
         Figure("sphere beside PhysioBlocks, its own case", ratio, 1000.0, "times faster", at_least=True),

@@ -1,4 +1,4 @@
-"""Targets of the figures, and attempts for missed targets."""
+"""Targets of the figures of performance."""
 
 import math
 from collections.abc import Sequence
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from benchmarks import sphere
 from benchmarks.figure import Figure
 from benchmarks.newton import Newton
-from benchmarks.page import ELEMENTS, Measured, exponent
+from benchmarks.performance import ELEMENTS, Measured, exponent
 
 ENGINE = {
     "beat, 3k": ("beat of 3k, `mixed`", 0.5),
@@ -22,38 +22,16 @@ ENGINE = {
 GROWTH = 1.3
 FASTER = {"scikit-fem": 20.0, "NGSolve": 10.0}
 
-BEAT = (
-    "A beat: at 10k a quarter is residuals, a quarter solutions with kept factors, a fifth new factors; at 3k a good "
-    "part is Python between the kernels. What brought it down from 6.7 s is in decision 6, what was done and tried "
-    "since, with steps of varying length, in decision 48."
-)
-SHARE = (
-    "A Newton step: ours is mostly its factors, which the engine renews a few times in a beat; in use it is faster "
-    "by the ratios of that column."
-)
-START = (
-    "A job: numba alone takes the 0.6 s that are asked for, with the numpy and the part of scipy that it needs: 0.25 s "
-    "to import, 0.18 s to set up its types, 0.17 s to load some thirty kept kernels. Our modules, the validation and "
-    "meshio take 0.2 s. Pandas, scipy.signal, scipy.sparse, scipy.optimize, scikit-fem and the mesher are imported no "
-    "longer, versions are not read, imports not parsed; less would take kernels that load without numba."
-)
-SEARCH = (
-    "A search: 25000 beats of spheres in 7700 hearts, of which 6800 are columns of a Jacobian that take about three "
-    "beats of one iteration a step from their centre, are half of it; hearts amended and observed in Python the rest. "
-    "Fewer beats do not suffice, see decision 49. Before it were 33000 beats of two iterations."
-)
-TRIED = {"job": START, "search": SEARCH}
-
 
 def figures(measured: Measured) -> list[Figure]:
     """Return all figures with targets."""
     engine = [
-        Figure(name, measured.engine[key], most, "CPU s", tried=TRIED.get(key, BEAT), before=before)
+        Figure(name, measured.engine[key], most, "CPU s", before=before)
         for key, (name, most) in ENGINE.items()
         for before in [measured.before.get(key, math.nan)]
     ]
     growths = [
-        Figure(f"growth, `{ELEMENTS[setting]}`", exponent(measured, setting), GROWTH, "exponent", tried=BEAT)
+        Figure(f"growth, `{ELEMENTS[setting]}`", exponent(measured, setting), GROWTH, "exponent")
         for setting in ELEMENTS
     ]
     ratios = [figure for group in measured.newton for figure in _ratios(group)]
@@ -70,7 +48,6 @@ def _ratios(group: Sequence[Newton]) -> list[Figure]:
             FASTER[program],
             "times faster",
             at_least=True,
-            tried=SHARE,
         )
         for other in others
         for program in [other.solver.split()[0]]

@@ -8,7 +8,15 @@ sys.path[:0] = [str(HERE / "_site"), str(HERE.parent / "src")]
 
 project = "heartfit"
 copyright = "the heartfit contributors, BSD-3-Clause"
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.apidoc", "mathml", "navigation", "prose"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.apidoc",
+    "mathml",
+    "navigation",
+    "prose",
+    "studies",
+]
 exclude_patterns = ["_site"]
 html_theme = "furo"
 html_title = "heartfit"

@@ -1,55 +1,49 @@
-"""Write the pages whose measured numbers are stored in docs/measured, or hold them to it.
+"""Write the pages that print the stored results of docs/measured, or hold them to it.
 
-python docs/measured_pages.py             write README.md and docs/*.md from docs/templates and docs/measured
-python docs/measured_pages.py --check     write nothing; fail if a page is not what its template and results give
+python docs/measured_pages.py             write the pages
+python docs/measured_pages.py --check     write nothing; fail if a page is not what its results give
 python docs/measured_pages.py NUMBERS     take the tables of a study first; NUMBERS is its results/tables/numbers.csv
 
-docs/measured/NAME.tsv holds either single values, with the columns of `COLUMNS`, which a template prints by
-`NAME('quantity', decimals)`, or a table, which it prints by `table('NAME')`. The first line says what made it.
+docs/measured/NAME.tsv holds either single values, with the columns of `COLUMNS`, or a table. The first line says what
+made it. A page of `TEMPLATES` is written from docs/templates, which prints a value by `NAME('quantity', decimals)`, a
+table by `table('NAME')`, one of its cells by `cell('NAME', 'row', 'column')`, the number of its rows with a value in a
+column by `count('NAME', 'column', 'value')`, and the exact interval of a count by `exact('9 of 10')`. Any other page of
+docs and studies holds its tables between comments, and is filled in place:
+
+    <!-- table: NAME -->  or  <!-- table: NAME; column = value or value -->, which selects rows
+    <!-- end -->
 """
 
 import csv
 import re
 import subprocess
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import unified_diff
+from functools import cache
 from pathlib import Path
 
 import pandas as pd
 
 from heartfit.core.pages import render_page, table_row
 from heartfit.io.files import write_text
+from heartfit.observation.noise_model import Share
 from heartfit.results.text import STATED_ONCE, without_repeats
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "docs" / "measured"
-PAGES = {
+TEMPLATES = {
     "README": ROOT / "README.md",
     **{
         name: ROOT / "docs" / f"{name}.md"
-        for name in (
-            "conduction",
-            "derivatives",
-            "deviations",
-            "discovery_in_3d",
-            "growth",
-            "measured_heart",
-            "mutations",
-            "other_worlds",
-            "pairs",
-            "registration",
-            "reproducible",
-            "right_ventricle",
-            "sensitivity",
-            "study",
-            "unknown_places",
-            "wall_search",
-        )
+        for name in ("measured_heart", "reproducible", "study", "validation")
     },
 }
 """Templates by name, and what is written from them."""
+FILLED = re.compile(r"(<!-- table: (\w+)(?:; ([^=>]+) = ([^>]+))? -->\n).*?(<!-- end -->)", re.DOTALL)
+"""Place of a table in a page."""
+COUNT = re.compile(r"(\d+) of (\d+)")
 STUDY = RESULTS / "study.tsv"
 FULL = "python3 study.py run --configfile config/full.yaml, with methods: false"
 """Command of the run whose numbers the pages print: all settings, and the stored noise model."""
@@ -93,20 +87,91 @@ class Values:
         return value if decimals is None else f"{float(value):{'+' if plus else ''}.{decimals}f}"
 
 
+@dataclass(frozen=True)
+class Table:
+    """A stored table, its head first. Raises KeyError for a row or a column that it does not have."""
+
+    file: Path
+    rows: Rows
+
+    def where(self, column: str, *values: str) -> Rows:
+        """The head and the rows whose cell in a column is one of the values."""
+        head, *body = self.rows
+        place = self._place(column)
+        found = [row for row in body if row[place] in values]
+        if len({row[place] for row in found}) < len(values):
+            raise KeyError(f"{self.file.name} has no rows of {column!r} for all of {', '.join(values)}")
+        return [head, *found]
+
+    def cell(self, *key: str) -> str:
+        """The cell of the row that begins with all of the key but its last word, in the column of this name."""
+        *start, column = key
+        found = [row for row in self.rows[1:] if row[: len(start)] == start]
+        if len(found) != 1:
+            raise KeyError(f"{self.file.name} has {len(found)} rows that begin with {start}; expected one")
+        return found[0][self._place(column)]
+
+    def count(self, column: str, value: str) -> str:
+        """How many of the rows have a value in a column."""
+        return f"{len(self.where(column, value)) - 1} of {len(self.rows) - 1}"
+
+    def _place(self, column: str) -> int:
+        if column not in self.rows[0]:
+            raise KeyError(f"{self.file.name} has no column {column!r}; it has {', '.join(self.rows[0])}")
+        return self.rows[0].index(column)
+
+
 def read_rows(file: Path) -> Rows:
     """The rows of a stored result, its head first; without the line that says what made it."""
     return [line.split("\t") for line in file.read_text(encoding="utf-8").splitlines() if line[:1] != "#"]
 
 
+@cache
+def stored() -> dict[str, Table]:
+    """The stored results by name."""
+    return {file.stem: Table(file, read_rows(file)) for file in sorted(RESULTS.glob("*.tsv"))}
+
+
+def commit(stem: str) -> str:
+    """The version of the sources that made a table."""
+    return RESULTS.joinpath(f"{stem}.tsv").read_text(encoding="utf-8").split("commit: ", 1)[1].split()[0]
+
+
+def exact(counted: str) -> str:
+    """A count such as 9 of 10 with its share and the exact 95 % interval of Clopper and Pearson."""
+    share = Share.from_count(*map(int, COUNT.match(counted).groups()))
+    return f"{100 * share.covered:.0f} % ({100 * share.low:.0f} to {100 * share.high:.0f})"
+
+
 def render(name: str) -> str:
     """A page from its template and the stored results."""
-    rows = {file.stem: read_rows(file) for file in sorted(RESULTS.glob("*.tsv"))}
+    tables = stored()
     values = {
-        stem: Values(RESULTS / f"{stem}.tsv", {row[0]: row[1] for row in body})
-        for stem, (head, *body) in rows.items()
-        if head == COLUMNS
+        stem: Values(table.file, {row[0]: row[1] for row in table.rows[1:]})
+        for stem, table in tables.items()
+        if table.rows[0] == COLUMNS
     }
-    return render_page(name, table=lambda stem: markdown(rows[stem]), **values)
+    return render_page(
+        name,
+        table=lambda stem: markdown(tables[stem].rows),
+        cell=lambda stem, *key: tables[stem].cell(*key),
+        count=lambda stem, column, value: tables[stem].count(column, value),
+        exact=exact,
+        commit=commit,
+        **values,
+    )
+
+
+def fill(text: str) -> str:
+    """A page with the tables that stand between its comments."""
+
+    def filled(found: re.Match[str]) -> str:
+        opening, stem, column, values, closing = found.groups()
+        table = stored()[stem]
+        rows = table.where(column, *values.split(" or ")) if column else table.rows
+        return f"{opening}\n{markdown(rows)}\n{closing}"
+
+    return FILLED.sub(filled, text)
 
 
 def markdown(rows: Rows) -> str:
@@ -115,16 +180,24 @@ def markdown(rows: Rows) -> str:
     return table_row(*head) + f"|{'---|' * len(head)}\n" + "".join(table_row(*row) for row in body)
 
 
-def differences(pages: Iterable[str] = PAGES) -> list[str]:
-    """Lines in which a page differs from its template filled with the stored results."""
+def pages() -> dict[Path, str]:
+    """What each page should be: those of the templates, and those that hold tables."""
+    written = {page: render(name) for name, page in TEMPLATES.items()}
+    others = [*ROOT.glob("docs/*.md"), *ROOT.glob("studies/**/*.md")]
+    texts = {page: page.read_text(encoding="utf-8") for page in others if page not in written}
+    return written | {page: fill(text) for page, text in texts.items() if FILLED.search(text)}
+
+
+def differences(wanted: Mapping[Path, str] | None = None) -> list[str]:
+    """Lines in which a page differs from what it should be."""
     return [
         line
-        for name in pages
+        for page, text in (pages() if wanted is None else wanted).items()
         for line in unified_diff(
-            PAGES[name].read_text(encoding="utf-8").splitlines(),
-            render(name).splitlines(),
-            PAGES[name].name,
-            f"docs/templates/{name}.md.j2",
+            page.read_text(encoding="utf-8").splitlines(),
+            text.splitlines(),
+            page.name,
+            "docs/measured",
             lineterm="",
             n=0,
         )
@@ -204,13 +277,13 @@ def main(arguments: list[str]) -> int:
     """Carry out what the module's docstring lists."""
     if arguments == ["--check"]:
         lines = differences()
-        advice = "change the template or the stored result, then: python3 study.py numbers"
+        advice = "change the template, the page or the stored result, then: python3 study.py numbers"
         sys.stdout.write("\n".join([*lines, advice]) + "\n" if lines else "")
         return int(bool(lines))
     for numbers in arguments:
         take(Path(numbers))
-    for name, page in PAGES.items():
-        write_text(page, render(name))
+    for page, text in pages().items():
+        write_text(page, text)
     return 0
 
 

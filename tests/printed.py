@@ -14,8 +14,3 @@ def rows_of(page: str) -> dict[str, list[str]]:
     """Cells of each row of the Markdown tables of a page by its first cell, headings included."""
     rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| ")]
     return {first: [cell.strip() for cell in cells] for first, *cells in rows}
-
-
-def outside_tables(page: str) -> str:
-    """Lines of a Markdown page that are no row of a table."""
-    return "\n".join(line for line in page.splitlines() if not line.startswith("|"))

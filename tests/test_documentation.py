@@ -7,9 +7,16 @@ import numpy as np
 import pytest
 
 from heartfit.roles import registry
+from tests.documentation.blocks import pages_of
 
 ROOT = Path(__file__).parents[1]
-PAGES = [ROOT / "README.md", ROOT / "config" / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "CHANGELOG.md",
+    *pages_of("config"),
+    *pages_of("docs"),
+    *pages_of("studies"),
+]
 
 
 def test_the_example_of_a_mechanism_is_one(monkeypatch):

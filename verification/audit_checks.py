@@ -1,15 +1,15 @@
 """Balances of a whole beat of the coarse specimen, and its reproducibility in other processes and element orders."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
 from multiprocessing import get_context
 
 import numpy as np
+import pandas as pd
 
 from heartfit.core.arrays import Floats
-from heartfit.core.pages import table_row
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.beat import Beat
 from heartfit.heart.circulation.coupling import Tolerances
@@ -168,27 +168,23 @@ def _numerics(time_step: float, second_order: bool = True) -> Numerics:
     return Numerics(time_step=time_step, second_order=second_order, max_beats=1, tolerances=TIGHT)
 
 
-def audit_table() -> str:
-    """Energies of the first beat [J] in Markdown, one column for a scheme and step."""
+def audit_table() -> pd.DataFrame:
+    """Energies of the first beat [J], one column for a scheme and step."""
     columns = {
         "10 ms": watched(LONG_STEP),
         "5 ms": watched(USUAL_STEP),
         "10 ms, backward Euler": watched(LONG_STEP, second_order=False),
     }
-    head = table_row("J", *columns) + f"|---|{'---|' * len(columns)}\n"
-    energies = [_lines(beat) for beat in columns.values()]
-    return head + "".join(_row(name, [lines[name] for lines in energies]) for name in energies[0])
+    return _energies("J", {name: _lines(beat) for name, beat in columns.items()})
 
 
-def blood_table() -> str:
-    """Energies of the blood in the first beat [J] in Markdown, one column for each kind of valves."""
+def blood_table() -> pd.DataFrame:
+    """Energies of the blood in the first beat [J], one column for each kind of valves."""
     columns = {
         "valves without states": watched(USUAL_STEP),
         "with inertance and leaflets": watched(USUAL_STEP, heart=heart_with_valve_dynamics()),
     }
-    head = table_row("J, 5 ms", *columns) + f"|---|{'---|' * len(columns)}\n"
-    energies = [_blood_lines(beat.blood) for beat in columns.values()]
-    return head + "".join(_row(name, [lines[name] for lines in energies]) for name in energies[0])
+    return _energies("J, 5 ms", {name: _blood_lines(beat.blood) for name, beat in columns.items()})
 
 
 def _blood_lines(blood: BloodAudit) -> dict[str, float]:
@@ -214,5 +210,6 @@ def _lines(audited: AuditedBeat) -> dict[str, float]:
     }
 
 
-def _row(name: str, energies: list[float]) -> str:
-    return table_row(name, *(f"{energy:.4f}" for energy in energies))
+def _energies(head: str, columns: Mapping[str, Mapping[str, float]]) -> pd.DataFrame:
+    table = pd.DataFrame(columns).map("{:.4f}".format)
+    return table.rename_axis(head).reset_index()

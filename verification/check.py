@@ -21,8 +21,8 @@ class Check:
 
     @property
     def limit(self) -> str:
-        """Cells of a table: expected value and tolerance."""
-        return f"{self.expected:g} | ± {self.tolerance:g}"
+        """Expected value and tolerance."""
+        return f"{self.expected:g} ± {self.tolerance:g}"
 
 
 @dataclass(frozen=True)
@@ -35,4 +35,4 @@ class AtLeast(Check):
 
     @property
     def limit(self) -> str:
-        return f"≥ {self.expected - self.tolerance:g} |"
+        return f"≥ {self.expected - self.tolerance:g}"

@@ -7,8 +7,9 @@ beats mixes with the errors of space and time.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+import pandas as pd
+
 from heartfit.core.arrays import Floats
-from heartfit.core.pages import render_page, table_row
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.finite_elements.body import FiniteElementBody, StepFailed
@@ -74,49 +75,46 @@ def _observed(heart: Heart, reference: VentricularMesh, numerics: Numerics) -> t
     return observe(beat_curves(beat), FEATURES), beat.diagnostics["cpu_s"]
 
 
-def coarsest_within(rows: Sequence[Row], largest: float) -> Row | None:
-    """First of rows on successively finer meshes whose observations are all within ``largest`` of the last row."""
-    finest = rows[-1]
-    near = (row for row in rows[:-1] if max(map(abs, row.beside(finest).values())) <= largest)
-    return next(near, None)
-
-
-LARGEST = 0.02
 USUAL_STEP = 5e-3  # s
 MILLILITRE, KILOPASCAL = 1e-6, 1e3
 UNITS = (MILLILITRE,) * 3 + (KILOPASCAL,) * 3
+PRINTED = ("V_min, mL", "q_max, mL/s", "q_min, mL/s", "P_max, kPa", "dP/dt max, kPa/s", "dP/dt min, kPa/s")
 
 
-def convergence_page(rows: Sequence[Row]) -> str:
-    """Render the page; rows by mesh, the coarsest first, with the best scheme and the shortest step last."""
-    scheme = rows[-1].scheme
-    usual = [row for row in rows if row.scheme == scheme and row.time_step == USUAL_STEP]
-    row = coarsest_within(usual, LARGEST)
-    coarsest = f"{row.size.tetrahedra} tetrahedra" if row else "none"
-    return render_page(
-        "convergence",
-        step=1e3 * USUAL_STEP,
-        scheme=scheme,
-        meshes="".join(_mesh_row(row, usual[-1]) for row in usual),
-        largest=100 * LARGEST,
-        coarsest=coarsest,
-        steps="".join(_step_row(row, _finest_on(rows, row)) for row in rows),
-    )
+def mesh_table(rows: Sequence[Row]) -> pd.DataFrame:
+    """Observations by mesh at the usual step of the last row's scheme, with their difference from the finest mesh."""
+    usual = [row for row in rows if row.scheme == rows[-1].scheme and row.time_step == USUAL_STEP]
+    return pd.DataFrame([_mesh_row(row, usual[-1]) for row in usual])
+
+
+def step_table(rows: Sequence[Row]) -> pd.DataFrame:
+    """Difference of each row from the last one on the same mesh, which has the best scheme and the shortest step."""
+    return pd.DataFrame([_step_row(row, _finest_on(rows, row)) for row in rows])
 
 
 def _finest_on(rows: Sequence[Row], row: Row) -> Row:
     return [other for other in rows if other.size == row.size][-1]
 
 
-def _mesh_row(row: Row, finest: Row) -> str:
+def _mesh_row(row: Row, finest: Row) -> dict[str, str]:
     values = (row.observed[name] / unit for name, unit in zip(OBSERVATIONS, UNITS, strict=True))
     off = row.beside(finest).values()
     cells = [f"{value:.4g} ({100 * part:+.1f} %)" for value, part in zip(values, off, strict=True)]
-    volumes = (f"{volume / MILLILITRE:.1f}" for volume in (row.size.EDV, row.size.wall))
-    return table_row(row.size.tetrahedra, *volumes, *cells)
+    return {
+        "tetrahedra": str(row.size.tetrahedra),
+        "EDV, mL": f"{row.size.EDV / MILLILITRE:.1f}",
+        "wall, mL": f"{row.size.wall / MILLILITRE:.1f}",
+        **dict(zip(PRINTED, cells, strict=True)),
+    }
 
 
-def _step_row(row: Row, finest: Row) -> str:
+def _step_row(row: Row, finest: Row) -> dict[str, str]:
+    names = (name.split(",")[0] for name in PRINTED)
     off = (f"{100 * part:+.2f} %" for part in row.beside(finest).values())
-    head = (str(row.size.tetrahedra), row.scheme, f"{1e3 * row.time_step:g}")
-    return table_row(*head, *off, f"{row.cpu_s:.1f}")
+    return {
+        "tetrahedra": str(row.size.tetrahedra),
+        "scheme": row.scheme,
+        "step, ms": f"{1e3 * row.time_step:g}",
+        **dict(zip(names, off, strict=True)),
+        "CPU s": f"{row.cpu_s:.1f}",
+    }

@@ -30,6 +30,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+import pandas as pd
 from skfem import MeshTet
 
 from heartfit.core.arrays import Floats, Integers
@@ -239,9 +240,10 @@ def fine_land_checks() -> list[Check]:
     return [row for problem in PROBLEMS for row in _rows(problem, problem.sizes[-1], FINE)]
 
 
-def land_table() -> str:
+def land_table() -> pd.DataFrame:
     """Results on the meshes, coarse to fine, and their deviations from the expected ones."""
-    return "".join(_line(problem, name) for problem in PROBLEMS for name in problem.expected)
+    rows = [_line(problem, name) for problem in PROBLEMS for name in problem.expected]
+    return pd.DataFrame(rows, columns=["problem", "result", "coarse", "middle", "fine", "expected"])
 
 
 def _rows(problem: Problem, size: Size, tolerance: float) -> list[Check]:
@@ -252,12 +254,12 @@ def _rows(problem: Problem, size: Size, tolerance: float) -> list[Check]:
     ]
 
 
-def _line(problem: Problem, name: str) -> str:
+def _line(problem: Problem, name: str) -> tuple[str, ...]:
     cells = [
         f"{problem.answers(size)[name]:.2f} ({problem.deviation(name, size):+.1f} %)"
         for size in problem.sizes
     ]
-    return f"| {problem.title} | {name} | {' | '.join(cells)} | {problem.expected[name]:.2f} |\n"
+    return problem.title, name, *cells, f"{problem.expected[name]:.2f}"
 
 
 def _mesh(size: Size) -> str:

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+import pandas as pd
 
 from heartfit.core.arrays import Floats
-from heartfit.core.pages import table_row
 from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.finite_elements.body import CHAMBERS, FiniteElementBody
@@ -78,9 +78,7 @@ def _find(variant: Variant, mesh: VentricularMesh, pressures: Floats, numerics: 
     return Finding(filled, VolumeFeatures()(curves["lv_volume"]))
 
 
-HEADER = """| reference | EDV, LV / RV | V_min (mL) | q_max (mL/s) | q_min (mL/s) |
-|---|---|---|---|---|
-"""
+COLUMNS = ["reference", "EDV, LV / RV", "V_min (mL)", "q_max (mL/s)", "q_min (mL/s)"]
 
 
 def reference_checks() -> list[Check]:
@@ -136,14 +134,14 @@ def first_beats() -> dict[str, Finding]:
     return find(specimen(COARSE), END_DIASTOLIC_PRESSURE, Numerics(time_step=1e-2, max_beats=1))
 
 
-def reference_table(findings: Mapping[str, Finding]) -> str:
-    """Render a row for each result, in Markdown."""
-    return HEADER + "".join(_row(name, finding) for name, finding in findings.items())
+def reference_table(findings: Mapping[str, Finding]) -> pd.DataFrame:
+    """Return a row for each result."""
+    return pd.DataFrame([_row(name, finding) for name, finding in findings.items()], columns=COLUMNS)
 
 
-def _row(name: str, finding: Finding) -> str:
+def _row(name: str, finding: Finding) -> tuple[str, ...]:
     filled = " / ".join(f"{100 * (ratio - 1):+.1f} %" for ratio in finding.filled.values())
-    return table_row(name, filled, *(f"{1e6 * value:.0f}" for value in finding.observed.values()))
+    return name, filled, *(f"{1e6 * value:.0f}" for value in finding.observed.values())
 
 
 def _filled(findings: Mapping[str, Finding], name: str) -> float:

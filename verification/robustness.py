@@ -6,13 +6,13 @@ normal one hardly ever does in fourteen dimensions.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
+import pandas as pd
 
 from heartfit.core.arrays import Floats
-from heartfit.core.pages import render_page, table_row
 from heartfit.geometry.mesh import VentricularMesh
 from heartfit.heart.beat import Beat
 from heartfit.heart.finite_elements.body import StepFailed, Tissue
@@ -73,7 +73,10 @@ CAMPAIGNS = (
     Campaign("the prior", "mixed", normal, 300, 1),
     Campaign("its corners", "mixed", uniform, 100, 2),
     Campaign("the paper's scale", "p1", normal, 50, 3, PAPER_SCALE),
+    Campaign("the paper's means", "p1", lambda _, shape: np.zeros(shape), 1, 0, PAPER_SCALE),
 )
+FAILURE = ["distribution", "draw", "reason", "farthest parameters"]
+"""Columns of the table of hearts without a complete beat."""
 
 
 @dataclass(frozen=True)
@@ -103,18 +106,16 @@ def attempt(heart: Heart, mesh: VentricularMesh, numerics: Numerics | None = Non
 Say = Callable[[str], None]
 
 
-def robustness_page(campaigns: Sequence[Campaign] = CAMPAIGNS, say: Say = lambda _: None) -> str:
-    """Render the page, a quarter of an hour; ``say`` receives messages of progress."""
+def robustness_tables(
+    campaigns: Sequence[Campaign] = CAMPAIGNS, say: Say = lambda _: None
+) -> dict[str, pd.DataFrame]:
+    """Return counts by campaign and the failures, a quarter of an hour; ``say`` receives messages of progress."""
     mesh = specimen()
     outcomes = [(campaign, _run(campaign, mesh, say)) for campaign in campaigns]
-    return render_page(
-        "robustness",
-        tets=len(mesh.tets),
-        table="".join(_row(campaign, trials) for campaign, trials in outcomes),
-        failures=_failures(outcomes),
-        collapsed=_collapsed(outcomes),
-        centre=_summary(_centre(mesh)),
-    )
+    return {
+        "robustness": pd.DataFrame([_row(campaign, trials) for campaign, trials in outcomes]),
+        "robustness_failures": pd.DataFrame(_failures(outcomes), columns=FAILURE),
+    }
 
 
 def _run(campaign: Campaign, mesh: VentricularMesh, say: Say) -> list[Trial]:
@@ -127,21 +128,21 @@ def _run(campaign: Campaign, mesh: VentricularMesh, say: Say) -> list[Trial]:
     return trials
 
 
-def _row(campaign: Campaign, trials: Sequence[Trial]) -> str:
-    beats = [trial.beat for trial in trials if trial.beat is not None]
-    cuts = [beat.diagnostics["step_cuts"] for beat in beats]
+def _row(campaign: Campaign, trials: Sequence[Trial]) -> dict[str, str]:
+    cuts = [trial.beat.diagnostics["step_cuts"] for trial in trials if trial.beat is not None]
     completed = sum(trial.completed for trial in trials)
-    return table_row(
-        campaign.name,
-        f"`{campaign.element}`",
-        campaign.seed,
-        campaign.count,
-        sum(trial.unloaded for trial in trials),
-        f"{completed} ({100 * completed / campaign.count:.1f} %)",
-        sum(cut > 0 for cut in cuts),
-        f"{max(cuts, default=0):.0f}",
-        " to ".join(f"{100 * ejected:.0f} %" for ejected in _range(trials)),
-    )
+    return {
+        "distribution": campaign.name,
+        "element": f"`{campaign.element}`",
+        "seed": str(campaign.seed),
+        "hearts": str(campaign.count),
+        "unloaded": str(sum(trial.unloaded for trial in trials)),
+        "completed": f"{completed} ({100 * completed / campaign.count:.1f} %)",
+        "with steps cut": str(sum(cut > 0 for cut in cuts)),
+        "most cuts": f"{max(cuts, default=0):.0f}",
+        "EF, range": " to ".join(f"{100 * ejected:.0f} %" for ejected in _range(trials)),
+        "negative cavity": str(sum(map(_inverted, trials))),
+    }
 
 
 def _range(trials: Sequence[Trial]) -> list[float]:
@@ -171,23 +172,5 @@ def _far(z: np.ndarray) -> str:
     return ", ".join(f"{PAPER_PARAMETERS[i]} {z[i]:+.1f} sd" for i in farthest)
 
 
-def _collapsed(outcomes: Sequence[tuple[Campaign, Sequence[Trial]]]) -> dict[str, int]:
-    """Number of completed beats with a negative volume, by campaign; omits campaigns without any."""
-    counts = {campaign.name: sum(map(_inverted, trials)) for campaign, trials in outcomes}
-    return {name: count for name, count in counts.items() if count}
-
-
 def _inverted(trial: Trial) -> bool:
     return trial.completed and min(v.min() for v in trial.beat.volume.values()) < 0.0  # type: ignore[union-attr]
-
-
-def _centre(mesh: VentricularMesh) -> Trial:
-    campaign = replace(CAMPAIGNS[-1], count=1, law=lambda _, shape: np.zeros(shape))
-    return attempt(next(campaign.hearts()), mesh)
-
-
-def _summary(trial: Trial) -> dict[str, object]:
-    if trial.beat is None or not trial.completed:
-        return {"completed": False, "reason": trial.reason}
-    ranges = {name: f"{1e6 * v.max():.0f} to {1e6 * v.min():.0f} mL" for name, v in trial.beat.volume.items()}
-    return {"completed": True, "cuts": trial.beat.diagnostics["step_cuts"], **ranges}

@@ -1,4 +1,4 @@
-"""Measure every registration and write docs/registration_methods.md, in a quarter of an hour.
+"""Measure every registration and store docs/measured/registration_*.tsv, in a quarter of an hour.
 
 `--kept` takes the rows that are on disk, as after an interrupted run.
 """
@@ -6,16 +6,16 @@
 import sys
 from functools import lru_cache
 
+from benchmarks.measured_table import store_table
 from benchmarks.registration.contrasts import CONTRASTS, USUAL, scanner
 from benchmarks.registration.kept import Kept
 from benchmarks.registration.methods import METHODS, OURS, Method
-from benchmarks.registration.page import page
 from benchmarks.registration.phantom import HEARTS, Known, known_heart
 from benchmarks.registration.repeat import digest_on
 from benchmarks.registration.row import Row, measured
-from benchmarks.ventricles import FOLDER, ROOT
+from benchmarks.registration.tables import contrasts_table, methods_table
+from benchmarks.ventricles import FOLDER
 from heartfit.imaging.sequence import ImageSequence
-from heartfit.io.files import write_text
 from heartfit.synthetic.cine import image_beat
 
 
@@ -36,7 +36,9 @@ def main(arguments: list[str]) -> None:
         for contrast in CONTRASTS
     }
     same = len({digest_on(threads) for threads in (1, 2)}) == 1
-    write_text(ROOT / "docs" / "registration_methods.md", page(methods, contrasts, same))
+    print(f"a motion on one and on two threads: {'the same' if same else 'different'} bytes")
+    store_table("registration_methods", methods_table(methods), "benchmarks.registration")
+    store_table("registration_contrasts", contrasts_table(contrasts), "benchmarks.registration")
 
 
 def row(method: Method, number: int = 0, contrast: str = USUAL) -> Row:

@@ -16,6 +16,8 @@ def add_navigation(_, name, source):
         _, *parts = SECTION.split(source[0])
         source[0] += "".join(map(section, parts[::2], parts[1::2]))
         source[0] += toctree(["api/modules"], ":hidden:", ":caption: Library")
+    if name == "validation":
+        source[0] += toctree(["studies/*/*"], ":glob:", ":hidden:", ":maxdepth: 1")
     if name == "decisions/README":
         source[0] += toctree(["[0-9]*"], ":glob:", ":maxdepth: 1")
 

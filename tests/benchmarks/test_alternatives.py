@@ -1,23 +1,18 @@
-"""Page of the competing methods: all rows of its tables; hearts in 3-D are problems like those of the spheres."""
+"""The competing methods: pooled coverage; hearts in 3-D are problems like those of the spheres."""
 
 import numpy as np
 
-from benchmarks.alternatives import HEARTS, ROOT, SETTING
-from benchmarks.alternatives_page import page
+from benchmarks.alternatives import HEARTS, ROOT, SETTING, pooled
 from heartfit.io.configuration import read_cases, read_study
-from heartfit.results.race import race_table, sphere_coverage_table
-from heartfit.synthetic.race import Coverage, MethodScore
+from heartfit.results.race import sphere_coverage_table
+from heartfit.synthetic.race import Coverage
 
 
-def test_the_page_has_every_method_and_every_noise() -> None:
-    race = race_table({"volume": [MethodScore(0, "unscented, R = 0", 9, 2.5, 0.5)]})
+def test_coverage_is_pooled_over_the_parameters() -> None:
     shares = sphere_coverage_table({"volume": [Coverage("nothing", "R = 0", ("sigma_0",), np.zeros((8, 1)))]})
-    study = read_study([ROOT / "config" / "config.yaml"]).sphere_study
-    text = page(race, shares, study)
-    assert f"{study.covered} spheres" in text
-    assert "| volume     | unscented, R = 0 | 9" in text
-    assert "| volume     | nothing   | R = 0   | 100.0 " in text
-    assert "{" not in text
+    (row,) = pooled(shares).to_dict("records")
+    assert (row["measured"], row["unknown"], row["noise"]) == ("volume", "nothing", "R = 0")
+    assert row["covered (%)"] == 100.0
 
 
 def test_the_hearts_in_3d_are_volunteers_of_the_study() -> None:

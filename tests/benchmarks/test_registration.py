@@ -1,4 +1,4 @@
-"""The comparison of registrations: motions that are known exactly, and the page."""
+"""The comparison of registrations: motions that are known exactly, and the tables."""
 
 import numpy as np
 import pytest
@@ -7,9 +7,8 @@ import SimpleITK as sitk
 from benchmarks.registration.carried import Images, nothing
 from benchmarks.registration.library import affine_first, demons, splines
 from benchmarks.registration.methods import METHODS
-from benchmarks.registration.page import page
 from benchmarks.registration.row import Errors, Row
-from tests.printed import numbers_in, outside_tables
+from benchmarks.registration.tables import contrasts_table, methods_table
 
 SHIFT = np.array([1.5, -1.0, 2.0])
 """Voxels along i, j, k."""
@@ -48,17 +47,12 @@ def errors(mean: float) -> Errors:
     return Errors(0.1, -0.2, -0.05, mean, 4e-3, 2, 0.15, 0.2, 0.17, 0.3)
 
 
-def test_the_page_shows_every_method_and_its_refusals():
+def test_every_method_and_every_refusal_is_a_row():
     methods = {family: {name: Row(0.5, errors(2e-3)) for name in named} for family, named in METHODS.items()}
+    shown = methods_table(methods).to_numpy().tolist()
+    assert len(shown) == sum(map(len, METHODS.values()))
+    assert shown[0][1:] == ["+10.0", "-20.0", "-5.0", "2.00", "4.0", "2", "15.0", "11.5", "0.50"]
     contrasts = {"usual": [Row(0.5, errors(1e-3)), Row(1.0, None, "frames [3] fold the wall")]}
-    text = page(methods, contrasts, same=False)
-    assert text.count("| +10.0 | -20.0 | -5.0 | 2.00 | 4.0 | 2 | 15.0 | 11.5 | 0.50 |") == sum(
-        map(len, METHODS.values())
-    )
-    assert "| usual | 1 | +10.0 | -20.0 | -5.0 | 1.00 | 4.0 | 2 | -2.0 | -5.7 | 12.0 |" in text
-    assert "| usual | 2 | refused |" in text
-    numbers = numbers_in(outside_tables(text))
-    assert {17.0, 17.2} <= set(numbers), "true shortening in % and twist in degrees"
-    assert {12.0, 24.0} <= set(numbers), "least and most CPU s of a case"
-    assert "**not**" in text.rsplit("##", 1)[1]
-    assert "**not**" not in page(methods, contrasts, same=True).rsplit("##", 1)[1]
+    first, second = contrasts_table(contrasts).to_numpy().tolist()
+    assert first == ["usual", "1", "+10.0", "-20.0", "-5.0", "1.00", "4.0", "2", "-2.0", "-5.7", "12.0"]
+    assert second == ["usual", "2", "refused", *8 * [""]]

@@ -15,12 +15,12 @@ TEMPLATES = sorted((ROOT / "docs" / "templates").glob("*.md.j2"))
 def test_a_table_ends_with_its_line_break():
     table = pages.table_row("V_min", 1.5)
     assert table == "| V_min | 1.5 |\n"
-    assert pages.render_page("mutations", table=lambda _: table).endswith(f"\n\n{table}")
+    assert pages.render_page("parameters", table=table).endswith(f"|\n{table}")
 
 
 def test_a_missing_value_is_an_error():
     with pytest.raises(UndefinedError, match="'table' is undefined"):
-        pages.render_page("mutations")
+        pages.render_page("parameters")
     with pytest.raises(TemplateNotFound, match="no_such_page"):
         pages.render_page("no_such_page")
 

@@ -54,6 +54,15 @@ def blocks_of(page: Path) -> list[Block]:
     ]
 
 
+def pages_of(folder: str) -> list[Path]:
+    """The pages below a folder, without the copies that a site is built of."""
+    return [
+        page
+        for page in sorted((ROOT / folder).rglob("*.md"))
+        if ROOT / "docs" / "studies" not in page.parents
+    ]
+
+
 def carry_out(page: Path, folder: Path) -> None:
     """Run the blocks of a page that are run here; raises AssertionError that names the first one that fails."""
     for block in blocks_of(page):

@@ -4,9 +4,9 @@ import re
 
 import pytest
 
-from tests.documentation.blocks import ROOT, Block, blocks_of, carry_out
+from tests.documentation.blocks import ROOT, Block, blocks_of, carry_out, pages_of
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [ROOT / "README.md", *pages_of("docs"), *pages_of("studies")]
 RUN = [page for page in PAGES if any(block.run_here for block in blocks_of(page))]
 """These take a minute together."""
 

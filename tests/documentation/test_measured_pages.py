@@ -2,6 +2,7 @@
 
 import importlib.util
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from heartfit.io.tables import read_published
 
 ROOT = Path(__file__).parents[2]
+WHICH_DATA = ROOT / "docs" / "which_data.md"
 
 
 @pytest.fixture(scope="module")
@@ -35,17 +37,28 @@ def test_stored_numbers_of_the_study_are_those_it_is_held_to(pages):
     assert {number: stored[number] for number in held} == printed
 
 
-def test_every_stored_result_is_printed(pages):
-    text = "".join((ROOT / "docs" / "templates" / f"{name}.md.j2").read_text() for name in pages.PAGES)
+def test_every_stored_result_is_printed_or_linked(pages):
+    templates = [pages.ROOT / "docs" / "templates" / f"{name}.md.j2" for name in pages.TEMPLATES]
+    texts = [*templates, *(ROOT / "docs").glob("*.md"), *(ROOT / "studies").rglob("*.md")]
+    text = "".join(path.read_text() for path in texts)
     for file in pages.RESULTS.glob("*.tsv"):
         head, *rows = pages.read_rows(file)
-        calls = (
-            [f"{file.stem}('{row[0]}'" for row in rows]
-            if head == pages.COLUMNS
-            else [f"table('{file.stem}')"]
+        values = [f"{file.stem}('{row[0]}'" for row in rows] if head == pages.COLUMNS else []
+        shown = [f"measured/{file.name})", f"table('{file.stem}')", f"<!-- table: {file.stem} -->"]
+        assert any(call in text for call in shown) or (values and all(call in text for call in values)), (
+            file.name
         )
-        assert not [call for call in calls if call not in text], file.name
         assert file.read_text().startswith("# made by: "), file.name
+
+
+LINK = re.compile(r"\[(\d+) [^\]]*\]\([./]*docs/measured/(\w+)\.tsv\)")
+
+
+def test_a_link_that_begins_with_a_number_leads_to_so_many_rows(pages):
+    links = [link for page in (ROOT / "studies").rglob("*.md") for link in LINK.findall(page.read_text())]
+    assert len(links) >= 3
+    for number, stem in links:
+        assert len(pages.read_rows(pages.RESULTS / f"{stem}.tsv")) - 1 == int(number), stem
 
 
 PRINTED_VALUE = re.compile(r"(\w+)\('([^']+)'(?:, (\d+))?")
@@ -54,25 +67,51 @@ PRINTED_VALUE = re.compile(r"(\w+)\('([^']+)'(?:, (\d+))?")
 def test_a_stored_value_has_the_same_digits_on_every_page(pages):
     """README and pages once printed one number as 2.001, 2.2 and 2.0."""
     digits = {}
-    for name in pages.PAGES:
+    for name in pages.TEMPLATES:
         for stem, quantity, decimals in PRINTED_VALUE.findall(
             (ROOT / "docs" / "templates" / f"{name}.md.j2").read_text()
         ):
             digits.setdefault((stem, quantity), set()).add(decimals)
-    assert len(digits) >= 150
+    assert len(digits) >= 80
     assert not {value: ways for value, ways in digits.items() if len(ways) > 1}
     assert digits["study", "patient1 physical q_max"] == {"1"}, "not as stored"
 
 
-def test_a_number_changed_by_hand_is_detected(pages, tmp_path, monkeypatch):
+def test_a_number_changed_by_hand_is_detected(pages, tmp_path):
     page = tmp_path / "study.md"
-    text = pages.PAGES["study"].read_text()
+    text = pages.TEMPLATES["study"].read_text()
     (row,) = re.findall(r"^\| ours, `locking` \|.*$", text, re.MULTILINE)
     other = re.sub(r"(\d) \|", lambda digit: f"{(int(digit[1]) + 1) % 10} |", row, count=1)
     page.write_text(text.replace(row, other))
-    monkeypatch.setitem(pages.PAGES, "study", page)
     assert other != row
-    assert pages.differences(["study"])[-2:] == [f"-{other}", f"+{row}"]
+    assert pages.differences({page: text})[-2:] == [f"-{other}", f"+{row}"]
+
+
+def test_tables_of_a_page_are_filled_and_rows_selected(pages, tmp_path, monkeypatch):
+    table = pages.Table(tmp_path / "speeds.tsv", [["who", "v"], ["one", "1"], ["two", "2"], ["three", "3"]])
+    monkeypatch.setattr(pages, "stored", lambda: {"speeds": table})
+    old = "A\n\n<!-- table: speeds; who = one or three -->\n| old |\n<!-- end -->\nB\n"
+    filled = pages.fill(old)
+    assert filled.splitlines()[3:-1] == [
+        "",
+        "| who | v |",
+        "|---|---|",
+        "| one | 1 |",
+        "| three | 3 |",
+        "",
+        "<!-- end -->",
+    ]
+    assert pages.fill(filled) == filled
+    with pytest.raises(KeyError, match="no rows of 'who' for all of four"):
+        pages.fill("<!-- table: speeds; who = four -->\n<!-- end -->\n")
+    assert (table.cell("two", "v"), table.count("v", "2")) == ("2", "1 of 3")
+    with pytest.raises(KeyError, match="0 rows that begin with"):
+        table.cell("four", "v")
+
+
+def test_a_count_has_its_exact_interval(pages):
+    assert pages.exact("0 of 40") == "0 % (0 to 9)"
+    assert pages.exact("13 of 14") == "93 % (66 to 100)"
 
 
 def test_numbers_of_a_study_are_stored(pages, tmp_path):
@@ -124,3 +163,24 @@ def test_a_quantity_that_is_not_stored_is_named(pages):
     assert (values("V_min", 1), values("V_min", 2, plus=True), values("V_min")) == ("1.2", "+1.25", "1.25")
     with pytest.raises(KeyError, match=r"study\.tsv has no 'q_max'"):
         values("q_max")
+
+
+def test_the_pages_state_the_detection_limits_of_the_stored_table(pages):
+    least: dict[str, float] = {}
+    for effect, _, scales, *_ in pages.read_rows(pages.RESULTS / "detection_limits.tsv")[1:]:
+        name, size = effect.split()[0], float("inf") if scales == "> 4" else float(scales)
+        least[name] = min(least.get(name, size), size)
+    never = sum(size == float("inf") for size in least.values())
+    late = sum(2.0 < size <= 4.0 for size in least.values())
+    text = " ".join((ROOT / "docs" / "limits.md").read_text().split())
+    assert (
+        f"Of the {len(least)} effects of the library {never} are not expected to show even at 4 scales"
+        in text
+    )
+    assert f"{late} more only above 2" in text
+    (table,) = re.findall(
+        r"\| detected at \| effects \|\n\|---\|---\|\n((?:\|.*\n)+)", WHICH_DATA.read_text()
+    )
+    bounds = (0.0, 1.0, 2.0, 4.0, float("inf"))
+    counted = [row.count(",") + 1 for row in table.splitlines()]
+    assert counted == [sum(low < size <= high for size in least.values()) for low, high in pairwise(bounds)]

@@ -4,9 +4,9 @@ import re
 
 import pytest
 
-from tests.documentation.blocks import ROOT
+from tests.documentation.blocks import ROOT, pages_of
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "config").glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [ROOT / "README.md", *pages_of("config"), *pages_of("docs"), *pages_of("studies")]
 FILE = re.compile(r"`([\w./-]+/[\w.-]+\.(?:py|smk|yaml|tsv|toml|j2))`")
 MODULE = re.compile(r"(?<!/)heartfit((?:\.\w+)+)")
 PLACES = (ROOT, ROOT / "src" / "heartfit", ROOT / "src", ROOT / "docs")

@@ -1,4 +1,4 @@
-"""All faults on the smallest study, and their page."""
+"""All faults on the smallest study, and their table."""
 
 import argparse
 import sys
@@ -9,7 +9,9 @@ from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 
-from heartfit.core.pages import render_page
+import pandas as pd
+
+from heartfit.io.tables import write_measured
 from tests.checkout import ROOT
 from tests.faults.clocks import clocks, jumping_clock
 from tests.faults.damage import cut_kernels, damaged
@@ -20,14 +22,14 @@ from tests.faults.outcome import Outcome
 from tests.faults.tiny import TinyStudy
 from tests.faults.together import two_folders, two_runs
 
-PAGE = ROOT / "docs" / "faults.md"
+STORED = ROOT / "docs" / "measured" / "faults.tsv"
 SEED = 2012
 
 
 def main(arguments: list[str]) -> int:
-    """Try all faults and write the page, or a part of them; 1 if one was not mended."""
+    """Try all faults and store the table, or a part of them; 1 if one was not mended."""
     parser = argparse.ArgumentParser(prog="python3 study.py faults", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="fewer kills, some of the rest, and no page")
+    parser.add_argument("--quick", action="store_true", help="fewer kills, some of the rest, and no table")
     quick = parser.parse_args(arguments).quick
     with TemporaryDirectory() as folder:
         study = TinyStudy(Path(folder))
@@ -36,7 +38,7 @@ def main(arguments: list[str]) -> int:
         expected = _reference(study)
         outcomes = list(_all(study, expected, quick))
     if not quick:
-        PAGE.write_text(page(expected, outcomes))
+        write_measured(STORED, table(outcomes), "python3 study.py faults")
     return int(not all(outcome.mended for outcome in outcomes))
 
 
@@ -75,14 +77,10 @@ def _faults(chance: Random, quick: bool) -> list[Callable[[TinyStudy, dict[str, 
     return [*plain, *(partial(fault, chance=chance) for fault in drawn)]
 
 
-def page(expected: dict[str, str], outcomes: list[Outcome]) -> str:
-    """Page with the table of the faults."""
-    kinds = ", ".join(sorted({f"`{Path(name).suffix}`" for name in expected}))
-    rows = "".join(
-        f"| {outcome.fault} | {outcome.came} | {'yes' if outcome.mended else '**no**'} |\n"
-        for outcome in outcomes
-    )
-    return render_page("faults", files=len(expected), kinds=kinds, rows=rows)
+def table(outcomes: list[Outcome]) -> pd.DataFrame:
+    """One row for each fault."""
+    rows = [(outcome.fault, outcome.came, "yes" if outcome.mended else "**no**") for outcome in outcomes]
+    return pd.DataFrame(rows, columns=["fault", "consequence", "repaired by one more call"])
 
 
 def _say(text: str) -> None:

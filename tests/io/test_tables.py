@@ -15,10 +15,11 @@ from heartfit.io.tables import (
     read_published,
     read_shape,
     write_csv,
+    write_measured_tables,
     write_table,
     write_tables,
 )
-from heartfit.results.text import NOTES, render_table, render_tables
+from heartfit.results.text import NOTES, printed_tables, render_table, render_tables
 
 TABLE = pd.DataFrame({"setting": ["locking"], "case": ["a_b"], "sigma_0 (kPa)": [240.0]})
 
@@ -72,7 +73,7 @@ def test_a_figure_is_the_same_file_every_time(tmp_path: Path, suffix: str) -> No
 
 def test_tables_and_figures_are_written_by_name_with_their_note(tmp_path: Path) -> None:
     write_tables(tmp_path, render_tables({"table1": TABLE, "other": TABLE}))
-    write_figures(tmp_path, {"card": Figure()})
+    write_figures([f"{tmp_path}/card.{end}" for end in ("png", "pdf")], {"card": Figure(), "other": Figure()})
     suffixes = [("table1", ("csv", "md", "tex")), ("other", ("csv", "md", "tex")), ("card", ("png", "pdf"))]
     assert {file.name for file in tmp_path.iterdir()} == {
         f"{name}.{end}" for name, ends in suffixes for end in ends
@@ -90,3 +91,13 @@ def test_numbers_are_text_and_claims_are_numbers(tmp_path: Path) -> None:
     for read in (read_numbers, read_claims):
         with pytest.raises(InputError, match="no such file"):
             read(tmp_path / "none")
+
+
+def test_a_stored_result_states_its_command_and_holds_the_cells_as_printed(tmp_path: Path) -> None:
+    path = tmp_path / "planted_rates.tsv"
+    tables = printed_tables({"rates": TABLE.assign(share=0.123456), "other": TABLE})
+    write_measured_tables([str(path)], "planted", tables, "snakemake discovery_benchmark")
+    first, head, row = path.read_text().splitlines()
+    assert re.fullmatch(r"# made by: snakemake discovery_benchmark; commit: (\w{7,}|unknown)", first)
+    assert head.split("\t") == ["setting", "case", "sigma_0 (kPa)", "share"]
+    assert row.split("\t") == ["locking", "a_b", "240.0", "0.12"]

@@ -1,9 +1,8 @@
-"""Stored verdicts on mutants, docs/measured/mutations.tsv, from which docs/mutations.md is written.
+"""Stored verdicts on mutants, docs/measured/mutations.tsv.
 
 A verdict is kept as long as its mutant does not change: trying all of them takes more than half an hour.
 """
 
-import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
@@ -59,7 +58,7 @@ def chosen(arguments: Sequence[str]) -> list[Mutant]:
     if arguments == ["--all"]:
         return list(MUTANTS)
     if unknown := set(arguments) - {mutant.what for mutant in MUTANTS}:
-        raise SystemExit(f"no mutant {', '.join(sorted(unknown))}: see docs/mutations.md")
+        raise SystemExit(f"no mutant {', '.join(sorted(unknown))}: see docs/measured/mutations.tsv")
     rows = read_rows()
     return [
         mutant for mutant in MUTANTS if mutant.what in arguments or not (arguments or key(mutant) in rows)
@@ -67,7 +66,7 @@ def chosen(arguments: Sequence[str]) -> list[Mutant]:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Try mutants, store each verdict, and write the page; 1 if one survives."""
+    """Try mutants and store each verdict; 1 if one survives."""
     rows, survived = read_rows(), 0
     for verdict in verdicts(chosen(arguments)):
         day = datetime.now(UTC).date().isoformat()
@@ -76,5 +75,4 @@ def main(arguments: Sequence[str]) -> int:
         survived += not verdict.caught_by
         sys.stderr.write(f"{verdict.mutant.what}: {verdict.caught_by or 'SURVIVED'}\n")
     write_rows(rows)
-    subprocess.run([sys.executable, str(ROOT / "docs" / "measured_pages.py")], check=True)
     return int(survived > 0)

@@ -7,11 +7,12 @@ from matplotlib.colors import to_hex
 
 from heartfit.core.errors import InputError
 from heartfit.geometry.mesh import Motion, VentricularMesh
-from heartfit.results.figures import CALIBRATED
+from heartfit.results.colours import SETTING_COLOURS
 from heartfit.results.overlay import OUTLINES, REGISTERED, Overlay, plot_overlay
 from tests.printed import numbers_in
 from tests.results.imaged_beat import SYSTOLE, beating, images
 
+CALIBRATED = SETTING_COLOURS[0]
 GLIDE = np.array([0.0, 0.0, 2e-3])
 
 
@@ -24,7 +25,7 @@ def shifted(motion: Motion) -> Motion:
 
 def test_each_motion_is_drawn_in_its_colour_and_phase(ventricle: VentricularMesh) -> None:
     motions = {REGISTERED: beating(ventricle), CALIBRATED: shifted(beating(ventricle))}
-    figure = plot_overlay(images(ventricle), ventricle, *motions.values(), "a heart")
+    figure = plot_overlay(images(ventricle), ventricle, *motions.values(), "a heart", CALIBRATED)
     views = Overlay(images(ventricle), ventricle, motions[REGISTERED]).views.values()
     panels = [(view, phase) for phase in (0, SYSTOLE) for view in views]
     for axes, (view, phase) in zip(figure.axes, panels, strict=True):
@@ -38,15 +39,17 @@ def test_each_motion_is_drawn_in_its_colour_and_phase(ventricle: VentricularMesh
 
 def test_the_title_gives_the_distance_of_the_outlines(ventricle: VentricularMesh) -> None:
     motion = beating(ventricle)
-    same = plot_overlay(images(ventricle), ventricle, motion, motion, "a heart")
+    same = plot_overlay(images(ventricle), ventricle, motion, motion, "a heart", CALIBRATED)
     assert numbers_in(same.get_suptitle()) == [0.0, 0.0]
-    other = plot_overlay(images(ventricle), ventricle, motion, shifted(motion), "a heart").get_suptitle()
+    other = plot_overlay(
+        images(ventricle), ventricle, motion, shifted(motion), "a heart", CALIBRATED
+    ).get_suptitle()
     mean, most = numbers_in(other)
     assert 0.3 < mean < 1.5 < most <= 2.0
 
 
 def test_a_failed_beat_leaves_the_registered_outlines(ventricle: VentricularMesh) -> None:
-    figure = plot_overlay(images(ventricle), ventricle, beating(ventricle), None, "a heart")
+    figure = plot_overlay(images(ventricle), ventricle, beating(ventricle), None, "a heart", CALIBRATED)
     assert figure.get_suptitle().startswith("a heart: ")
     assert numbers_in(figure.get_suptitle()) == []
     assert all(len(axes.collections) == len(OUTLINES) for axes in figure.axes)
@@ -56,4 +59,4 @@ def test_a_simulation_of_other_times_is_refused(ventricle: VentricularMesh) -> N
     motion = beating(ventricle)
     late = Motion(motion.times + 0.01, motion.period, motion.positions)
     with pytest.raises(InputError, match=r"times"):
-        plot_overlay(images(ventricle), ventricle, motion, late, "a heart")
+        plot_overlay(images(ventricle), ventricle, motion, late, "a heart", CALIBRATED)

@@ -7,6 +7,9 @@ import pytest
 
 from heartfit.results.card import POOLED, cards, cards_table, coverage_table
 from heartfit.results.card_figure import plot_card, plot_cards
+from heartfit.results.colours import SETTING_COLOURS
+
+COLOUR = SETTING_COLOURS[0]
 
 
 def test_a_card_has_places_and_coverage_in_prior_deviations(cohort):
@@ -49,8 +52,8 @@ def test_a_long_step_names_the_posteriors_that_took_it(cohort):
     )
     flags = cards_table([far]).set_index("parameter")["long steps"]
     assert flags.tolist() == ["met", "", "", ""]
-    assert "†" in plot_card(far).axes[0].get_yticklabels()[0].get_text()
-    assert "†" not in plot_card(card).axes[0].get_yticklabels()[0].get_text()
+    assert "†" in plot_card(far, COLOUR).axes[0].get_yticklabels()[0].get_text()
+    assert "†" not in plot_card(card, COLOUR).axes[0].get_yticklabels()[0].get_text()
 
 
 def test_coverage_counts_hearts_with_a_truth(cohort):
@@ -71,14 +74,14 @@ def test_no_estimate_is_held_against_a_true_K():
 
 
 def test_the_figure_shows_each_parameter_and_direction(cohort):
-    figure = plot_card(cohort[0])
+    figure = plot_card(cohort[0], COLOUR)
     left, right = figure.axes
     assert len(right.patches) == 4
     assert [bar.get_width() for bar in right.patches] == pytest.approx(cohort[0].information.reduction)
     prior = left.patches[:4]
     assert [bar.get_width() for bar in prior] == pytest.approx([3.92] * 4)
     truths = {name: 1e3 * value for name, value in cohort[0].truth.items()}
-    missed = plot_card(replace(cohort[0], truth=truths)).axes[0]
+    missed = plot_card(replace(cohort[0], truth=truths), COLOUR).axes[0]
     assert {text.get_text().rsplit(",")[-1] for text in left.texts}.isdisjoint(
         text.get_text().rsplit(",")[-1] for text in missed.texts
     )
@@ -86,9 +89,11 @@ def test_the_figure_shows_each_parameter_and_direction(cohort):
 
 
 def test_a_truth_beyond_the_edge_is_an_arrow(cohort):
-    markers = [line.get_marker() for line in plot_card(replace(cohort[0], truth={"mu": 1.0})).axes[0].lines]
+    markers = [
+        line.get_marker() for line in plot_card(replace(cohort[0], truth={"mu": 1.0}), COLOUR).axes[0].lines
+    ]
     assert "<" in markers
 
 
 def test_figures_are_named_by_case_and_setting(cohort):
-    assert list(plot_cards(cohort[:1])) == ["volunteer1_physical_card"]
+    assert list(plot_cards(cohort[:1], {"physical": COLOUR})) == ["volunteer1_physical_card"]

@@ -8,7 +8,8 @@ from heartfit.calibration.unscented import sigma_points
 from heartfit.calibration.update import calibrate
 from heartfit.observation.curve import Curve
 from heartfit.observation.operator import VolumeFeatures
-from heartfit.results.figures import plot_case, plot_sensitivity
+from heartfit.results.colours import SETTING_COLOURS
+from heartfit.results.figures import MEASURED, REFERENCE, plot_case, plot_sensitivity
 
 PERIOD = 0.8
 
@@ -27,7 +28,7 @@ def ventricles(samples: int, late: float = 0.0) -> dict[str, Curve]:
 def test_volumes_and_the_shift_are_drawn() -> None:
     measured = {name: curve for name, curve in ventricles(25).items() if "volume" in name}
     curves = {"measured": measured, "reference": ventricles(200), "calibrated": ventricles(200, late=0.05)}
-    figure = plot_case(curves, "volunteer, physical", VolumeFeatures(), shift=0.05)
+    figure = plot_case(curves, "volunteer, physical", VolumeFeatures(), SETTING_COLOURS[1], shift=0.05)
     lines = figure.axes[0].get_lines()
     assert [line.get_label() for line in lines] == ["measured", "reference", "calibrated"]
     time, volume = lines[2].get_data()
@@ -35,10 +36,17 @@ def test_volumes_and_the_shift_are_drawn() -> None:
     assert time.min() >= 0
     assert abs(time[np.argmin(volume)] - PERIOD / 2) < 0.01
     assert "volunteer, physical" in figure.get_suptitle()
+    assert [line.get_color() for line in lines] == [MEASURED, REFERENCE, SETTING_COLOURS[1]]
+    pressures = figure.axes[2].get_lines()
+    assert {line.get_color() for line in pressures if line.get_label() in ("artery", "calibrated")} == {
+        SETTING_COLOURS[1]
+    }
 
 
 def test_a_failed_beat_is_left_out() -> None:
-    figure = plot_case({"measured": ventricles(25), "reference": {}}, "t", VolumeFeatures())
+    figure = plot_case(
+        {"measured": ventricles(25), "reference": {}}, "t", VolumeFeatures(), SETTING_COLOURS[0]
+    )
     assert len(figure.axes[0].get_lines()) == 1
 
 

@@ -8,13 +8,7 @@ import pytest
 from heartfit.discovery.sphere_model.cause import Cause
 from heartfit.io.figures import write_figure
 from heartfit.results.planted_figures import plot_confusion, plot_power, plot_rates
-from heartfit.results.planted_page import (
-    compare_data,
-    compare_populations,
-    data_table,
-    planted_page,
-    planted_tables,
-)
+from heartfit.results.planted_summary import data_table, extent_table, planted_tables
 from heartfit.results.planted_table import (
     COLUMNS,
     ClaimError,
@@ -28,7 +22,7 @@ from heartfit.synthetic.campaign import Effect
 from heartfit.synthetic.case import Answer
 from heartfit.synthetic.scoring import DetectableSizes, Scored
 from heartfit.synthetic.trial import CONDITION, VOLUME, ScoredDiagnosis
-from tests.printed import numbers_in, outside_tables
+from tests.printed import numbers_in
 
 
 def scored(seed, kind, planted, verdict, names=(), size=1e-5):
@@ -96,9 +90,7 @@ def test_less_and_more_data_are_a_row_each_over_the_same_cases():
     assert table["named wrong"].tolist() == [1, 0, 0]
     assert table["insufficient"].tolist() == [1, 0, 0]
     assert table["held-out pressure"].tolist()[1:] == [0.5, 0.3]
-    page = planted_page([null, leak], 2, "abc", LEAST)
-    assert {1.0, 2.0} <= set(numbers_in(outside_tables(page)))
-    assert compare_data(CASES) is None
+    assert set(data_table(CASES)["false alarms"]) == {"0 of 0"}, "none was searched with each set"
 
 
 def test_a_case_is_a_row():
@@ -128,16 +120,17 @@ def test_an_empty_claim_is_refused(row):
         require_claims(CASES, claims(row))
 
 
-def test_the_page_lists_seeds_refusals_and_gain():
-    page = planted_page(CASES, 7, "abc", LEAST)
-    numbers = numbers_in(outside_tables(page))
-    assert {7.0, 1.0} <= set(numbers[:4]), "seven cases of the seeds 1 to 7"
-    part = numbers_in(outside_tables(planted_page(CASES, 3001, "abc", LEAST)))
-    assert 3001.0 in part
-    assert 3001.0 not in numbers
-    refused = [line for line in page.splitlines() if {7.0, 14.0} <= set(numbers_in(line))]
-    assert refused, "one of two draws of each case"
-    assert {0.5, 3000.0, 20.0} <= set(numbers)
+def test_the_extent_states_seeds_refusals_gain_and_effort():
+    table = extent_table(CASES, 3001).set_index("quantity")
+    searched = table["as searched"]
+    assert searched[["hearts searched", "hearts planned", "seeds"]].tolist() == ["7", "3001", "1 to 7"]
+    assert searched["draws refused"] == "7 of 14", "one of two draws of each case"
+    assert numbers_in(searched["held-out pressure of right names, error ratio (quartiles)"])[0] == 0.5
+    assert searched[["simulations of a search, median", "core s of a search, median"]].tolist() == [
+        "3000",
+        "20.0",
+    ]
+    assert table["misspecified"]["hearts searched"] == "0"
 
 
 def test_undetectable_effects_are_not_counted_as_missed():
@@ -162,24 +155,16 @@ def test_both_populations_stand_beside_each_other_with_the_targets_of_the_misspe
 
 
 def test_tables_of_the_hearts_as_searched_do_not_count_misspecified_ones():
-    alone, both = (planted_tables(cases, LEAST) for cases in (CASES, [*CASES, *MISSPECIFIED]))
+    alone, both = (planted_tables(cases, LEAST, 7) for cases in (CASES, [*CASES, *MISSPECIFIED]))
     for name in ("rates", "mechanisms", "data"):
         pd.testing.assert_frame_equal(alone[name], both[name])
     assert both["cases"]["population"].tolist() == ["as searched"] * 7 + ["misspecified"] * 7
 
 
-def test_the_page_has_the_section_on_misspecified_hearts_only_with_such_hearts():
-    alone, both = (planted_page(cases, 7, "abc", LEAST) for cases in (CASES, [*CASES, *MISSPECIFIED]))
-    title = "## Misspecified hearts"
-    assert title not in alone
-    assert compare_populations(CASES) is None
-    before, after = both.split(title)
-    assert alone.startswith(before.rstrip())
-    numbers = numbers_in(outside_tables(after))
-    assert {7.0, 601.0, 605.0, 4.0, 3.0, 14.0} <= set(numbers)
-    assert "1 of 4" in after
-    nulls = planted_page([*CASES, *MISSPECIFIED[:4]], 7, "abc", LEAST).split(title)[1]
-    assert "one mechanism" not in nulls
+def test_the_extent_counts_misspecified_hearts_apart():
+    alone, both = (extent_table(cases, 7).set_index("quantity") for cases in (CASES, [*CASES, *MISSPECIFIED]))
+    assert alone["as searched"].tolist() == both["as searched"].tolist()
+    assert both["misspecified"][:4].tolist() == ["7", "7", "601 to 605", "7 of 14"]
 
 
 def test_a_rate_of_misspecified_hearts_may_be_claimed():

@@ -3,12 +3,11 @@
 from heartfit.discovery.sphere_model.cause import Cause
 from heartfit.io.figures import write_figure
 from heartfit.results.planted_figures import plot_ventricles
-from heartfit.results.planted_page import ventricles_page, ventricles_rates
+from heartfit.results.planted_summary import ventricles_extent, ventricles_rates, ventricles_tables
 from heartfit.synthetic.campaign import Effect
 from heartfit.synthetic.case import Answer
 from heartfit.synthetic.scoring import DetectableSizes, Scored
 from heartfit.synthetic.trial import ScoredDiagnosis
-from tests.printed import numbers_in, outside_tables
 
 
 def scored(seed, planted, verdict, names=()):
@@ -26,13 +25,12 @@ CASES = [
 ]
 
 
-def test_the_page_lists_cases_seeds_and_amplitudes():
-    text = outside_tables(ventricles_page(CASES, 2601, LEAST))
-    numbers = numbers_in(text)
-    assert {3.0, 2601.0, 907.0, 909.0} <= set(numbers)
-    assert 2602.0 in numbers_in(ventricles_page(CASES, 2602, LEAST))
-    (amplitudes,) = [line for line in text.splitlines() if 0.75 in numbers_in(line)]
-    assert numbers_in(amplitudes)[-7:] == [0.75, 1.0, 0.75, 0.75, 95.0, 1.0, 1.0]
+def test_the_extent_states_seeds_errors_and_sizes():
+    extent = dict(ventricles_extent(CASES, 2601).to_numpy().tolist())
+    assert (extent["hearts planned"], extent["seeds"]) == ("2601", "907 to 909")
+    assert extent["error of the registered volume (% of EDV), largest"] == "2.00"
+    assert extent["size of right names over the planted one (quartiles)"] == "0.75 (0.75 to 0.75)"
+    assert extent["planted size in the interval, of right names"] == "1 of 1"
 
 
 def test_only_effects_above_their_limit_count_against_the_target():
@@ -40,13 +38,14 @@ def test_only_effects_above_their_limit_count_against_the_target():
     rates = ventricles_rates(CASES, LEAST).set_index("rate")
     assert rates.loc["singles above their limit, named right", "count"] == "1 of 2"
     assert "singles above their limit, named right" not in set(ventricles_rates(CASES, below)["rate"])
-    assert "| 2.0 " in ventricles_page(CASES, 26, LEAST)
+    tables = ventricles_tables(CASES, LEAST, 3)
+    assert tables["mechanisms"]["limit (scales)"].tolist() == ["2.0"]
+    assert len(tables["cases"]) == 3
 
 
 def test_without_a_right_name_there_is_no_amplitude():
-    page = ventricles_page(CASES[:1], 1, LEAST)
-    assert 0.75 not in numbers_in(page)
-    assert "nan" not in outside_tables(page)
+    extent = dict(ventricles_extent(CASES[:1], 1).to_numpy().tolist())
+    assert extent["size of right names over the planted one (quartiles)"] == ""
 
 
 def test_the_figure_is_drawn(tmp_path):

@@ -6,6 +6,7 @@ import pytest
 from heartfit.observation.beat import BeatPhases
 from heartfit.observation.residual import CaseResidual, Misfit, Residual, StrainResidual
 from heartfit.observation.strain import DIRECTIONS
+from heartfit.results.colours import SETTING_COLOURS
 from heartfit.results.residual import (
     CAUTION,
     CONVERGED,
@@ -62,7 +63,7 @@ def test_a_segment_is_named_with_its_sign() -> None:
 
 
 def test_the_figure_has_a_strip_per_curve_and_names_the_worst() -> None:
-    figure = plot_residual(RESIDUAL, "volunteer1, physical setting")
+    figure = plot_residual(RESIDUAL, "volunteer1, physical setting", SETTING_COLOURS[0])
     assert misfit_sentence(RESIDUAL.misfits()[0]) in figure.get_suptitle()
     assert segment_misfit_sentence(STRAIN) in figure.get_suptitle()
     assert numbers_in(figure.get_suptitle().replace("volunteer1", "")) == [4.0, 2.0, 1.0, 2.0, 2.0]
@@ -74,7 +75,7 @@ def test_the_figure_has_a_strip_per_curve_and_names_the_worst() -> None:
 def test_a_failed_beat_is_reported() -> None:
     nothing = CaseResidual((), None, None)
     assert residual_table(nothing).empty
-    figure = plot_residual(nothing, "volunteer1")
+    figure = plot_residual(nothing, "volunteer1", SETTING_COLOURS[0])
     assert not figure.axes
     assert figure.get_suptitle().startswith("volunteer1")
     assert figure.get_suptitle() != "volunteer1"

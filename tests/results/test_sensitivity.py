@@ -12,6 +12,7 @@ from heartfit.calibration.sobol import SobolIndices
 from heartfit.heart.heart import PAPER_PARAMETERS
 from heartfit.io.figures import write_figure
 from heartfit.observation.curve import Curve
+from heartfit.results.colours import setting_colours
 from heartfit.results.figures import plot_perturbations
 from heartfit.results.parameters import prior_table
 from heartfit.results.sensitivity import (
@@ -118,7 +119,10 @@ def test_figures_are_drawn(tmp_path: Path) -> None:
     heat = plot_sensitivities(example, "volunteer1, physical setting")
     assert len(heat.axes[1].patches) == 4
     assert len(heat.axes[2].patches) == 7
-    bars = plot_sobol(indices(), {"locking": example, "physical": example})
+    colours = setting_colours(["other", "locking", "physical"])
+    bars = plot_sobol(indices(), {"locking": example, "physical": example}, colours)
+    drawn = [line.get_color() for line in bars.axes[0].lines if line.get_label().startswith("mesh")]
+    assert drawn == [colours["locking"], colours["physical"]]
     write_figure(tmp_path / "heat.png", heat)
     write_figure(tmp_path / "sobol.pdf", bars)
 

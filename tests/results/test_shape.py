@@ -13,6 +13,7 @@ from heartfit.heart.beat import failed_beat
 from heartfit.io.tables import read_shape, write_csv
 from heartfit.observation.shape import Shape
 from heartfit.results.case_figures import plot_shape
+from heartfit.results.colours import SETTING_COLOURS
 from heartfit.results.shape import (
     COLUMNS,
     VOLUME_COLUMNS,
@@ -56,7 +57,7 @@ def test_end_systole_is_where_the_ventricle_is_smallest(ventricle: VentricularMe
 def test_the_written_table_is_drawn(tmp_path: Path) -> None:
     write_csv(tmp_path / "shape.csv", shape_table(SHAPE))
     shapes = {"measured": shape_table(SHAPE), "calibrated": read_shape(tmp_path / "shape.csv")}
-    figure = plot_shape(shapes, "patient")
+    figure = plot_shape(shapes, "patient", SETTING_COLOURS[0])
     assert [axes.get_title() for axes in figure.axes[:7]] == list(COLUMNS)
     first, second = (line.get_ydata() for line in figure.axes[0].get_lines())
     assert second == pytest.approx(first, rel=1e-5)

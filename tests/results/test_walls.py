@@ -64,8 +64,22 @@ def test_the_figure_marks_the_septal_flash() -> None:
     cases = walls_by_case(
         ["a", "b"], ["physical"], [walls(FLASH), walls(5e-3 * WAVE)], [walls(FLASH)] * 2, [NOTHING] * 2
     )
-    figure = plot_walls(cases)
+    figure = plot_walls(cases, ["physical"])
     texts = [text.get_text() for axes in figure.axes[:2] for text in axes.texts]
     assert texts == ["septal flash 4.0 mm", "no septal flash"]
     assert len(figure.axes[0].patches) == 1
     assert len(figure.axes[1].patches) == 0
+
+
+def test_a_setting_keeps_its_line_where_another_one_failed() -> None:
+    """The key has both settings; the only calibrated line of the case has that of the second."""
+    shapes = [NOTHING, shape(walls(FLASH))]
+    settings = ["locking", "physical"]
+    cases = walls_by_case(["a"], settings, [walls(FLASH)], [walls(FLASH)], shapes)
+    figure = plot_walls(cases, settings)
+    keys = dict(
+        zip((text.get_text() for text in figure.legends[0].texts), figure.legends[0].get_lines(), strict=True)
+    )
+    calibrated = figure.axes[0].get_lines()[-3]
+    assert calibrated.get_linestyle() == keys["calibrated, physical setting"].get_linestyle()
+    assert calibrated.get_linestyle() != keys["calibrated, locking setting"].get_linestyle()

@@ -89,6 +89,14 @@ def test_an_invalid_parameter_is_refused(content):
     assert re.search(r"alpha = -1 .*\b0\b", complaint(Study, content))
 
 
+@pytest.mark.parametrize("formats", [[], ["pdf"], ["png", "png"], ["svg"]])
+def test_figures_are_drawn_as_png_and_on_request_as_pdf(content, formats):
+    content["figures"] = ["pdf", "png"]
+    assert validate(Study, content, "config.yaml").figures == ("png", "pdf")
+    content["figures"] = formats
+    assert re.search(r"\bfigures\b.*'?png\b.*\bpdf\b", complaint(Study, content))
+
+
 def test_a_missing_table_is_named(content):
     del content["numerics"]
     assert "numerics" in complaint(Study, content)

@@ -1,4 +1,4 @@
-"""Slab: the closed form, and the page's row on the file of the published code."""
+"""Slab: the closed form, and what the file of the published code shows."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def test_the_wave_never_outruns_the_closed_form_and_is_exact_along_the_fibres():
     assert times[edge] == pytest.approx((points[edge, 0] - 1.5e-3) / SPEED)
 
 
-def test_the_published_file_matches_the_page(published_slab):
+def test_the_published_file_has_the_stated_speeds(published_slab):
     times = 1e-3 * np.loadtxt(published_slab).reshape(GRID)
     assert times[-1, -1, -1] == pytest.approx(CHASTE_CORNER, abs=5e-6)
     assert times[0, 0, 0] == pytest.approx(1.2e-3, abs=0.05e-3)

@@ -44,6 +44,10 @@ def inputs(job):
     return match[1].split(", ") if match else []
 
 
+def outputs(job):
+    return re.search(r"^ +output: (.*)$", job, re.MULTILINE)[1].split(", ")
+
+
 def readers(output, part):
     """The rules that read a file with ``part`` in its name."""
     return {rule for rule, job in jobs(output) if any(part in name for name in inputs(job))}
@@ -155,6 +159,16 @@ def test_numbers_are_checked_on_request(workflow, planned):
     tables = [f"results/smoke/tables/{name}.md" for name in ("table1", "claims", "discovery", "selection")]
     assert [table for table in tables if table not in read] == []
     assert any(text.startswith("resources/reference/smoke/") for text in read)
+
+
+def test_a_figure_is_drawn_as_pdf_on_request_only(workflow, planned):
+    card = "results/figures/volunteer5_physical_card"
+    run = workflow.snakemake("-n", f"{card}.pdf", "--config", "figures=[png, pdf]")
+    (drawn,) = (outputs(job) for rule, job in jobs(run.stdout) if rule == "make_cards")
+    assert {f"{card}.png", f"{card}.pdf"} <= {*drawn}
+    (drawn,) = (outputs(job) for rule, job in jobs(planned.stdout) if rule == "make_cards")
+    assert f"{card}.png" in drawn
+    assert ".pdf" not in planned.stdout
 
 
 def test_the_measured_heart_is_one_more_case(workflow, measured_heart_folder):

@@ -38,8 +38,8 @@ def reported_tables(*names):
 
 def figure_files(name, caption, category="{case}"):
     """Files of a figure, which Snakemake's report shows with a caption of workflow/report."""
-    shown = report(f"<results>/figures/{name}.png", caption=f"../report/{caption}.rst", category=category)
-    return [shown, f"<results>/figures/{name}.pdf"]
+    shown, *others = expand("<results>/figures/{name}.{suffix}", name=name, suffix=STUDY.figures)
+    return [report(shown, caption=f"../report/{caption}.rst", category=category), *others]
 
 
 def cause_card(folder):
@@ -216,11 +216,6 @@ def stored_tables(_):
     return sorted(map(str, Path(STUDY.reference).glob("*.*")))
 
 
-def page_template(name):
-    """Template of a generated page, so that an edit of its sentences regenerates the page."""
-    return str(Path(workflow.basedir, "docs", "templates", f"{name}.md.j2"))
-
-
 def report_templates(_):
     """Templates of the report, which its code fingerprint does not cover."""
     return sorted(map(str, PACKAGE.glob("results/report/*/*.*")))
@@ -236,7 +231,7 @@ CASE_FIGURES = [
     f"{case}_{setting}{topic}.{suffix}"
     for case, setting in CALIBRATIONS
     for topic in ("", "_sensitivity", "_shape", "_card")
-    for suffix in ("png", "pdf")
+    for suffix in STUDY.figures
 ]
 STUDY_FIGURES = [
     *METHOD_FIGURES,

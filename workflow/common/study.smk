@@ -13,6 +13,7 @@ from heartfit.io.run import Run
 from heartfit.io.files import keep_sums
 from heartfit.io.jitter import MEMBER
 from heartfit.results.case import Groups, Origin
+from heartfit.results.colours import setting_colours
 
 # one thread per job: Snakemake runs the jobs in parallel
 for library in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
@@ -52,6 +53,7 @@ onerror:
 STUDY, CASES, SOURCES = PLAN.study, PLAN.cases, PLAN.sources
 os.environ[MEMBER] = str(STUDY.jitter)
 SETTINGS = list(STUDY.settings)
+COLOURS = setting_colours(SETTINGS)
 COMMON_SETTINGS = list(STUDY.common_settings())
 CALIBRATIONS = [(name, setting) for name, case in CASES.items() for setting in STUDY.settings_of(case)]
 # those of the cohort, which the tables compare
@@ -162,6 +164,11 @@ def filling_pressures_of(wildcards):
 def setting_of(wildcards):
     """Setting for a case; without the case's pressures where a job has no case."""
     return STUDY.setting(wildcards.setting, CASES.get(wildcards.get("case")))
+
+
+def colour_of(wildcards):
+    """Colour of a setting in all figures."""
+    return COLOURS[wildcards.setting]
 
 
 def perturbed_setting_of(wildcards):

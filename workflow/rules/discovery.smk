@@ -37,6 +37,7 @@ rule plot_residual:
     params:
         setting=setting_of,
         mechanisms=setting_mechanisms,
+        colour=colour_of,
         stated=configuration_text(setting_of),
     script:
         "../scripts/plot_residual.py"
@@ -233,7 +234,7 @@ rule compare_elements:
         kernels="<results>/kernels.json",
     output:
         table=table_files("element"),
-        figure=expand("<results>/figures/element.{suffix}", suffix=("png", "pdf")),
+        figure=expand("<results>/figures/element.{suffix}", suffix=STUDY.figures),
     params:
         **ELEMENT_PARAMS,
         setting=element_setting,

@@ -83,12 +83,15 @@ rule diagnose_ventricles:
 rule discovery_ventricles:
     input:
         **VENTRICLE_DIAGNOSES,
-        template=page_template("discovery_benchmark_3d"),
     output:
         tables=expand(
-            "<results>/discovery_benchmark/ventricles/{name}.csv", name=("rates", "mechanisms", "cases")
+            "<results>/discovery_benchmark/ventricles/{name}.csv",
+            name=("rates", "mechanisms", "cases", "extent"),
         ),
-        page=f"{VENTRICLES.page}/discovery_benchmark_3d.md",
+        stored=expand(
+            f"{VENTRICLES.page}/measured/planted_3d_{{name}}.tsv",
+            name=("rates", "mechanisms", "cases", "extent"),
+        ),
         figure=f"{VENTRICLES.page}/figures/discovery_3d.png",
     params:
         planned=len(VENTRICLE_CASES),
@@ -109,14 +112,16 @@ rule check_ventricles:
 rule discovery_benchmark:
     input:
         **SPHERE_DIAGNOSES,
-        ventricles=f"{VENTRICLES.page}/discovery_benchmark_3d.md",
-        template=page_template("discovery_benchmark"),
+        ventricles="<results>/discovery_benchmark/ventricles/rates.csv",
     output:
         tables=expand(
             "<results>/discovery_benchmark/{name}.csv",
-            name=("rates", "populations", "mechanisms", "data", "cases"),
+            name=("rates", "populations", "mechanisms", "data", "cases", "extent"),
         ),
-        page=f"{STUDY.discovery_benchmark.page}/discovery_benchmark.md",
+        stored=expand(
+            f"{STUDY.discovery_benchmark.page}/measured/planted_{{name}}.tsv",
+            name=("rates", "populations", "mechanisms", "data", "extent"),
+        ),
         figures=expand(
             f"{STUDY.discovery_benchmark.page}/figures/discovery_{{name}}.png",
             name=("rates", "confusion", "power"),

@@ -34,6 +34,8 @@ rule plot_overlay:
         figure_files("{case}_{setting}_overlay", "overlay"),
     wildcard_constraints:
         case=match_any(VIRTUAL + IMAGED),
+    params:
+        colour=colour_of,
     script:
         "../scripts/plot_overlay.py"
 
@@ -57,6 +59,7 @@ rule plot_case:
         setting=setting_of,
         mechanisms=setting_mechanisms,
         operator=STUDY.observation,
+        colour=colour_of,
         stated=configuration_text(setting_of, STUDY.observation),
     script:
         "../scripts/plot_case.py"

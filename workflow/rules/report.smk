@@ -7,7 +7,7 @@ rule tabulate_costs:
         study_results(),
     output:
         reported_tables("costs"),
-        figure_files("costs", "costs", "Cohort"),
+        figure=figure_files("costs", "costs", "Cohort"),
     params:
         results=results_folder,
     script:

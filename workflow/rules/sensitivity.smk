@@ -114,5 +114,6 @@ rule plot_sobol:
         runtime=2,
     params:
         settings=PERTURBED_SETTINGS,
+        colours=COLOURS,
     script:
         "../scripts/plot_sobol.py"

@@ -28,11 +28,12 @@ rule make_cards:
         **POSTERIORS_AND_TRUTHS,
     output:
         reported_tables("cards", "coverage_cohort"),
-        [f"<results>/figures/{name}" for name in CASE_FIGURES if "_card." in name],
+        figures=[f"<results>/figures/{name}" for name in CASE_FIGURES if "_card." in name],
     params:
         results=results_folder,
         calibrated=CALIBRATIONS,
         groups=GROUPS,
+        colours=COLOURS,
         stated=configuration_text(GROUPS),
     script:
         "../scripts/make_cards.py"
@@ -45,7 +46,7 @@ rule compare_groups:
         claims="resources/marchesseau2012/claims.tsv",
     output:
         reported_tables("specificity", "specificity_claims"),
-        figure_files("specificity", "specificity", "Cohort"),
+        figure=figure_files("specificity", "specificity", "Cohort"),
     params:
         results=results_folder,
         calibrated=COMMON_CALIBRATIONS,

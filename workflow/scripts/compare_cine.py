@@ -18,4 +18,4 @@ heart, motion = read_heart(snakemake.params.source), read_slice_motion(Path(file
 images = read_images(Path(files.images), heart.period, heart.times)
 cine = compare_cine(heart.surface, heart.positions, heart.times, heart.period, motion)
 write_tables(Path(output.wall[0]).parent, render_tables(cine_tables(cine, case)))
-write_figures(Path(output.volume_figure[0]).parent, cine_figures(images, cine, case))
+write_figures([*output.outlines_figure, *output.volume_figure], cine_figures(images, cine, case))

@@ -24,4 +24,4 @@ tables = {
     "specificity_claims": specificity_claims(compared, limits),
 }
 write_tables(folder / "tables", render_tables(tables))
-write_figures(folder / "figures", {"specificity": plot_specificity(compared, limits)})
+write_figures(snakemake.output.figure, {"specificity": plot_specificity(compared, limits)})

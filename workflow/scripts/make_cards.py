@@ -21,4 +21,4 @@ case_cards = cards(params.calibrated, noise_free, noise_aware, truths)
 folder = Path(params.results)
 tables = {"cards": cards_table(case_cards), "coverage_cohort": coverage_table(case_cards)}
 write_tables(folder / "tables", render_tables(tables))
-write_figures(folder / "figures", plot_cards(case_cards))
+write_figures(snakemake.output.figures, plot_cards(case_cards, params.colours))

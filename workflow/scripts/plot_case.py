@@ -24,6 +24,7 @@ curves = dict(zip(("measured", "reference", "calibrated"), (measured, *beats), s
 motion = motion_shape(read_mesh(Path(files.mesh)), read_motion(Path(files.motion)))
 shapes = {"measured": shape_table(motion), "calibrated": read_shape(Path(files.shape))}
 features, posterior = params.operator.features(measured)["lv_volume"], read_posterior(Path(files.posterior))
-write_figures(Path(out.curves[0]).parent, case_figures(result, curves, features, posterior, shapes))
+figures = case_figures(result, curves, features, posterior, shapes, params.colour)
+write_figures([*out.curves, *out.sensitivity, *out.shape], figures)
 table = render_tables({f"{result.case}_{result.setting}_shape": end_systole_table(shapes)})
 write_tables(Path(out.table[0]).parent, table)

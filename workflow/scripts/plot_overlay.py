@@ -13,5 +13,6 @@ record(snakemake.log[0])
 files, names = snakemake.input, snakemake.wildcards
 images, mesh = read_images(Path(files.images)), read_mesh(Path(files.mesh))
 registered, calibrated = read_motion(Path(files.registered)), read_simulated_motion(Path(files.calibrated))
-figure = plot_overlay(images, mesh, registered, calibrated, f"{names.case}, {names.setting} setting")
+title, colour = f"{names.case}, {names.setting} setting", snakemake.params.colour
+figure = plot_overlay(images, mesh, registered, calibrated, title, colour)
 list(map(write_figure, map(Path, snakemake.output), repeat(figure)))

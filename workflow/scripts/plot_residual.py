@@ -22,5 +22,5 @@ strain = strain_residual(read_mesh(Path(files.mesh)), registered, simulated, mod
 beats = dict(zip(LABELS, observed, strict=False))
 residual = case_residual(read_curves(Path(files.measured)), beats, models, strain)
 write_csv(Path(snakemake.output.table), residual_table(residual))
-figure = plot_residual(residual, f"{names.case}, {names.setting} setting")
+figure = plot_residual(residual, f"{names.case}, {names.setting} setting", snakemake.params.colour)
 list(map(write_figure, map(Path, snakemake.output.figure), repeat(figure)))

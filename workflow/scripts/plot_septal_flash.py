@@ -18,4 +18,4 @@ meshes, motions = map(read_mesh, map(Path, files.meshes)), map(read_motion, map(
 calibrated = map(read_shape, map(Path, files.calibrated))
 walls = walls_by_case(params.cases, params.settings, true, map(wall_motion, meshes, motions), calibrated)
 list(map(write_table, map(Path, snakemake.output.table), repeat(render_table(flash_table(walls)))))
-list(map(write_figure, map(Path, snakemake.output.figure), repeat(plot_walls(walls))))
+list(map(write_figure, map(Path, snakemake.output.figure), repeat(plot_walls(walls, params.settings))))

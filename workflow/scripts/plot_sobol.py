@@ -17,4 +17,4 @@ settings = snakemake.params.settings
 outcome = dict(zip(settings, map(read_sensitivity, map(Path, files.sensitivities)), strict=True))
 sobol = read_sobol(Path(files.sobol))
 list(map(write_table, map(Path, out.table), repeat(render_table(sobol_table(sobol)))))
-list(map(write_figure, map(Path, out.figure), repeat(plot_sobol(sobol, outcome))))
+list(map(write_figure, map(Path, out.figure), repeat(plot_sobol(sobol, outcome, snakemake.params.colours))))

@@ -34,11 +34,10 @@ def cause_schema(_: argparse.Namespace) -> int:
 
 def detection_limits(_: argparse.Namespace) -> int:
     """Print the smallest detectable size of each effect from a volume and a pressure, within some minutes."""
-    from heartfit.discovery.sphere_model.forward_model import BASE_COORDINATES
     from heartfit.discovery.sphere_model.limits import detection_limits
-    from heartfit.results.planted_page import limits_page
+    from heartfit.results.limits_table import limits_table
 
-    print(limits_page(detection_limits(HEARTS), len(BASE_COORDINATES)), end="")
+    print(limits_table(detection_limits(HEARTS)).to_csv(sep="\t", index=False), end="")
     return 0
 
 

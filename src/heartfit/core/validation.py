@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 from reprlib import Repr
-from typing import Annotated, Any, TypeVar, get_args
+from typing import Annotated, Any, Literal, TypeVar, get_args
 
 from pydantic import (
     AfterValidator,
@@ -144,6 +144,21 @@ def _require_relative_folder(path: str) -> str:
 
 
 RelativeFolder = Annotated[str, AfterValidator(_require_relative_folder)]
+
+FigureFormat = Literal["png", "pdf"]
+
+
+def _require_png(formats: tuple[FigureFormat, ...]) -> tuple[FigureFormat, ...]:
+    """Return the formats, PNG first; raise ValueError without it or for a format stated twice."""
+    if "png" not in formats or len(set(formats)) < len(formats):
+        raise ValueError(
+            f"{list(formats)}; expected png, which the report shows, and pdf on request: state [png] or [png, pdf]"
+        )
+    return ("png", *(entry for entry in formats if entry != "png"))
+
+
+FigureFormats = Annotated[tuple[FigureFormat, ...], AfterValidator(_require_png)]
+"""File formats of the figures, PNG first."""
 
 RESULT_FOLDERS = (
     *("benchmarks", "cohort", "curves", "discovery", "discovery_benchmark", "figures", "geometry", "images"),

@@ -1,6 +1,6 @@
 """Figures and animations, written in the format of their suffix."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from matplotlib.animation import FuncAnimation
@@ -10,11 +10,10 @@ from heartfit.core.layout import lay_out
 from heartfit.io.files import replacing
 
 
-def write_figures(folder: Path, figures: Mapping[str, Figure]) -> None:
-    """Write each figure by its name as PNG and PDF."""
-    for name, figure in figures.items():
-        for suffix in ("png", "pdf"):
-            write_figure(Path(folder, f"{name}.{suffix}"), figure)
+def write_figures(files: Iterable[str], figures: Mapping[str, Figure]) -> None:
+    """Write each file with the figure of its name, in the format of its suffix."""
+    for file in map(Path, files):
+        write_figure(file, figures[file.stem])
 
 
 def write_figure(path: Path, figure: Figure) -> None:

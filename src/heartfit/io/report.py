@@ -61,6 +61,7 @@ def read_study_results(
     records = {name: _case(Path(folder), study, case, noise) for name, case in cases.items()}
     return StudyRecord(
         records,
+        tuple(study.settings),
         _tables(Path(folder) / "tables"),
         _provenance(Path(folder), study, cases),
         left_out,

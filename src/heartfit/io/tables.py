@@ -1,5 +1,6 @@
 """Tables written; tables of a study and published tables read."""
 
+import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -41,6 +42,22 @@ def write_tables(folder: Path, tables: Mapping[str, RenderedTable]) -> None:
     for name, table in tables.items():
         for suffix in COMMENTS:
             write_table(Path(folder, f"{name}{suffix}"), table)
+
+
+def write_measured(path: Path, frame: pd.DataFrame, command: str) -> None:
+    """Write a result of docs/measured, tab-separated, below a line with its command and the commit of the sources."""
+    query = ("git", "rev-parse", "--short", "HEAD")
+    commit = subprocess.run(query, capture_output=True, text=True, check=False).stdout.strip() or "unknown"
+    table = frame.to_csv(sep="\t", index=False, lineterminator="\n")
+    write_text(path, f"# made by: {command}; commit: {commit}\n{table}")
+
+
+def write_measured_tables(
+    paths: Sequence[str], prefix: str, tables: Mapping[str, pd.DataFrame], command: str
+) -> None:
+    """Write to each path PREFIX_NAME.tsv the table of this name."""
+    for path in map(Path, paths):
+        write_measured(path, tables[path.stem.removeprefix(f"{prefix}_")], command)
 
 
 def _write(path: Path, text: str) -> None:

@@ -47,7 +47,7 @@ FALSE_PLACES = (
     "generator than the simulator's, 2 of 6 were given one although nothing acts there; of sound hearts of the "
     "benchmark's own generator, 0 of 33."
 )
-"""Rate of hearts that need no place and are given one; docs/unknown_places.md."""
+"""Rate of hearts that need no place and are given one; studies/discovery/places.md."""
 
 
 SOMETHING = "If the simulator can be trusted, something that the library lacks acts"

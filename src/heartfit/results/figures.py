@@ -18,34 +18,42 @@ SIDES = {
     "lv": ("left ventricle", "left_atrium", "aorta"),
     "rv": ("right ventricle", "right_atrium", "pulmonary_artery"),
 }
+"""Colours with one meaning; those of settings are in `heartfit.results.colours`."""
 STYLE: dict[str, dict[str, Any]] = {
     "measured": {"color": MEASURED, "marker": "o", "markersize": 3.5, "linestyle": "none"},
     "reference": {"color": REFERENCE, "linestyle": "--", "linewidth": 1.4},
-    "calibrated": {"color": CALIBRATED, "linestyle": "-", "linewidth": 1.8},
+    "calibrated": {"linestyle": "-", "linewidth": 1.8},
 }
+NEIGHBOUR_LINES = {"atrium": ":", "artery": "--"}
 Curves = Mapping[str, Curve]
+Styles = Mapping[str, dict[str, Any]]
+
+
+def line_styles(colour: str) -> dict[str, dict[str, Any]]:
+    """Return the style of each motion, the calibrated one in the colour of its setting."""
+    return STYLE | {"calibrated": STYLE["calibrated"] | {"color": colour}}
 
 
 def plot_case(
-    curves: Mapping[str, Curves], title: str, operator: CurveFeatures, shift: float = 0.0
+    curves: Mapping[str, Curves], title: str, operator: CurveFeatures, colour: str, shift: float = 0.0
 ) -> Figure:
     """Plot volume, flow, pressure and pressure-volume loop, one row per ventricle.
 
     curves: "measured", "reference" (prior X0) and "calibrated", time zero at the trigger; a failed beat is omitted.
-    The observation operator takes the flows, so that simulation and measurement are comparable. shift: simulated time
-    of measured time zero [s], subtracted from the simulated times; NaN if no shift was fitted.
+    The observation operator takes the flows, so that simulation and measurement are comparable. colour: of the setting;
+    shift: simulated time of measured time zero [s], subtracted from the simulated times; NaN if no shift was fitted.
     """
     figure = Figure(figsize=(13, 6), layout="constrained")
     axes = figure.subplots(2, 4)
-    start = shift if np.isfinite(shift) else 0.0
+    start, styles = shift if np.isfinite(shift) else 0.0, line_styles(colour)
     shifted = {
         name: shift_curves(group, 0.0 if name == "measured" else start) for name, group in curves.items()
     }
     for row, (side, (label, atrium, artery)) in zip(axes, SIDES.items(), strict=True):
-        _volumes(row[0], shifted, side, label)
-        _flows(row[1], shifted, side, operator)
-        _pressures(row[2], shifted, side, (atrium, artery))
-        _loops(row[3], shifted, side)
+        _volumes(row[0], shifted, side, label, styles)
+        _flows(row[1], shifted, side, operator, styles)
+        _pressures(row[2], shifted, side, {"atrium": atrium, "artery": artery}, styles)
+        _loops(row[3], shifted, side, styles)
     for panel in (axes[0, 0], axes[0, 2]):
         if panel.get_legend_handles_labels()[0]:
             panel.legend(frameon=False, fontsize=8)
@@ -80,43 +88,48 @@ def plot_sensitivity(posterior: Posterior, title: str) -> Figure:
     return figure
 
 
-def _volumes(axes: Axes, curves: Mapping[str, Curves], side: str, label: str) -> None:
+def _volumes(axes: Axes, curves: Mapping[str, Curves], side: str, label: str, styles: Styles) -> None:
     for name, group in curves.items():
         curve = group.get(f"{side}_volume")
         if curve is not None:
-            axes.plot(curve.times, 1e6 * curve.values, label=name, **STYLE[name])
+            axes.plot(curve.times, 1e6 * curve.values, label=name, **styles[name])
     _label(axes, "time after trigger (s)", "volume (mL)", label)
 
 
-def _flows(axes: Axes, curves: Mapping[str, Curves], side: str, operator: CurveFeatures) -> None:
+def _flows(
+    axes: Axes, curves: Mapping[str, Curves], side: str, operator: CurveFeatures, styles: Styles
+) -> None:
     for name, group in curves.items():
         if f"{side}_volume" in group:
             rate = operator.rate(group[f"{side}_volume"])
-            axes.plot(rate.times, 1e6 * rate.values, **STYLE[name])
+            axes.plot(rate.times, 1e6 * rate.values, **styles[name])
     axes.axhline(0, color="black", linewidth=0.6)
     _label(axes, "time after trigger (s)", "dV/dt (mL/s)", f"{operator.frames} frames")
 
 
-def _pressures(axes: Axes, curves: Mapping[str, Curves], side: str, neighbours: tuple[str, str]) -> None:
+def _pressures(
+    axes: Axes, curves: Mapping[str, Curves], side: str, neighbours: Mapping[str, str], styles: Styles
+) -> None:
     for name, group in curves.items():
         curve = group.get(f"{side}_pressure")
         if curve is not None:
-            axes.plot(curve.times, 1e-3 * curve.values, **STYLE[name])
-    for place, colour in zip(neighbours, (ATRIUM, ARTERY), strict=True):
+            axes.plot(curve.times, 1e-3 * curve.values, **styles[name])
+    shade = styles["calibrated"]["color"]
+    for label, place in neighbours.items():
         curve = curves.get("calibrated", {}).get(f"{place}_pressure")
         if curve is not None:
-            label = {"aorta": "artery", "left_atrium": "atrium"}.get(place)
-            axes.plot(curve.times, 1e-3 * curve.values, color=colour, linewidth=1.1, label=label)
+            line = NEIGHBOUR_LINES[label]
+            axes.plot(curve.times, 1e-3 * curve.values, line, color=shade, linewidth=1.1, label=label)
     _label(axes, "time after trigger (s)", "pressure (kPa)", "calibrated, with atrium and artery")
 
 
-def _loops(axes: Axes, curves: Mapping[str, Curves], side: str) -> None:
+def _loops(axes: Axes, curves: Mapping[str, Curves], side: str, styles: Styles) -> None:
     for name, group in curves.items():
         if {f"{side}_volume", f"{side}_pressure"} <= set(group):
             volume = group[f"{side}_volume"]
             closed = np.append(np.arange(volume.times.size), 0)
             pressure = group[f"{side}_pressure"](volume.times)
-            axes.plot(1e6 * volume.values[closed], 1e-3 * pressure[closed], **STYLE[name])
+            axes.plot(1e6 * volume.values[closed], 1e-3 * pressure[closed], **styles[name])
     _label(axes, "volume (mL)", "pressure (kPa)", "loop")
 
 

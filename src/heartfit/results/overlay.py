@@ -18,7 +18,6 @@ from heartfit.geometry.mesh import Motion, VentricularMesh
 from heartfit.imaging.sampling import View, views
 from heartfit.imaging.sequence import ImageSequence
 from heartfit.observation.shape import cavity_volumes
-from heartfit.results.figures import CALIBRATED
 
 OUTLINES = {"lv_endo": ("left endocardium", "#D55E00"), "rv_endo": ("right endocardium", "#56B4E9")}
 OUTLINES |= {"epi": ("epicardium", "#F0E442")}
@@ -146,28 +145,30 @@ def plot_overlay(
     registered: Motion,
     calibrated: Motion | None,
     title: str,
+    colour: str,
 ) -> Figure:
     """Plot outlines of the registered and the calibrated motion at end diastole and at registered end systole.
 
-    mesh: at end diastole; registered, calibrated: its motions at the frames of the images, None for a failed beat.
+    mesh: at end diastole; registered, calibrated: its motions at the frames of the images, None for a failed beat;
+    colour: of the setting.
     Raises InputError for other times.
     """
     overlay = Overlay(sequence, mesh, registered)
     figure = Figure(figsize=(10, 7), layout="constrained")
     panels = draw_phases(figure, overlay, dict.fromkeys(OUTLINES, REGISTERED))
-    draw_key(figure, {"registered": REGISTERED, "calibrated simulation": CALIBRATED})
+    draw_key(figure, {"registered": REGISTERED, "calibrated simulation": colour})
     summary = "the calibrated beat failed"
     if calibrated is not None:
         simulated = Overlay(sequence, mesh, calibrated)
-        _draw_calibrated(panels, simulated)
+        _draw_calibrated(panels, simulated, colour)
         summary = _endocardial_distance(overlay, simulated)
     figure.suptitle(f"{title}: {summary}", fontsize=11)
     return figure
 
 
-def _draw_calibrated(panels: Iterable[tuple[Panel, int]], calibrated: Overlay) -> None:
+def _draw_calibrated(panels: Iterable[tuple[Panel, int]], calibrated: Overlay, colour: str) -> None:
     """Draw the calibrated outlines over the panels."""
-    colours = dict.fromkeys(OUTLINES, CALIBRATED)
+    colours = dict.fromkeys(OUTLINES, colour)
     for panel, phase in panels:
         Outlines(panel.image.axes, calibrated, panel.view, colours).show(phase)
 

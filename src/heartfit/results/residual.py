@@ -14,7 +14,7 @@ from heartfit.observation.beat import BeatPhases
 from heartfit.observation.residual import CaseResidual, Misfit, Residual, StrainResidual
 from heartfit.observation.strain import DIRECTIONS, SEGMENTS
 from heartfit.results.drawing import draw_bullseye
-from heartfit.results.figures import CALIBRATED, REFERENCE, clean
+from heartfit.results.figures import clean
 from heartfit.results.text import printed_curve_unit
 
 CURVE_LABELS = {
@@ -106,8 +106,8 @@ def segment_misfit_sentence(strain: StrainResidual) -> str:
 
 LABELS = ONE_STEP, CONVERGED = "after one step", "converged"
 STYLE: dict[str, dict[str, Any]] = {
-    ONE_STEP: {"color": REFERENCE, "linestyle": "--", "linewidth": 1.3},
-    CONVERGED: {"color": CALIBRATED, "linestyle": "-", "linewidth": 1.8, "marker": "o", "markersize": 3},
+    ONE_STEP: {"linestyle": "--", "linewidth": 1.2},
+    CONVERGED: {"linestyle": "-", "linewidth": 1.8, "marker": "o", "markersize": 3},
 }
 PHASE_LABELS = {
     "isovolumic contraction": "IVC",
@@ -120,7 +120,7 @@ PHASE_LABELS = {
 NOISE_BAND = 2.0
 """Half width of the band that contains 95 % of the noise [standard deviations]."""
 CAUTION = (
-    "Grey dashed: residuals after one step of the unscented transform, as large in a complete model; "
+    "Dashed: residuals after one step of the unscented transform, as large in a complete model; "
     "only residuals of the converged fit can be physics."
 )
 STRAIN_LIMIT = 4.0
@@ -129,10 +129,11 @@ COLOUR_REACH = 1.5
 """Range of the colours over the largest score; above one, black numbers stay legible."""
 
 
-def plot_residual(residual: CaseResidual, title: str) -> Figure:
+def plot_residual(residual: CaseResidual, title: str, colour: str) -> Figure:
     """Plot one strip per curve over the beat in units of noise, and the strain at end systole by segment.
 
     The title has the largest mean misfit of the last beat and its worst segment, or says that no beat was completed.
+    colour: of the setting.
     """
     curves, phases = residual.curves, residual.phases
     figure = Figure(figsize=(11, 1.4 + 1.55 * max(len(curves), 1)), layout="constrained")
@@ -142,7 +143,7 @@ def plot_residual(residual: CaseResidual, title: str) -> Figure:
     left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(2.1, 1))[0]
     strips = left.subplots(len(curves), 1, sharex=True, squeeze=False)[:, 0]
     for axes, curve in zip(strips, curves, strict=True):
-        _strip(axes, curve, phases)
+        _strip(axes, curve, phases, colour)
     _name_phases(strips[0], phases)
     strips[0].legend(frameon=False, fontsize=8, loc="best", ncols=2)
     strips[-1].set_xlabel("time after trigger (s)")
@@ -162,11 +163,12 @@ def _heading(residual: CaseResidual) -> list[str]:
     return [misfit_sentence(residual.misfits()[0]), *segment]
 
 
-def _strip(axes: Axes, residual: Residual, phases: BeatPhases) -> None:
+def _strip(axes: Axes, residual: Residual, phases: BeatPhases, colour: str) -> None:
     axes.axhspan(-NOISE_BAND, NOISE_BAND, color="#dddddd", linewidth=0)
     axes.axhline(0.0, color="black", linewidth=0.6)
     for label in residual.simulated:
-        axes.plot(residual.times, residual.score(label), label=label, **_style(label, len(residual.times)))
+        style = {"color": colour} | _style(label, len(residual.times))
+        axes.plot(residual.times, residual.score(label), label=label, **style)
     for _, start, _ in phases.spans():
         axes.axvline(start, color="black", linewidth=0.4, linestyle=":")
     reach = max(np.abs(residual.score(label)).max() for label in residual.simulated)

@@ -219,13 +219,15 @@ def sobol_table(indices: SobolIndices) -> pd.DataFrame:
 
 
 FIRST, INTERACTION = "#0072B2", "#56B4E9"
-MESHES = {"markers": ("o", "^", "s"), "colours": ("#D55E00", "#000000", "#009E73")}
+MARKERS = "o^sDvP"
 
 
-def plot_sobol(indices: SobolIndices, sensitivities: Mapping[str, Sensitivity]) -> Figure:
+def plot_sobol(
+    indices: SobolIndices, sensitivities: Mapping[str, Sensitivity], colours: Mapping[str, str]
+) -> Figure:
     """Plot first and total index of each parameter and squared covariances of the mesh, one panel per observation.
 
-    sensitivities: by setting; for a linear map their squares equal the indices.
+    sensitivities: by setting; for a linear map their squares equal the indices. colours: of the settings.
     """
     figure = Figure(figsize=(12, 7), layout="constrained")
     axes = figure.subplots(2, 3, sharey=True, sharex=True).ravel()
@@ -243,15 +245,13 @@ def plot_sobol(indices: SobolIndices, sensitivities: Mapping[str, Sensitivity]) 
             label="sphere, total",
         )
         panel.barh(places, indices.first[:, j], 0.4, color=FIRST, label="sphere, first")
-        for (setting, sensitivity), marker, colour in zip(
-            sensitivities.items(), MESHES["markers"], MESHES["colours"], strict=False
-        ):
+        for place, (setting, sensitivity) in enumerate(sensitivities.items()):
             squares = sensitivity.of([name])[:, 0] ** 2
             panel.plot(
                 squares,
                 places,
-                marker,
-                color=colour,
+                MARKERS[place % len(MARKERS)],
+                color=colours[setting],
                 markersize=4.5,
                 label=f"mesh, {setting}: squared covariance",
             )

@@ -83,11 +83,13 @@ SHOWN_TIMES = (-0.1, 0.65)
 """Range of the time after the trigger [s]."""
 
 
-def plot_walls(walls: WallsByCase) -> Figure:
-    """Plot motions (top) and strains (bottom) of both walls, one column per case; the true septal flash is shaded."""
+def plot_walls(walls: WallsByCase, settings: Sequence[str]) -> Figure:
+    """Plot motions (top) and strains (bottom) of both walls, one column per case; the true septal flash is shaded.
+
+    settings: of all calibrated motions; the line of a setting follows from its place among them.
+    """
     styles = STYLES | {
-        setting: CALIBRATED_LINES[index % len(CALIBRATED_LINES)]
-        for index, setting in enumerate(_settings(walls))
+        setting: CALIBRATED_LINES[index % len(CALIBRATED_LINES)] for index, setting in enumerate(settings)
     }
     figure = Figure(figsize=(2.0 + 3.6 * len(walls), 6.2), layout="constrained")
     panels = figure.subplots(len(ROWS), len(walls), sharex=True, sharey="row", squeeze=False)
@@ -101,11 +103,6 @@ def plot_walls(walls: WallsByCase) -> Figure:
         axes.set_ylabel(label)
     _key(figure, styles)
     return figure
-
-
-def _settings(walls: WallsByCase) -> list[str]:
-    names = [motion for motions in walls.values() for motion in motions if motion not in STYLES]
-    return list(dict.fromkeys(names))
 
 
 def _draw(

@@ -75,6 +75,11 @@ def to_latex(table: pd.DataFrame) -> str:
     return texts.to_latex(index=False, column_format="ll" + "r" * (len(texts.columns) - 2))
 
 
+def printed_tables(tables: Mapping[str, pd.DataFrame]) -> dict[str, pd.DataFrame]:
+    """Return the tables by name with each cell as printed text."""
+    return {name: cell_texts(table) for name, table in tables.items()}
+
+
 def cell_texts(table: pd.DataFrame) -> pd.DataFrame:
     """Return the table with each cell as printed text, empty for NaN."""
     return table.map(_number).astype(str)

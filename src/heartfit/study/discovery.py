@@ -110,7 +110,7 @@ class VentricularBenchmark(Strict):
     setting: str = Field(description="setting of that beat, which is simulated at the mean of its prior")
     heart: dict[str, float] = Field({}, description="parameters of that beat that differ from the setting")
     page: RelativeFolder = Field(
-        description="folder of the page, with its figures in the subfolder `figures`"
+        description="folder of the stored tables, in `measured`, and of the figures, in `figures`"
     )
     claims: str = Field(description="table of the claimed rates")
 
@@ -181,7 +181,7 @@ class DiscoveryBenchmark(Strict):
     )
     batch: Count = Field(description="number of cases per job")
     page: RelativeFolder = Field(
-        description="folder of the page, with its figures in the subfolder `figures`"
+        description="folder of the stored tables, in `measured`, and of the figures, in `figures`"
     )
     claims: str = Field(description="table of the claimed rates")
     ventricles: VentricularBenchmark

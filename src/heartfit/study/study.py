@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from heartfit.core.validation import Name, RelativeFolder, Strict
+from heartfit.core.validation import FigureFormats, Name, RelativeFolder, Strict
 from heartfit.personalise.numerics import Generator, MeshSize, Operator, Pressures, TimeScheme, Transform
 from heartfit.personalise.setting import Prior, Setting, require_known
 from heartfit.study.case import Case, Source
@@ -47,6 +47,7 @@ class Study(Strict):
         False,
         description="also compare methods: of calibration, with its coverage, on spheres; Sobol's indices; images",
     )
+    figures: FigureFormats = ("png",)
     sources: dict[str, Source] = Field({}, description="data of measured cases, by name")
     mesh: MeshSize = Field(description="mesh of a measured heart")
     virtual_mesh: MeshSize = Field(description="the calibrator's mesh of a virtual heart")

@@ -16,7 +16,7 @@ import numpy as np
 
 from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.model import Model, activate
-from heartfit.discovery.refit.refit import converged_refit
+from heartfit.discovery.refit.refit import refit
 from heartfit.discovery.refit.target import MeasuredCase, Target
 from heartfit.discovery.refit.verdict import curve_gains
 from heartfit.discovery.sphere_model.cause import Gain
@@ -95,7 +95,7 @@ def compare_extensions(
 
 
 def _refit(name: str, extension: Extension, model: Model, target: Target, most_steps: int) -> CompetingModel:
-    fitted = converged_refit(extension, model, target, target, most_steps)
+    fitted = refit(extension, model, target, target, most_steps)
     curves = beat_curves(model(extension, fitted.parameters))
     scores = fitted.log_evidence, fitted.misfit, fitted.samples, fitted.simulations
     return CompetingModel(name, *scores, fitted.parameters, curves)

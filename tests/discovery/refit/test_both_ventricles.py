@@ -8,7 +8,7 @@ import pytest
 
 from heartfit.discovery.refit.extension import RIGHT_PARAMETERS, Extension
 from heartfit.discovery.refit.goodness import curve_fits
-from heartfit.discovery.refit.refit import converged_refit
+from heartfit.discovery.refit.refit import refit
 from heartfit.discovery.refit.target import MeasuredCase, sample, stack
 from heartfit.discovery.sphere_model.free_parameters import HEART_PARAMETERS
 from heartfit.heart.beat import Beat
@@ -65,7 +65,7 @@ def measured(seed: int) -> MeasuredCase:
 @pytest.mark.parametrize("seed", [11, 12, 13])
 def test_a_sound_heart_with_other_valves_is_explained_in_every_curve(seed: int) -> None:
     case, baseline = measured(seed), Extension(PLAIN).with_free_parameters(True)
-    fit = converged_refit(baseline, run, case.target, case.complete_target, 20)
+    fit = refit(baseline, run, case.target, case.complete_target, 20)
     shown = beat_curves(run(baseline, fit.parameters))
     predicted = stack(sample(shown, case.complete_target.samples))
     fits = {one.curve: one.p for one in curve_fits(fit, case.target, case.complete_target, predicted)}

@@ -49,7 +49,9 @@ def beat(held: Errors, fitted: Errors = (0.0, 0.0)) -> ObservedBeat:
 def fitted(extension: Extension, evidence: float = 0.0, slopes: Floats | None = None) -> Refit:
     x = extension.start(0.5)
     known = extension.names, x, np.eye(x.size), extension.parameters(x), 1.0, 1.0, evidence
-    return Refit(*known, 10, 9, True, x, np.eye(x.size), np.eye(x.size), slopes)
+    return Refit(
+        *known, 10, 9, True, x, np.eye(x.size), np.full((1, 1), np.nan) if slopes is None else slopes
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -44,7 +44,7 @@ def fits_of(
     C = np.linalg.inv(np.eye(slopes.shape[1]) + gram)
     x = C @ slope
     names = tuple(map(str, range(x.size)))
-    known = 0.0, 0.0, 0.0, int(fitted.sum()), 1, True, slopes[fitted] @ x, slopes[fitted], slopes[fitted]
+    known = 0.0, 0.0, 0.0, int(fitted.sum()), 1, True, slopes[fitted] @ x, slopes[fitted]
     return list(curve_fits(Refit(names, x, C, {}, *known, slopes), data, complete, slopes @ x))
 
 
@@ -86,5 +86,5 @@ def test_without_all_slopes_there_is_no_chi_squared() -> None:
     slopes[:, 2] = np.nan
     values, known = np.zeros(TOTAL), (0.0, 0.0, 0.0, TOTAL, 1, True)
     data = target(values, np.ones(TOTAL, bool), noise())
-    fit = Refit(("a",), values, noise(), {}, *known, values, slopes, slopes, slopes)
+    fit = Refit(("a",), values, noise(), {}, *known, values, slopes, slopes)
     assert not list(curve_fits(fit, data, data, values))

@@ -8,14 +8,7 @@ import pytest
 
 from heartfit.calibration.unscented import CalibrationError
 from heartfit.discovery.refit.extension import Extension
-from heartfit.discovery.refit.refit import (
-    Refit,
-    continue_refit,
-    converged_refit,
-    refit,
-    renew_slopes,
-    restart_refit,
-)
+from heartfit.discovery.refit.refit import Refit, continue_refit, refit
 from heartfit.discovery.refit.target import BIN, BLOCK, MeasuredCase, Split, Target, average_bins, covariance
 from heartfit.discovery.refit.verdict import causes_of
 from heartfit.heart.beat import Beat, failed_beat
@@ -68,7 +61,7 @@ def target(case: MeasuredCase) -> Target:
 def refits(case: MeasuredCase) -> tuple[Refit, Refit]:
     none, extended = Extension(PLAIN), Extension.from_names(PLAIN, "MitralRegurgitation")
     targets = target(case), case.complete_target
-    return converged_refit(none, run, *targets, 20), converged_refit(extended, run, *targets, 20)
+    return refit(none, run, *targets, 20), refit(extended, run, *targets, 20)
 
 
 def test_no_sample_is_both_fitted_and_held_out(case: MeasuredCase) -> None:
@@ -162,8 +155,8 @@ def test_a_refit_renews_its_slopes_and_takes_one_beat_per_step_until_convergence
     assert extended.converged
     assert 1 + 2 * 3 < none.simulations < 1 + 4 * 3 + 15
     assert 1 + 2 * 4 < extended.simulations < 1 + 4 * 4 + 20
-    hasty = refit(Extension(PLAIN), run, target(case), 1)
-    assert hasty.simulations == 1 + 3 + 1
+    hasty = refit(Extension(PLAIN), run, target(case), case.complete_target, 1)
+    assert hasty.simulations == 1 + 3 + 1 + 3
     assert not hasty.converged
 
 
@@ -191,7 +184,10 @@ def test_a_heart_with_a_shorter_contraction_gets_a_leak_only_if_the_duration_is_
         {name: curves[name].resampled(50) for name in ("lv_volume", "lv_pressure")}, []
     )
     frozen, freed = (
-        [refit(extension, run, target(sound), 30).log_evidence for extension in (none, leak)]
+        [
+            refit(extension, run, target(sound), sound.complete_target, 30).log_evidence
+            for extension in (none, leak)
+        ]
         for none, leak in (
             (plain, Extension.from_names(PLAIN, "MitralRegurgitation")),
             (
@@ -209,7 +205,7 @@ def test_a_refit_from_the_end_of_the_baseline_finds_the_extension(
 ) -> None:
     none, extended = refits
     continued = continue_refit(
-        Extension.from_names(PLAIN, "MitralRegurgitation"), run, target(case), 20, none
+        Extension.from_names(PLAIN, "MitralRegurgitation"), run, target(case), case.complete_target, 20, none
     )
     assert continued.converged
     assert continued.objective == pytest.approx(extended.objective, abs=1.0)
@@ -217,53 +213,29 @@ def test_a_refit_from_the_end_of_the_baseline_finds_the_extension(
     assert continued.simulations < extended.simulations + 5
 
 
-def test_a_refit_from_the_prior_means_takes_the_first_slopes_of_the_baseline(
-    case: MeasuredCase, refits: tuple[Refit, Refit]
-) -> None:
-    none, extended = refits
-    extension = Extension.from_names(PLAIN, "MitralRegurgitation")
-    assert none.first_slopes.shape == none.slopes.shape
-    assert not np.allclose(none.first_slopes, none.slopes)
-    restarted = restart_refit(extension, run, target(case), 20, none)
-    assert restarted.objective == pytest.approx(extended.objective, abs=1.0)
-    assert restarted.first_slopes[:, :2] == pytest.approx(none.first_slopes)
-    shifted = replace(none, first_slopes=np.zeros_like(none.first_slopes))
-    assert restart_refit(extension, run, target(case), 0, shifted).slopes[:, :2] == pytest.approx(0.0)
-
-
-def test_renewed_slopes_are_differences_at_the_estimate_and_end_no_higher(
-    case: MeasuredCase, refits: tuple[Refit, Refit]
-) -> None:
+def test_slopes_are_differences_at_the_estimate(case: MeasuredCase, refits: tuple[Refit, Refit]) -> None:
     extension, fit = Extension.from_names(PLAIN, "MitralRegurgitation"), refits[1]
-    spoilt = replace(fit, slopes=0.0 * fit.slopes)
-    kept = renew_slopes(extension, run, target(case), case.complete_target, 0, spoilt)
-    assert kept.simulations == fit.simulations + 1 + fit.estimate.size
-    assert kept.estimate == pytest.approx(fit.estimate)
     shifted = fit.estimate + 0.25 * np.eye(3)[1]
     curves = beat_curves(run(extension, extension.parameters(shifted)))
     values = np.concatenate([curves[name](held.times) for name, held in case.split.fitted.items()])
-    assert kept.slopes[:, 1] == pytest.approx((values - fit.predicted) / 0.25)
-    further = renew_slopes(extension, run, target(case), case.complete_target, 20, spoilt)
-    assert further.objective <= fit.objective
-    assert further.converged
+    assert fit.slopes[:, 1] == pytest.approx((values - fit.predicted) / 0.25)
 
 
-def test_a_slope_is_kept_where_its_difference_does_not_beat(
-    case: MeasuredCase, refits: tuple[Refit, Refit]
-) -> None:
-    extension, fit = Extension.from_names(PLAIN, "MitralRegurgitation"), refits[1]
-    beats = iter([run(extension, fit.parameters)])
+def test_a_slope_without_a_beat_is_not_known(case: MeasuredCase) -> None:
+    plain = Extension(PLAIN)
+    beats = [run(plain, plain.parameters(np.zeros(2)))] * 2
 
     @OneByOne
-    def only_once(*_: object) -> Beat:
-        return next(beats, failed_beat("never", PERIOD, 0.0, {}))
+    def only_at_the_centre(*_: object) -> Beat:
+        return beats.pop() if beats else failed_beat("never", PERIOD, 0.0, {})
 
-    failing = renew_slopes(extension, only_once, target(case), case.complete_target, 0, fit)
-    assert failing.slopes == pytest.approx(fit.slopes)
-    assert failing.complete_slopes is not None
-    assert np.isnan(failing.complete_slopes).all()
+    fit = refit(plain, only_at_the_centre, target(case), case.complete_target, 20)
+    assert np.isnan(fit.complete_slopes).all()
+    assert not fit.slopes.any()
+    assert fit.estimate == pytest.approx(0.0)
+    beats = [run(plain, plain.parameters(np.zeros(2)))]
     with pytest.raises(CalibrationError, match="repeated"):
-        renew_slopes(extension, only_once, target(case), case.complete_target, 0, fit)
+        refit(plain, only_at_the_centre, target(case), case.complete_target, 20)
 
 
 def test_an_absent_effect_ends_at_zero_at_the_optimum_of_the_baseline() -> None:
@@ -272,9 +244,14 @@ def test_an_absent_effect_ends_at_zero_at_the_optimum_of_the_baseline() -> None:
     sound = MeasuredCase.from_curves(
         {name: curves[name].resampled(50) for name in ("lv_volume", "lv_pressure")}, []
     )
-    none = refit(plain, run, target(sound), 20)
+    none = refit(plain, run, target(sound), sound.complete_target, 20)
     continued = continue_refit(
-        Extension.from_names(PLAIN, "MitralRegurgitation"), run, target(sound), 20, none
+        Extension.from_names(PLAIN, "MitralRegurgitation"),
+        run,
+        target(sound),
+        sound.complete_target,
+        20,
+        none,
     )
     assert continued.estimate[-1] == pytest.approx(0.0, abs=0.05)
     assert continued.objective < none.objective + 0.3
@@ -293,7 +270,7 @@ def test_the_estimate_is_a_heart_that_was_simulated(case: MeasuredCase, refits: 
 def test_a_model_that_does_not_beat_is_refused(case: MeasuredCase) -> None:
     never = OneByOne(lambda *_: failed_beat("no equilibrium", PERIOD, 0.1, {}))
     with pytest.raises(CalibrationError):
-        refit(Extension(PLAIN), never, target(case), 1)
+        refit(Extension(PLAIN), never, target(case), case.complete_target, 1)
 
 
 def test_amplitudes_are_off_at_zero_and_one_scale_at_one() -> None:

@@ -10,7 +10,7 @@ import pytest
 from heartfit.cli.diagnose import run_mechanism_files
 from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.model import Model, activate
-from heartfit.discovery.refit.refit import converged_refit
+from heartfit.discovery.refit.refit import refit
 from heartfit.discovery.refit.target import MeasuredCase, Target, covariance
 from heartfit.discovery.sphere_model.cause import ActingPlace, Diagnosis, RankedLaw
 from heartfit.geometry.mesh import VentricularMesh
@@ -60,9 +60,7 @@ def test_a_refit_of_a_suggested_leak_gives_the_hidden_regurgitation(
     true = {"sigma_0": 1.1 * nominal["sigma_0"], "R_p": 0.9 * nominal["R_p"]}
     case = noisy_case(model, nominal | true | {"MitralRegurgitation.area": AREA})
     target = Target(case.split.fitted, covariance(case.split.fitted, case.raw, []))
-    without, extended = (
-        converged_refit(one, model, target, target, MOST_STEPS) for one in (plain, extension)
-    )
+    without, extended = (refit(one, model, target, target, MOST_STEPS) for one in (plain, extension))
     assert extended.log_evidence > without.log_evidence + 10.0
     assert extended.parameters[extension.names[-1]] == pytest.approx(AREA, rel=0.1)
     for name, value in true.items():

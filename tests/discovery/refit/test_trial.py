@@ -1,6 +1,5 @@
 """Trial of extensions with stand-ins for their refits: what is kept, what is withdrawn, and what is shown."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any, cast
@@ -10,7 +9,6 @@ import pytest
 
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError
-from heartfit.discovery.refit import prove as module
 from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.prove import ExtensionTrial, FittedExtension
 from heartfit.discovery.refit.refit import Refit
@@ -116,20 +114,3 @@ def test_without_a_beat_of_any_extension_nothing_is_proved() -> None:
     diagnosis, shown = proved(NAMED, trial({}, (1,)))
     assert (diagnosis.verdict, diagnosis.refitted, diagnosis.gain) == ("unknown", None, ())
     assert shown.log_evidence == 0.0
-
-
-@pytest.mark.parametrize(("continued", "restarted"), [(3.0, 5.0), (5.0, 3.0)])
-def test_of_two_refits_the_nearer_to_the_data_is_renewed_and_both_are_counted(
-    monkeypatch: pytest.MonkeyPatch, continued: float, restarted: float
-) -> None:
-    leak = Extension.from_names(PLAIN, LEAK.name)
-
-    def ending(objective: float) -> Callable[..., Refit]:
-        return lambda *_: fitted(leak, 1.0, objective)
-
-    monkeypatch.setattr(module, "continue_refit", ending(continued))
-    monkeypatch.setattr(module, "restart_refit", ending(restarted))
-    monkeypatch.setattr(module, "renew_slopes", lambda *arguments: replace(arguments[-1], converged=False))
-    judge = trial({}, ())
-    best = ExtensionTrial.extended(judge, leak, fitted(Extension(PLAIN), 0.0))
-    assert (best.objective, best.simulations, best.converged) == (3.0, 2 * BEATS, False)

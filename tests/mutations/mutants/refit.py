@@ -24,23 +24,23 @@ REFIT_MUTANTS = (
         ("the slope at a bound adds nothing", "+ 0.5 * gradient @ step", ""),
         (
             "renewed slopes are thrown away",
-            "known = np.where(np.isnan(fitted), fit.slopes, fitted)",
-            "known = fit.slopes",
+            "slopes: Floats = np.where(np.isnan(fitted), known, fitted)",
+            "slopes: Floats = known",
         ),
         (
             "renewed slopes of the other half",
-            "fitted = slopes[complete.rows_of(target.samples)]",
-            "fitted = slopes[~complete.rows_of(target.samples)]",
+            "fitted = self.complete_slopes[self.complete.rows_of(self.target.samples)]",
+            "fitted = self.complete_slopes[~self.complete.rows_of(self.target.samples)]",
         ),
         (
             "differences without their step",
-            "else (z - centre) / around.step",
-            "else z - centre",
+            "else (other - centre) / around.step",
+            "else other - centre",
         ),
         (
             "an extension starts without the base",
-            "start = np.concatenate([kept, extension.start(amplitude)[kept.size :]])",
-            "start = extension.start(amplitude)",
+            "start = np.concatenate([base.estimate, extension.start(0.5)[base.estimate.size :]])",
+            "start = extension.start(0.5)",
         ),
         (
             "an amplitude may turn negative",

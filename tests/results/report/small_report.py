@@ -130,4 +130,4 @@ def study(mesh: VentricularMesh, name: str = "heart1", note: str = "") -> StudyR
     origin = Provenance({"heart1": "abc"}, {"heart1": "8"}, {"heartfit": "0.1.0"}, {"study": "mesh: {}"})
     hidden = Effect("MitralRegurgitation", 3.5e-5, 0.0, "m^2", 2.8)
     discoveries = [DiscoveryResult(name, SETTING, diagnosis(), diagnosis(), (hidden,), {"sigma_0": 2e5})]
-    return StudyRecord({case.name: case for case in cases}, tables, origin, note, discoveries)
+    return StudyRecord({case.name: case for case in cases}, (SETTING,), tables, origin, note, discoveries)

@@ -98,6 +98,7 @@ def test_a_case_shows_the_outcome_of_its_fit_and_its_causes(page: str, ventricle
     assert "†</td>" in weak
     assert "†</td>" not in sound
     assert sound.count(f'<p class="verdict named">{verdict_sentence(diagnosis())}</p>') == 2
+    assert verdict_sentence(diagnosis()) in sound[: sound.index('class="heart"')], "above the ventricles"
     table = part(page, "cohort")
     assert table.count(verdict_sentence(diagnosis())) == 1, "one headline and size, of the last card"
     refits = [
@@ -143,12 +144,15 @@ def own_setting(ventricle: VentricularMesh) -> str:
     first = next(iter(whole.cases.values()))
     fit = replace(first.fits[SETTING], searched=None, proved=None)
     own = replace(first, fits={SETTING: fit, "own": fit})
-    return render(replace(whole, cases={**whole.cases, first.name: own}, discoveries=()), ASSETS)
+    return render(
+        replace(whole, cases={**whole.cases, first.name: own}, settings=(SETTING, "own"), discoveries=()),
+        ASSETS,
+    )
 
 
 def test_a_setting_of_one_case_leaves_the_others_unfitted(own_setting: str) -> None:
     assert own_setting.count("not fitted") == 1, "the other one of two cases"
-    assert own_setting.count("Setting own.") == 1
+    assert part(own_setting, "parameters").count("</span>own</h3>") == 1
 
 
 def test_the_findings_stand_beside_what_the_sealed_heart_hides(page: str, own_setting: str) -> None:

@@ -6,7 +6,8 @@ with the precision :math:`\Lambda` that the likelihood gives at the residual r =
 and pushed against it stay. Broyden keeps the Jacobian true along the steps. A simulation that fails shortens the step.
 
 A search has cheap simulations: it renews the Jacobian by finite differences after some steps, when a step fails, and
-before it accepts convergence. A refit has expensive ones: its descents never do. A :class:`Schedule` states which.
+before it accepts convergence. A refit renews it after each step, by a tangent-linear beat. A search on a wall has
+expensive simulations and never does. A :class:`Schedule` states which.
 
 References: Marquardt 1963, doi:10.1137/0111030; Broyden 1965, doi:10.1090/S0025-5718-1965-0198670-6.
 """

@@ -36,7 +36,7 @@ def curve_fits(fit: Refit, target: Target, complete: Target, predicted: Floats) 
     target: the fitted samples; complete: all samples (m,) of their curves; predicted (m,): these at the estimate.
     """
     slopes = fit.complete_slopes
-    if slopes is None or np.isnan(slopes).any():
+    if np.isnan(slopes).any():
         return
     residual = complete.values() - predicted
     expected = _residual_covariance(slopes, complete.rows_of(target.samples), complete.covariance)

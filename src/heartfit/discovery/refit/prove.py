@@ -1,7 +1,7 @@
 """Stepwise extension of a case's three-dimensional model, as long as each step improves the fit to held-out data."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from heartfit.calibration.gaussian import Gaussian
 from heartfit.calibration.unscented import CalibrationError
@@ -9,14 +9,7 @@ from heartfit.core.arrays import Floats
 from heartfit.discovery.refit.extension import Extension
 from heartfit.discovery.refit.goodness import curve_fits
 from heartfit.discovery.refit.model import Model, ObservedBeat
-from heartfit.discovery.refit.refit import (
-    Refit,
-    complete_posterior,
-    continue_refit,
-    converged_refit,
-    renew_slopes,
-    restart_refit,
-)
+from heartfit.discovery.refit.refit import Refit, complete_posterior, continue_refit, refit
 from heartfit.discovery.refit.target import MeasuredCase, Target, sample, stack
 from heartfit.discovery.refit.verdict import Proof, TriedExtension, apply_proof, propose_extensions
 from heartfit.discovery.sphere_model.cause import Attempt, CurveFit, Diagnosis
@@ -55,29 +48,11 @@ class ExtensionTrial:
 
     def refitted(self) -> Refit:
         """Return the refit of the baseline model; raises CalibrationError if too many beats fail."""
-        return converged_refit(self.baseline, self.model, self.target, self.complete, self.most_steps)
-
-    def _renewed(self, extension: Extension, fit: Refit) -> Refit:
-        return renew_slopes(extension, self.model, self.target, self.complete, self.most_steps, fit)
+        return refit(self.baseline, self.model, self.target, self.complete, self.most_steps)
 
     def extended(self, extension: Extension, base: Refit) -> Refit:
-        """Return the better of two refits, from the prior means and from the refit without the extension.
-
-        A strong effect biases the refit without it, so that the prior means are the better start; for a weak effect the
-        refit is. Raises CalibrationError if too many beats fail.
-        """
-        both = (
-            continue_refit(extension, self.model, self.target, self.most_steps, base),
-            restart_refit(extension, self.model, self.target, self.most_steps, base),
-        )
-        best = min(both, key=lambda fit: fit.objective)
-        tried = replace(best, simulations=sum(fit.simulations for fit in both))
-        return self._renewed(extension, tried)
-
-    def continue_refit(self, extension: Extension, base: Refit) -> Refit:
         """Return the refit that starts from the base; raises CalibrationError if the beat there fails."""
-        fit = continue_refit(extension, self.model, self.target, self.most_steps, base)
-        return self._renewed(extension, fit)
+        return continue_refit(extension, self.model, self.target, self.complete, self.most_steps, base)
 
     def at(self, extension: Extension, fitted: Refit) -> FittedExtension:
         """Return a refit with the beat at its estimate; raises CalibrationError if the beat fails."""
@@ -125,7 +100,7 @@ class ExtensionTrial:
         """Return the gain of one mechanism, whatever the diagnosis; raises CalibrationError if its beat fails."""
         extension = Extension.from_names(self.setting, mechanism).with_free_parameters(self.case.both)
         base = self.at(self.baseline, baseline)
-        extended = self.at(extension, self.continue_refit(extension, baseline))
+        extended = self.at(extension, self.extended(extension, baseline))
         beats = baseline.simulations + extended.refit.simulations + 2
         tried = TriedExtension(
             extension, baseline, extended.refit, (), beats, self.final(extended), self.fits(extended)

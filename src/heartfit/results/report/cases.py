@@ -1,7 +1,7 @@
 """Observations, facts and status of a case as rows of words and printed numbers, and the curves of the cohort."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from matplotlib import rc_context
@@ -90,12 +90,15 @@ def status(fit: FittedCase) -> str:
 COLUMNS, PANEL_HEIGHT = 5, 2.1
 
 
-def plot_cohort(cases: Sequence[CaseRecord]) -> Picture:
-    """Plot the left ventricular volume of each case: measured, at the prior mean, and calibrated by setting."""
+def plot_cohort(cases: Sequence[CaseRecord], colours: Mapping[str, str]) -> Picture:
+    """Plot the left ventricular volume of each case: measured, at the prior mean, and calibrated by setting.
+
+    colours: of the settings.
+    """
     with rc_context(TEXT):
         figure, panels = grid(len(cases), COLUMNS, PANEL_HEIGHT)
         for axes, case in zip(panels, cases, strict=True):
-            _volume(axes, case)
+            _volume(axes, case, colours)
         panels[0].set_ylabel("LV volume (mL)")
         legend(figure, panels)
         return as_picture(
@@ -103,10 +106,10 @@ def plot_cohort(cases: Sequence[CaseRecord]) -> Picture:
         )
 
 
-def _volume(axes: Axes, case: CaseRecord) -> None:
+def _volume(axes: Axes, case: CaseRecord, colours: Mapping[str, str]) -> None:
     times, values = samples(case.measured, "lv_volume", 1e6)
     axes.plot(times, values, "o", color=MEASURED, markersize=2.4, label="measured")
-    for label, curves, _, shade, style in simulated(case):
+    for label, curves, _, shade, style in simulated(case, colours):
         axes.plot(
             *samples(curves, "lv_volume", 1e6), linestyle=style, color=shade, linewidth=1.3, label=label
         )

@@ -1,6 +1,6 @@
 """Volume, pressure and loop of both ventricles of a case: measured with noise, calibrated with posterior band."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from heartfit.core.arrays import Floats
 from heartfit.observation.residual import unbiased_with_noise
 from heartfit.results.card import INTERVAL_REACH
-from heartfit.results.figures import MEASURED, REFERENCE, clean, colour, shift_curves
+from heartfit.results.figures import MEASURED, REFERENCE, clean, shift_curves
 from heartfit.results.report.picture import (
     TEXT,
     Picture,
@@ -29,34 +29,37 @@ MARKED_SAMPLES = 60
 """Largest number of samples with a marker each."""
 
 
-def plot_curves(case: CaseRecord) -> Picture:
+def plot_curves(case: CaseRecord, colours: Mapping[str, str]) -> Picture:
     """Plot volume, pressure and loop, one row per ventricle, with simulated times shifted to the measured ones.
 
     Bands contain 95 %: of the noise about a measured curve (grey), and of the posterior about a calibrated one.
+    colours: of the settings.
     """
     with rc_context(TEXT):
         figure = Figure(figsize=(11, 6.1), layout="constrained")
         axes = figure.subplots(2, 3)
         for row, side in zip(axes, SIDES, strict=True):
             for panel, kind in zip(row, KINDS, strict=False):
-                _over_time(panel, case, f"{side}_{kind}")
-            _loop(row[2], case, side)
+                _over_time(panel, case, f"{side}_{kind}", colours)
+            _loop(row[2], case, side, colours)
         legend(figure, [axes[0, 0]])
         fix_layout(figure)
-        return as_picture(figure, f"Volumes, pressures and loops of {case.name}", _time_tracks(axes, case))
+        return as_picture(
+            figure, f"Volumes, pressures and loops of {case.name}", _time_tracks(axes, case, colours)
+        )
 
 
-def simulated(case: CaseRecord) -> Iterator[tuple[str, Curves, Curves, str, str]]:
+def simulated(case: CaseRecord, colours: Mapping[str, str]) -> Iterator[tuple[str, Curves, Curves, str, str]]:
     """Yield label, curves, bands, colour and style of each beat at measured times, the prior first."""
     fits = list(case.fits.values())
     yield "prior mean", shift_curves(fits[-1].reference, fits[-1].shift), {}, REFERENCE, "--"
-    for place, (name, fit) in enumerate(case.fits.items()):
+    for name, fit in case.fits.items():
         label = f"calibrated, {name}" if fit.completed else f"{name}: beat failed"
         yield (
             label,
             shift_curves(fit.calibrated, fit.shift),
             shift_curves(fit.band, fit.shift),
-            colour(place),
+            colours[name],
             "-",
         )
 
@@ -67,11 +70,11 @@ def samples(curves: Curves, name: str, factor: float) -> tuple[Floats, Floats]:
     return (np.empty(0), np.empty(0)) if curve is None else (curve.times, factor * curve.values)
 
 
-def _over_time(axes: Axes, case: CaseRecord, name: str) -> None:
+def _over_time(axes: Axes, case: CaseRecord, name: str, colours: Mapping[str, str]) -> None:
     side, kind = name.split("_")
     label, factor = KINDS[kind]
     _measured(axes, case, name, factor)
-    for beat, curves, bands, shade, style in simulated(case):
+    for beat, curves, bands, shade, style in simulated(case, colours):
         times, values = samples(curves, name, factor)
         axes.plot(times, values, linestyle=style, color=shade, linewidth=1.6, label=beat)
         if name in bands:
@@ -94,8 +97,8 @@ def _measured(axes: Axes, case: CaseRecord, name: str, factor: float) -> None:
     axes.plot(*samples(case.measured, name, factor), color=MEASURED, markersize=3.2, label="measured", **mark)
 
 
-def _loop(axes: Axes, case: CaseRecord, side: str) -> None:
-    beats = [("", case.measured, {}, MEASURED, "-"), *simulated(case)]
+def _loop(axes: Axes, case: CaseRecord, side: str, colours: Mapping[str, str]) -> None:
+    beats = [("", case.measured, {}, MEASURED, "-"), *simulated(case, colours)]
     for _, curves, _, shade, style in beats:
         loop = _loop_points(curves, side, curves[f"{side}_volume"].times) if _has_loop(curves, side) else None
         if loop is not None:
@@ -113,11 +116,12 @@ def _loop_points(curves: Curves, side: str, times: Floats) -> Floats:
     return np.column_stack([factor * curves[f"{side}_{kind}"](times) for kind, (_, factor) in KINDS.items()])
 
 
-def _time_tracks(axes: np.ndarray, case: CaseRecord) -> list[dict[str, Any]]:
+def _time_tracks(axes: np.ndarray, case: CaseRecord, colours: Mapping[str, str]) -> list[dict[str, Any]]:
     """Return tracks of a time line in the panels over time and of a dot on each loop, at the phases of the motion."""
     times = case.registered.times
     lines = [time_line_track(panel, times) for panel in axes[:, :2].flat]
-    beats = [(case.measured, MEASURED), *((curves, shade) for _, curves, _, shade, _ in simulated(case))]
+    shown = ((curves, shade) for _, curves, _, shade, _ in simulated(case, colours))
+    beats = [(case.measured, MEASURED), *shown]
     dots = [
         dot_track(panel, _loop_points(curves, side, times), shade)
         for panel, side in zip(axes[:, 2], SIDES, strict=True)

@@ -1,4 +1,4 @@
-"""Misfit of the calibrated heart that the page shows: of its targets and of its curves."""
+"""Misfit of the calibrated heart that the page shows: distance of its curves, and misfit of its targets and curves."""
 
 from collections.abc import Iterator
 from math import isfinite
@@ -12,12 +12,25 @@ from heartfit.discovery.sphere_model.misfit import (
 )
 from heartfit.discovery.sphere_model.recording import Samples
 from heartfit.observation.beat import BeatPhases
+from heartfit.observation.residual import residuals
+from heartfit.results.errors import root_mean_square
 from heartfit.results.figures import shift_curves
 from heartfit.results.misfit_text import misfit_sentence
 from heartfit.results.report.record import CaseRecord, Curves, FittedCase
+from heartfit.results.text import CURVES
 
 FLOWS = ("aortic_flow", "mitral_flow")
 """Curves that give the phases of a beat."""
+
+
+def distance(case: CaseRecord, fit: FittedCase) -> str:
+    """Return the root mean square of calibrated minus measured over noise for each curve; empty for a failed beat."""
+    simulated = shift_curves(fit.calibrated, fit.shift)
+    compared = {name: curve for name, curve in case.measured.items() if name in simulated}
+    return ", ".join(
+        f"{CURVES[residual.curve]} {root_mean_square(residual.score('calibrated')):.1f}"
+        for residual in residuals(compared, {"calibrated": simulated}, case.noise)
+    )
 
 
 def calibrated_misfits(case: CaseRecord) -> list[str]:

@@ -18,9 +18,10 @@ from heartfit.results.discovery import NOTE, printed_findings
 from heartfit.results.errors import PAPER, mean_error
 from heartfit.results.report.cases import facts, observations, plot_cohort, status
 from heartfit.results.report.cause import CauseCard, cause_card
+from heartfit.results.report.contents import contents, tables_of
 from heartfit.results.report.curves import plot_curves
-from heartfit.results.report.misfit import calibrated_misfits
-from heartfit.results.report.parameters import plot_estimates, plot_parameters
+from heartfit.results.report.misfit import calibrated_misfits, distance
+from heartfit.results.report.parameters import estimates, plot_estimates, plot_parameters
 from heartfit.results.report.picture import Picture, still_address
 from heartfit.results.report.record import CaseRecord, FittedCase, ReportTable, StudyRecord
 from heartfit.results.report.surface import colour_scales, viewer_data
@@ -116,15 +117,20 @@ class Section:
 def render(study: StudyRecord, assets: Assets) -> str:
     """Return the whole page; equal studies give equal text."""
     cases = list(study.cases.values())
-    settings = list(dict.fromkeys(setting for case in cases for setting in case.fits))
+    settings = [name for name in study.settings if any(name in case.fits for case in cases)]
+    colours, several = study.colours, len(cases) > 1
     page = _environment().get_template("page.html")
     return page.render(
         assets=assets,
         study=study,
         settings=settings,
-        cohort=plot_cohort(cases),
-        parameters={setting: plot_parameters(cases, setting) for setting in settings},
-        sections=[_section(case, cases) for case in cases],
+        parts=contents(study),
+        paper=tables_of(study, paper=True),
+        checks=tables_of(study, paper=False),
+        colours=colours,
+        cohort=plot_cohort(cases, colours) if several else None,
+        parameters={name: plot_parameters(cases, name, colours[name]) for name in settings if several},
+        sections=[_section(case, cases, colours) for case in cases],
         shades=colour_scales(cases),
         discovery=_discovery(study),
     )
@@ -137,14 +143,14 @@ def _discovery(study: StudyRecord) -> ReportTable | None:
     return ReportTable("Missing mechanisms", printed_findings(study.discoveries), NOTE)
 
 
-def _section(case: CaseRecord, cases: list[CaseRecord]) -> Section:
-    curves = plot_curves(case)
+def _section(case: CaseRecord, cases: list[CaseRecord], colours: Mapping[str, str]) -> Section:
+    curves = plot_curves(case, colours)
     cards = [_causes(setting, fit) for setting, fit in case.fits.items()]
     causes, headlines = [card for group in cards for card in group], [group[-1] for group in cards if group]
     walls = [wall_section(setting, summary) for setting, summary in case.walls.items()]
     moving = viewer_data(case) | {"follow": curves.follow}
     still_image = "" if case.still is None else still_address(case.still)
-    estimates, misfits = plot_estimates(case, cases), calibrated_misfits(case)
+    estimates, misfits = plot_estimates(case, cases, colours), calibrated_misfits(case)
     return Section(case, curves, estimates, misfits, causes, headlines, walls, moving, still_image)
 
 
@@ -171,6 +177,8 @@ def _environment() -> Environment:
     environment.globals |= {
         "facts": facts,
         "observations": observations,
+        "distance": distance,
+        "estimates": estimates,
         "status": status,
         "sentence": verdict_sentence,
         "mean_error": mean_error,

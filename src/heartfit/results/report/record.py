@@ -24,6 +24,7 @@ from heartfit.observation.curve import Curve
 from heartfit.observation.noise_model import NoiseModel
 from heartfit.results.card import Card, comparable_truth
 from heartfit.results.case import CaseResult
+from heartfit.results.colours import setting_colours
 from heartfit.results.discovery import DiscoveryResult
 from heartfit.results.text import NOTES, STATED_ONCE, without_repeats
 from heartfit.results.wall_summary import WallSummary
@@ -70,6 +71,9 @@ TITLES = {
     "costs": "Computing time and memory",
 }
 
+
+PAPER_TABLES = tuple(name for name in TITLES if name not in ("plausibility", "costs"))
+"""Tables that compare with the paper."""
 
 TABLES_OF_TEXT = ("claims", "table1_as_printed", "table2_as_printed")
 """Tables whose cells are rounded as printed, and read as text."""
@@ -196,11 +200,23 @@ class Provenance:
 class StudyRecord:
     """All cases of a study by name, its tables by name, and their provenance.
 
-    discoveries: of the refitted cases, with the answers of sealed ones.
+    settings: all of the study, also those that no case has; discoveries: of the refitted cases, with the answers of
+    sealed ones.
     """
 
     cases: Mapping[str, CaseRecord]
+    settings: Sequence[str]
     tables: Mapping[str, ReportTable]
     provenance: Provenance
     left_out: str = ""
     discoveries: Sequence[DiscoveryResult] = ()
+
+    @property
+    def of_paper(self) -> bool:
+        """Return if it has the paper's virtual volunteers, with which its tables compare."""
+        return any(case.kind == "virtual" for case in self.cases.values())
+
+    @property
+    def colours(self) -> Mapping[str, str]:
+        """Return the colour of each setting."""
+        return setting_colours(self.settings)
