@@ -8,7 +8,7 @@ from tests.documentation.blocks import ROOT, Block, blocks_of, carry_out, pages_
 
 PAGES = [ROOT / "README.md", *pages_of("docs"), *pages_of("studies")]
 RUN = [page for page in PAGES if any(block.run_here for block in blocks_of(page))]
-"""These take a minute together."""
+"""These take some minutes together."""
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
