@@ -90,7 +90,6 @@ PROOF_MUTANTS = (
             "shown = (kept or [fit for fit, _ in steps] or [base])[-1]",
             "shown = ([fit for fit, _ in steps] or [base])[-1]",
         ),
-        ("the worse of two refits is taken", "best = min(both,", "best = max(both,"),
     ),
     *changes(
         "discovery/refit/verdict.py",
