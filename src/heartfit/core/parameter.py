@@ -13,6 +13,10 @@ from typing import Any
 
 from heartfit.core.errors import InputError
 
+LARGEST = {"m^2": 1e-2, "s": 60.0}
+"""Largest value of a parameter by its SI unit: no valve has an area of 100 cm^2, no time of a beat lasts a minute.
+A larger one is in cm^2 or in ms."""
+
 
 @dataclass(frozen=True)
 class Parameter:
@@ -33,6 +37,11 @@ class Parameter:
     off: float | None = None
     low: float = 0.0
     scale: float | None = None
+
+    @property
+    def high(self) -> float:
+        """The bound above which the value is one in another unit."""
+        return LARGEST.get(self.unit, float("inf"))
 
     @property
     def one_sided(self) -> bool:
@@ -103,7 +112,7 @@ def _declarations(kind: Any) -> tuple[Parameter, ...]:
 
 
 def require_admissible(part: Any) -> None:
-    """Raise ``InputError`` unless every parameter of ``part`` is finite and not below its lower bound."""
+    """Raise ``InputError`` unless every parameter of ``part`` is finite and within its bounds."""
     kind: Any = type(part)
     for declared in _declarations(kind):
         value = getattr(part, declared.name)
@@ -111,6 +120,11 @@ def require_admissible(part: Any) -> None:
             raise InputError(
                 f"{type(part).__name__}.{declared.name} = {value:g} {declared.unit}: expected a finite "
                 f"value of at least {declared.low:g} ({declared.meaning})"
+            )
+        if value > declared.high:
+            raise InputError(
+                f"{type(part).__name__}.{declared.name} = {value:g} {declared.unit}: expected at most "
+                f"{declared.high:g} {declared.unit} ({declared.meaning}): convert it to {declared.unit}"
             )
 
 
