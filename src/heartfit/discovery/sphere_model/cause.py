@@ -22,6 +22,13 @@ class Cause:
     unit: str
     interval: tuple[float, float]
 
+    def __str__(self) -> str:
+        low, high = self.interval
+        return (
+            f"{self.name} {self.amplitude:.3g} {self.unit} ({low:.3g} to {high:.3g}), "
+            f"ln Bayes factor {self.ln_bayes_factor:.1f}"
+        )
+
 
 @dataclass(frozen=True)
 class UnnamedCandidate:
@@ -203,7 +210,7 @@ ShownModel = Literal["sphere", "3-D heart"]
 """The model of the search, or the refitted one."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Diagnosis:
     """The verdict and its grounds.
 
@@ -230,7 +237,8 @@ class Diagnosis:
     - read_twice: standard deviation of the noise [SI] of curves that were read twice.
     - model, free_parameters: whose curves the traces show, and how many parameters it has free without a cause, 0 where
       it is not told.
-    - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
+    - warnings: numbers of the recording outside the range of living ventricles, and parameters that were fitted far
+      outside their priors, one sentence each.
     - margin: the smallest change of one ln Z that changes the decision of the search; None if it is not close.
     - fits: of the curves about the 3-D model without a cause, empty where none was refitted.
     """
@@ -265,6 +273,9 @@ class Diagnosis:
     candidate: UnnamedCandidate | None = None
     fits: tuple[CurveFit, ...] = ()
     margin: Margin | None = None
+
+    def __repr__(self) -> str:
+        return f"Diagnosis({', '.join([self.verdict, *map(str, self.mechanisms)])})"
 
 
 CLEAR_DEVIATIONS = 2.0
