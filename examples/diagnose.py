@@ -7,7 +7,7 @@ import heartfit as hf
 recording = hf.read_recording(Path(__file__).with_name("measured.csv"))
 diagnosis = hf.diagnose(recording)
 print(f"verdict: {diagnosis.verdict}")
-for cause in diagnosis.mechanisms:
+for cause in diagnosis.named:
     low, high = cause.interval
     print(f"{cause.name}: {cause.amplitude:.2g} {cause.unit}, 95 % interval {low:.2g} to {high:.2g}")
     print(f"ln Bayes factor over a heart without it: {cause.ln_bayes_factor:.0f}")

@@ -9,7 +9,6 @@ import re
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 from heartfit.core.kernel_cache import kernel_folder
 
@@ -26,7 +25,7 @@ def _public_names() -> dict[str, tuple[str, str]]:
     return {name: (module, there) for module, there, name in _LISTED.findall(listed)}
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     """Import a public name; raises AttributeError for another one."""
     if name == "mechanisms":
         return import_module("heartfit.mechanisms")

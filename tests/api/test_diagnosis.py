@@ -91,8 +91,8 @@ def test_what_is_no_question_is_refused(recording, searches):
 
 
 def test_warnings_about_the_fit_are_printed(recording, monkeypatch, on_the_command_line, capsys):
-    told = Diagnosis("none", (), (), "", (), 0, 0.86, 5.0, warnings=("sigma_0 is far out",))
-    monkeypatch.setattr(diagnosis.sphere_diagnosis, "diagnose", lambda *_, **__: told)
+    warned = Diagnosis("none", (), (), "", (), 0, 0.86, 5.0, warnings=("sigma_0 is far out",))
+    monkeypatch.setattr(diagnosis.sphere_diagnosis, "diagnose", lambda *_, **__: warned)
     on_the_command_line(recording)
     assert "m.csv: warning: sigma_0 is far out" in capsys.readouterr().err
 

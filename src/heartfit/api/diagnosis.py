@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Mapping, Sequence
 
+from heartfit import places as heart_places
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES
 from heartfit.discovery.sphere_model import diagnose as sphere_diagnosis
@@ -9,7 +10,6 @@ from heartfit.discovery.sphere_model.cause import Diagnosis
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure, learn_from_controls
 from heartfit.io.structure import read_residuals
-from heartfit.places import PLACES, Place
 from heartfit.roles import require_registered
 
 
@@ -19,7 +19,7 @@ def diagnose(
     *,
     trust_simulator: bool = False,
     controls: Mapping[str, Recording] | None = None,
-    places: Sequence[type[Place]] | None = None,
+    places: Sequence[type[heart_places.Place]] | None = None,
     strict: bool = False,
     without: Collection[str] = (),
 ) -> Diagnosis:
@@ -61,8 +61,8 @@ def _structure(controls: Mapping[str, Recording] | None) -> Structure:
     return Structure.from_residuals(read_residuals()) if controls is None else learn_from_controls(controls)
 
 
-def _standard_places(trust_simulator: bool) -> Sequence[type[Place]]:
-    return PLACES if trust_simulator else ()
+def _standard_places(trust_simulator: bool) -> Sequence[type[heart_places.Place]]:
+    return heart_places.PLACES if trust_simulator else ()
 
 
 def _require_mechanism(name: str) -> None:

@@ -1,6 +1,6 @@
 """The result of a diagnosis: verdict, causes with their sizes, and their gains on held-out samples."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -214,8 +214,9 @@ ShownModel = Literal["sphere", "3-D heart"]
 class Diagnosis:
     """The verdict and its grounds.
 
-    - mechanisms: the named causes, all members of a group; alternatives: sets of mechanisms that the data cannot tell
-      from the best; withdrawn: names that did not help on held-out data.
+    - mechanisms: the named causes, all members of a group, with their sizes in the samples that chose them;
+      alternatives: sets of mechanisms that the data cannot tell from the best; withdrawn: names that did not help on
+      held-out data.
     - threshold: the least ln Bayes factor of a detection; ranking: ln Bayes factors over the baseline of every single
       mechanism and, as "unknown", of a GP discrepancy.
     - candidate: the leading explanation where it is detected but not named, None otherwise.
@@ -274,8 +275,18 @@ class Diagnosis:
     fits: tuple[CurveFit, ...] = ()
     margin: Margin | None = None
 
+    @property
+    def named(self) -> tuple[Cause, ...]:
+        """The mechanisms with the one size that the card states of each: from all samples where it was computed."""
+        return self.with_stated_sizes(self.mechanisms)
+
+    def with_stated_sizes(self, causes: Sequence[Cause]) -> tuple[Cause, ...]:
+        """Return causes with the size of the 3-D model where there was a refit, from all samples where computed."""
+        stated = {cause.name: cause for cause in (self.refitted or self).from_all_samples}
+        return tuple(stated.get(cause.name, cause) for cause in causes)
+
     def __repr__(self) -> str:
-        return f"Diagnosis({', '.join([self.verdict, *map(str, self.mechanisms)])})"
+        return f"Diagnosis({', '.join([self.verdict, *map(str, self.named)])})"
 
 
 CLEAR_DEVIATIONS = 2.0
