@@ -10,25 +10,11 @@ import heartfit as hf
 from heartfit.discovery.sphere_model import searched_recording
 from heartfit.discovery.sphere_model.forward_model import candidates
 from heartfit.roles import registry
+from tests.examples.pages import EXAMPLES, PAGES, assert_shown
 from tests.sources import ROOT
 
-EXAMPLES = ROOT / "examples"
 SCRIPTS = sorted(EXAMPLES.glob("*.py"))
 NAMES = ("CatheterDelay", "ImageShrinkage", "MitralRegurgitation")
-
-
-@pytest.fixture
-def run(tmp_path, monkeypatch, capsys):
-    """Run an example in a folder with the recording; return what it prints."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("MPLBACKEND", "agg")
-    monkeypatch.setattr(registry, "_REGISTRY", dict(registry.registered()))
-
-    def run_example(name):
-        runpy.run_path(str(EXAMPLES / name), run_name="__main__")
-        return capsys.readouterr().out
-
-    return run_example
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.name)
@@ -36,24 +22,19 @@ def test_an_example_has_at_most_thirty_lines(script):
     assert script.read_text().count("\n") <= 30
 
 
+@pytest.mark.parametrize(("name", "page"), PAGES.items())
+def test_a_page_shows_the_example(name, page):
+    first = "# oscillator.py\n" if name == "oscillator.py" else ""
+    block = f"```python\n{first}{(EXAMPLES / name).read_text()}```\n"
+    assert block in (ROOT / "docs" / page).read_text(encoding="utf-8")
+
+
 def test_every_example_is_run_here():
-    names = {script.name for script in SCRIPTS}
-    assert names == {
-        *(
-            "simulate.py",
-            "diagnose.py",
-            "calibrate.py",
-            "oscillator.py",
-            "own_mechanism.py",
-            "make_measured.py",
-        )
-    }
+    assert {script.name for script in SCRIPTS} == {*PAGES, "make_measured.py"}
 
 
 def test_a_leaking_heart_is_simulated_and_drawn(run, tmp_path):
-    printed = run("simulate.py")
-    assert "healthy: Beat(0.86 s" in printed
-    assert "leaking: Beat(0.86 s" in printed
+    assert_shown("simulate.py", run("simulate.py"))
     assert (tmp_path / "loops.png").stat().st_size > 10_000
 
 
@@ -72,6 +53,7 @@ def test_the_recording_is_diagnosed(run, monkeypatch):
 
 def test_the_leak_is_calibrated(run):
     printed = run("calibrate.py")
+    assert_shown("calibrate.py", printed)
     *_, row = (line for line in printed.splitlines() if "MitralRegurgitation.area" in line)
     _, prior, _, low, high, informed = row.split()
     assert float(prior) < float(low) < 6e-5 < float(high)
@@ -85,7 +67,9 @@ def test_the_drag_of_the_oscillator_is_named(run):
 
 
 def test_an_own_mechanism_lowers_the_filling(run):
-    volumes = [float(line.split()[2]) for line in run("own_mechanism.py").splitlines()]
+    printed = run("own_mechanism.py")
+    assert_shown("own_mechanism.py", printed)
+    volumes = [float(line.split()[2]) for line in printed.splitlines()]
     assert volumes == sorted(volumes, reverse=True)
     assert volumes[-1] < volumes[0] - 5.0
     assert "RateLoss" in registry.registered()

@@ -106,6 +106,11 @@ class NominalHeart:
         sides = "left ventricle" if self.right is None else "both ventricles"
         return f"NominalHeart({sides}, filled to {1e6 * self.filled:.0f} mL; {self.heart!r})"
 
+    @property
+    def sensors(self) -> tuple[Sensor, ...]:
+        """Mechanisms of the heart that distort the measurements."""
+        return self.heart.sensors
+
     def parameters(self) -> dict[str, float]:
         """Parameters of the heart by path [SI]."""
         return self.heart.parameters()
