@@ -29,8 +29,6 @@ def __getattr__(name: str) -> object:
     """Import a public name; raises AttributeError for another one."""
     if name == "mechanisms":
         return import_module("heartfit.mechanisms")
-    if name == "__all__":
-        return __dir__()
     if name not in _public_names():
         raise AttributeError(f"heartfit has no {name}; dir(heartfit) lists its public names")
     module, there = _public_names()[name]

@@ -201,7 +201,7 @@ def test_noise_and_prior_may_be_lists() -> None:
     prior, _, z, observed = linear(4, 3, 0)
     outcomes = [dict(zip(NAMES, row, strict=True)) for row in z.tolist()]
     data = dict(zip(NAMES, observed.tolist(), strict=True))
-    listed = Gaussian(prior.names, prior.mean.tolist(), prior.covariance.tolist())  # type: ignore[arg-type]
+    listed = Gaussian(list(prior.names), prior.mean.tolist(), prior.covariance.tolist())  # type: ignore[arg-type]
     first, second = (calibrate(p, outcomes, data, r) for p, r in ((prior, NOISE), (listed, NOISE.tolist())))  # type: ignore[arg-type]
     assert np.array_equal(first.estimate.mean, second.estimate.mean)
 

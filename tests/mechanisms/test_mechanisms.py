@@ -311,8 +311,10 @@ def test_a_role_without_its_method_or_its_fields_is_refused_at_definition() -> N
         ({"area": 20.0}, "convert"),
     ],
 )
-def test_an_area_in_square_centimetres_is_refused(values: dict[str, float], message: str) -> None:
+def test_a_number_in_another_unit_is_refused(values: dict[str, float], message: str) -> None:
     with pytest.raises(InputError, match=message):
         MitralRegurgitation(**values)
+    with pytest.raises(InputError, match=r"Pericardium\.volume = 150 m\^3: expected at most 0\.01 m\^3"):
+        KINDS["Pericardium"](volume=150.0)  # type: ignore[call-arg]
     with pytest.raises(InputError, match=r"AtrialKick\.peak = 140 s: expected at most 60 s"):
         KINDS["AtrialKick"](peak=140.0, end=200.0)  # type: ignore[call-arg]

@@ -27,10 +27,11 @@ def simulate(
 ) -> Beat:
     """Simulate the beat of a heart on its limit cycle.
 
-    heart: that of :func:`heartfit.adult`, which has its ventricles, or a ``Heart`` with its left ventricle, or both, as
-    ``spheres``. numerics: steps of 5 ms and at most 30 beats if None. A simulation that fails is a beat with the
-    ``status`` "failed" and a ``reason``. Raises InputError for a ``Heart`` without spheres, and for two definitions of
-    the ventricles. Ventricles on tetrahedra: :func:`heartfit.personalise.run.run_beat`.
+    heart: that of :func:`heartfit.discovery.sphere_model.nominal_heart.adult`, which has its ventricles, or a ``Heart``
+    with its left ventricle, or both, as ``spheres``. numerics: steps of 5 ms and at most 30 beats if None. A simulation
+    that fails is a beat with the ``status`` "failed" and a ``reason``. Raises InputError for a ``Heart`` without
+    spheres, and for two definitions of the ventricles. Ventricles on tetrahedra:
+    :func:`heartfit.personalise.run.run_beat`.
     """
     numerics = numerics or LIMIT_CYCLE
     if isinstance(heart, NominalHeart):

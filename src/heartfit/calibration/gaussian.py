@@ -32,6 +32,7 @@ class Gaussian:
     covariance: np.ndarray
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "names", tuple(self.names))
         for name in ("mean", "covariance"):
             object.__setattr__(self, name, np.asarray(getattr(self, name)))
         n = len(self.names)
