@@ -13,8 +13,8 @@ from typing import Any
 
 from heartfit.core.errors import InputError
 
-LARGEST = {"m": 1.0, "m^2": 1e-2, "m^3": 1e-2, "s": 60.0}
-"""Largest value of a parameter by its SI unit, unless it declares another: no part of a heart is longer than 1 m, no
+LARGEST = {"m": 10.0, "m^2": 1e-2, "m^3": 1e-2, "s": 60.0}
+"""Largest value of a parameter by its SI unit, unless it declares another: no part of a heart is 10 m long, no
 valve has 100 cm^2, no cavity 10 L, and no time of a beat lasts a minute. A larger number is in mm, cm^2, mL or ms."""
 
 
