@@ -23,6 +23,7 @@ ROOMS = (
     "study",
     "results",
     "io",
+    "api",
     "cli",
 )
 """A room may import itself and what stands above it in this list."""
@@ -37,6 +38,7 @@ FILE_LIBRARIES = {"logging", "pathlib", "snakemake", "json", "csv", "yaml", "pan
 FILE_CALLS = {"open", "read_text", "write_text", "read_bytes", "write_bytes", "loadtxt", "savez", "read_csv"}
 ALLOWED_CALLS = {
     ("geometry/tetrahedra.py", "open"),  # os.open of the null device
+    ("__init__.py", "read_text"),  # the list of public names
     ("core/kernel_cache.py", "read_bytes"),  # the sources of the package, before io can be imported
 }
 CATCH_ALLS = {"utils", "helpers", "common", "misc"}

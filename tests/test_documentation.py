@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from heartfit.heart.heart import Heart
 from heartfit.roles import registry
 from tests.documentation.blocks import pages_of
 
@@ -31,6 +32,13 @@ def test_the_example_of_a_mechanism_is_one(monkeypatch):
     times = np.linspace(0.0, 0.8, 81)
     assert pump.pressure("aorta", times, 0.8).max() == pytest.approx(pump.rise)
     assert not pump.turned_off().pressure("aorta", times, 0.8).any()
+
+
+def test_the_page_of_mechanisms_states_the_time_of_the_r_wave():
+    trigger, peak = Heart().trigger, 0.55
+    text = (ROOT / "docs" / "write_a_mechanism.md").read_text()
+    assert f"{trigger:g} s before the R wave" in text
+    assert f"a peak at {peak:g} s lies {peak - trigger:g} s after the R wave" in text
 
 
 def anchors(page):

@@ -185,3 +185,29 @@ def test_a_negative_covariance_is_refused_never_clipped(seed: int) -> None:
     z = deviation @ a.T + 40.0 * np.square(deviation / prior.sd).sum(axis=1, keepdims=True)
     with pytest.raises(CalibrationError, match=r"negative.*centre"):
         update(prior, transform(points, z, julier), named(observed))
+
+
+@pytest.mark.parametrize("noise", [np.array([0.01, 0.02, 0.005]), [0.1, 0.1, 0.1], np.eye(2), 0.01])
+def test_noise_that_is_no_covariance_of_the_observations_is_refused(noise: object) -> None:
+    prior, _, z, observed = linear(4, 3, 0)
+    outcomes = [dict(zip(NAMES, row, strict=True)) for row in z.tolist()]
+    with pytest.raises(
+        CalibrationError, match=r"expected \(3, 3\), the covariance of V_min, q_max, q_min.*diag"
+    ):
+        calibrate(prior, outcomes, dict(zip(NAMES, observed.tolist(), strict=True)), noise)  # type: ignore[arg-type]
+
+
+def test_noise_and_prior_may_be_lists() -> None:
+    prior, _, z, observed = linear(4, 3, 0)
+    outcomes = [dict(zip(NAMES, row, strict=True)) for row in z.tolist()]
+    data = dict(zip(NAMES, observed.tolist(), strict=True))
+    listed = Gaussian(list(prior.names), prior.mean.tolist(), prior.covariance.tolist())  # type: ignore[arg-type]
+    first, second = (calibrate(p, outcomes, data, r) for p, r in ((prior, NOISE), (listed, NOISE.tolist())))  # type: ignore[arg-type]
+    assert np.array_equal(first.estimate.mean, second.estimate.mean)
+
+
+def test_an_outcome_without_an_observation_is_named() -> None:
+    prior, _, z, observed = linear(4, 3, 0)
+    outcomes = [dict(zip(NAMES[:2], row, strict=False)) for row in z.tolist()]
+    with pytest.raises(KeyError, match="an outcome has no q_min, which is observed"):
+        calibrate(prior, outcomes, dict(zip(NAMES, observed.tolist(), strict=True)), NOISE)

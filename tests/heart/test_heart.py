@@ -2,6 +2,7 @@
 
 import pytest
 
+from heartfit.core.errors import InputError
 from heartfit.heart.heart import PAPER_PARAMETERS, Heart
 from heartfit.mechanisms.atrial_kick import AtrialKick
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
@@ -55,3 +56,34 @@ def test_a_mechanism_is_added_and_replaces_one_of_its_kind() -> None:
 def test_the_trigger_is_counted_from_the_start_of_atrial_systole() -> None:
     heart = Heart().with_parameters({"onset": 0.2, "trigger_delay": 0.03})
     assert heart.trigger == pytest.approx(0.23)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "text"), [(MitralRegurgitation, "class MitralRegurgitation"), ("Scar", "'Scar'"), (3.0, "3.0")]
+)
+def test_only_an_instance_of_a_mechanism_is_added(wrong: object, text: str) -> None:
+    with pytest.raises(TypeError, match=rf"heart: {text} is no mechanism; expected an instance: create one"):
+        Heart() + wrong  # type: ignore[operator]
+    with pytest.raises(TypeError, match="is no mechanism; expected an instance"):
+        Heart(mechanisms=(wrong,))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("period", [829.0, 72.0, 0.0, -0.8, float("nan")])
+def test_a_period_in_another_unit_is_refused(period: float) -> None:
+    with pytest.raises(InputError, match=r"period = .* s; expected 0\.2 to 3 s: convert it to seconds"):
+        Heart(period=period)
+
+
+def test_a_parameter_of_an_absent_mechanism_names_the_mechanism() -> None:
+    with pytest.raises(KeyError, match=r"that the heart lacks: add it, heart \+ MitralRegurgitation\(\)"):
+        Heart().with_parameters({"MitralRegurgitation.area": 1e-5})
+    with pytest.raises(KeyError, match=r"is unknown; heart\.parameters\(\) lists all"):
+        Heart().with_parameters({"zzzzzzzz": 1.0})
+
+
+def test_a_mechanism_of_the_same_name_is_replaced() -> None:
+    """A cell that is run again defines another class of the same name."""
+    again = type("MitralRegurgitation", (MitralRegurgitation,), {})
+    heart = Heart() + MitralRegurgitation() + again(area=3e-5)
+    assert [type(m).__name__ for m in heart.mechanisms] == ["AtrialKick", "MitralRegurgitation"]
+    assert heart.parameters()["MitralRegurgitation.area"] == 3e-5

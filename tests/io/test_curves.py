@@ -63,6 +63,7 @@ def test_curves_of_different_periods_do_not_share_a_file(tmp_path: Path) -> None
     [
         ("time_s", "time", "no column time_s"),
         ("lv_volume_ml", "lv_volum_ml", "unknown column lv_volum_ml; did you mean lv_volume_ml"),
+        ("lv_volume_ml", "volume", "did you mean lv_volume_ml or rv_volume_ml. Rename"),
         ("# period_s = 0.825", "# beat", "no period"),
         ("0,170,1,100", "0,nan,1,100", "lv_volume_ml in data row 1 is nan"),
         ("0,170,1,100", "0,many,1,100", "lv_volume_ml in data row 1 is many"),

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+import heartfit as hf
 from heartfit.core.errors import InputError
 from heartfit.io.pressures import read_pressure
-from heartfit.io.recordings import read_recording
+from heartfit.io.recordings import read_recording, write_recording
 from heartfit.observation.curve import Curve
 from heartfit.study.case import RecordedPressure
 
@@ -124,3 +125,40 @@ def test_a_pressure_in_both_files_is_refused(tmp_path):
     recording = read_recording(written(tmp_path / "m.csv", text), 0.9)
     with pytest.raises(InputError, match="expected it in one"):
         recording.with_pressure(Curve(TIMES[:29], 133.322368 * PRESSURES[:29], 0.9))
+
+
+def test_a_beat_is_written_from_the_trigger_on(tmp_path):
+    beat = hf.simulate(hf.adult())
+    write_recording(tmp_path / "beat.csv", beat)
+    recording, true = read_recording(str(tmp_path / "beat.csv")), hf.curves(beat)
+    assert beat.trigger > 0.1
+    assert recording.curves.keys() == {"lv_volume", "lv_pressure", "aorta_pressure"}
+    for name, samples in recording.curves.items():
+        assert 0.0 <= samples.times.min() < 0.006
+        assert samples.times.max() < beat.period
+        assert samples.values == pytest.approx(true[name](samples.times), rel=1e-9)
+
+
+def test_a_recording_of_several_beats_is_written_as_it_is(tmp_path):
+    volume = hf.Samples(np.arange(60) * 0.04, 1e-4 + 2e-5 * np.sin(np.arange(60)))
+    pressure = hf.Samples(np.arange(90) * 0.02 + 0.005, 5e3 + 4e3 * np.sin(np.arange(90)))
+    recording = hf.Recording(0.8, {"lv_volume": volume, "lv_pressure": pressure})
+    write_recording(tmp_path / "beats.csv", recording)
+    again = read_recording(tmp_path / "beats.csv")
+    assert again.period == 0.8
+    for name, samples in recording.curves.items():
+        assert again.curves[name].times == pytest.approx(samples.times)
+        assert again.curves[name].values == pytest.approx(samples.values)
+
+
+def test_a_failed_beat_is_not_written(tmp_path):
+    with pytest.raises(InputError, match="recording: the beat failed"):
+        write_recording(tmp_path / "beat.csv", hf.simulate(hf.adult().with_parameters({"sigma_0": 1e9})))
+    assert not list(tmp_path.iterdir())
+
+
+def test_samples_may_be_lists():
+    samples = hf.Samples([0.0, 0.1, 0.2], [1, 2, 3])
+    assert samples.values.dtype == float
+    with pytest.raises(InputError, match="expected one value a time"):
+        hf.Samples([0.0, 0.1], [1.0])

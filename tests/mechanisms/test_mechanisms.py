@@ -32,6 +32,7 @@ from heartfit.roles import (
     Stress,
     mechanism,
     registered,
+    registry,
 )
 from heartfit.roles.sides import acts_within
 from heartfit.synthetic.campaign import plantable
@@ -221,3 +222,99 @@ def test_a_mechanism_without_switch_is_refused() -> None:
     with pytest.raises(TypeError, match=r"Constant.*\b0\b"):
         mechanism(Constant)
     assert "Constant" not in registered()
+
+
+@pytest.fixture
+def separate_registry(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A registry whose additions end with the test."""
+    monkeypatch.setattr(registry, "_REGISTRY", dict(registered()))
+
+
+def pressure_loss(compartments: object = ("left_atrium",), methods: bool = True) -> type[Pressure]:
+    """A mechanism as a notebook defines it, not yet registered."""
+
+    @dataclass(frozen=True)
+    class PressureLoss(Pressure):
+        loss: float = parameter(300.0, unit="Pa", symbol="a", meaning="loss", off=0.0, scale=750.0)
+        if methods:
+
+            def pressure(self, compartment, time, period):  # type: ignore[no-untyped-def]
+                return -self.loss + 0.0 * time
+
+    if compartments is not None:
+        PressureLoss.compartments = compartments  # type: ignore[assignment]
+    return PressureLoss
+
+
+@pytest.mark.usefixtures("separate_registry")
+def test_a_cell_that_is_run_again_replaces_its_mechanism() -> None:
+    mechanism(pressure_loss())
+    again = mechanism(pressure_loss())
+    assert registered()["PressureLoss"] is again
+
+
+@pytest.mark.parametrize(
+    ("compartments", "message"),
+    [
+        (("la",), r"PressureLoss\.compartments = .*'la' is unknown; expected one of aorta, .*left_atrium"),
+        (("lv",), "'lv' is unknown"),
+        ("aorta", r"compartments = 'aorta'; expected a tuple: write \('aorta',\)"),
+        (None, "PressureLoss states no compartments; expected one of aorta"),
+    ],
+)
+@pytest.mark.usefixtures("separate_registry")
+def test_a_compartment_that_does_not_exist_is_refused_at_definition(
+    compartments: object, message: str
+) -> None:
+    with pytest.raises(TypeError, match=message):
+        mechanism(pressure_loss(compartments))
+    assert "PressureLoss" not in registered()
+
+
+@pytest.mark.parametrize(
+    ("role", "attributes", "message"),
+    [
+        (Flow, {"upstream": "lv", "downstream": "la"}, r"Wrong\.downstream = 'la'"),
+        (Narrowing, {"valve": "bicuspid"}, "expected one of mitral, aortic"),
+        (Chamber, {"compartment": "lv"}, "expected one of left_atrium, right_atrium"),
+        (Stress, {"acts_on": "fiber"}, "expected one of wall, fibre"),
+        (Sensor, {"measures": "lv_volume"}, "expected a tuple"),
+        (Amendment, {}, "states no amends"),
+    ],
+)
+@pytest.mark.usefixtures("separate_registry")
+def test_every_role_names_what_exists(
+    role: type[Mechanism], attributes: dict[str, str], message: str
+) -> None:
+    methods = dict.fromkeys(role.__abstractmethods__, lambda self, *_: None)
+    declared = parameter(1.0, unit="1", symbol="a", meaning="size", off=0.0)
+    content = methods | attributes | {"size": declared, "__annotations__": {"size": float}}
+    with pytest.raises(TypeError, match=message):
+        mechanism(dataclass(frozen=True)(type("Wrong", (role,), content)))
+
+
+@pytest.mark.usefixtures("separate_registry")
+def test_a_role_without_its_method_or_its_fields_is_refused_at_definition() -> None:
+    with pytest.raises(TypeError, match=r"PressureLoss lacks pressure\(\): define it"):
+        mechanism(pressure_loss(methods=False))
+    with pytest.raises(TypeError, match="Undecorated is no dataclass: write @dataclass"):
+
+        @mechanism
+        class Undecorated(MitralRegurgitation):
+            pass
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"area": 0.4}, r"area = 0\.4 m\^2: expected at most 0\.01 m\^2 .*: convert it to m\^2"),
+        ({"area": 20.0}, "convert"),
+    ],
+)
+def test_a_number_in_another_unit_is_refused(values: dict[str, float], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        MitralRegurgitation(**values)
+    with pytest.raises(InputError, match=r"Pericardium\.volume = 150 m\^3: expected at most 0\.01 m\^3"):
+        KINDS["Pericardium"](volume=150.0)  # type: ignore[call-arg]
+    with pytest.raises(InputError, match=r"AtrialKick\.peak = 140 s: expected at most 60 s"):
+        KINDS["AtrialKick"](peak=140.0, end=200.0)  # type: ignore[call-arg]

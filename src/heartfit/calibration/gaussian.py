@@ -18,7 +18,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Gaussian:
     """z = ln theta ~ N(mean, covariance) over named parameters.
 
@@ -32,6 +32,9 @@ class Gaussian:
     covariance: np.ndarray
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "names", tuple(self.names))
+        for name in ("mean", "covariance"):
+            object.__setattr__(self, name, np.asarray(getattr(self, name)))
         n = len(self.names)
         if len(set(self.names)) != n or n == 0:
             raise ValueError(f"gaussian: names {self.names}; expected one or more distinct parameters")
@@ -46,6 +49,11 @@ class Gaussian:
             raise ValueError(
                 "gaussian: the covariance is not positive definite: omit parameters without variance"
             )
+
+    def __repr__(self) -> str:
+        spreads = zip(self.physical().items(), self.sd, strict=True)
+        parts = (f"{name} = {median:.4g} ± {100.0 * sd:.3g} %" for (name, median), sd in spreads)
+        return f"Gaussian({', '.join(parts)})"
 
     @classmethod
     def from_relative(cls, mean: Mapping[str, float], relative_sd: Mapping[str, float]) -> Self:

@@ -7,7 +7,7 @@ with more parameters than observations, by the change of least prior-weighted no
 their prior.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -115,7 +115,7 @@ def moments_of(
             f"calibration: {len(outcomes)} outcomes; expected one for each of {len(points)} points"
         )
     named = [_with_reason(point, outcome) for point, outcome in zip(points, outcomes, strict=True)]
-    z = np.array([_row(outcome, names) for outcome in outcomes])
+    z = np.array([_row(outcome, tuple(names)) for outcome in outcomes])
     completed = np.array([not isinstance(outcome, str) for outcome in outcomes])
     return transform(named, z, design, completed)
 
@@ -124,8 +124,15 @@ def _with_reason(point: SigmaPoint, outcome: Mapping[str, float] | str) -> Sigma
     return replace(point, label=f"{point.label} ({outcome})") if isinstance(outcome, str) else point
 
 
-def _row(outcome: Mapping[str, float] | str, names: Iterable[str]) -> list[float]:
-    return [np.nan if isinstance(outcome, str) else outcome[name] for name in names]
+def _row(outcome: Mapping[str, float] | str, names: tuple[str, ...]) -> list[float]:
+    if isinstance(outcome, str):
+        return [np.nan] * len(names)
+    if missing := [name for name in names if name not in outcome]:
+        raise KeyError(
+            f"calibration: an outcome has no {', '.join(missing)}, which is observed; expected the observations of "
+            "every point: observe simulations and data alike"
+        )
+    return [outcome[name] for name in names]
 
 
 def update(
@@ -144,6 +151,7 @@ def update(
     """
     names, z = tuple(observed), np.array(list(observed.values()))
     scale = _scale(moments, names)
+    noise = None if noise is None else _require_covariance(noise, names)
     correlation = _normalise(moments.cov_zz, noise, scale)
     _require_definite(correlation, names)
     gain = np.linalg.solve(correlation, (moments.cov_xz / scale).T).T / scale
@@ -170,6 +178,17 @@ def update(
             *_long_steps(prior.names, step if start is None else (prior.mean + shift - start) / prior.sd),
         ),
     )
+
+
+def _require_covariance(noise: np.ndarray, names: tuple[str, ...]) -> np.ndarray:
+    """Return the noise as an array; raise CalibrationError unless it is a covariance of the observations."""
+    covariance, m = np.asarray(noise, dtype=float), len(names)
+    if covariance.shape != (m, m):
+        raise CalibrationError(
+            f"calibration: noise has the shape {covariance.shape}; expected ({m}, {m}), the covariance of "
+            f"{', '.join(names)}: of independent standard deviations it is numpy.diag(sd**2)"
+        )
+    return covariance
 
 
 def _scale(moments: Moments, names: tuple[str, ...]) -> np.ndarray:

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from traceback import extract_tb
-from typing import TYPE_CHECKING
 
 from heartfit.cli.console import Command
 from heartfit.cli.pressure import pressure_arguments, stated_pressure
@@ -14,10 +13,6 @@ from heartfit.core.errors import InputError
 from heartfit.io.files import require_writable
 from heartfit.io.fingerprint import fingerprint
 from heartfit.roles import registered, require_registered
-
-if TYPE_CHECKING:
-    from heartfit.discovery.sphere_model.recording import Recording
-    from heartfit.discovery.sphere_model.structure import Structure
 
 
 def run_mechanism_files(paths: Iterable[Path]) -> list[str]:
@@ -126,18 +121,26 @@ def _structure_arguments(command: argparse.ArgumentParser) -> None:
         action="store_true",
         help="for data of this simulator: allow for no difference between it and the source of the curves",
     )
+    command.add_argument(
+        "--places",
+        action=argparse.BooleanOptionalAction,
+        help="locate an unknown effect by free functions inside the equations; if neither is stated, only with "
+        "--trust-simulator",
+    )
 
 
 def diagnose(arguments: argparse.Namespace) -> int:
     """Name the mechanism that a simulation of a recorded heart lacks, within a minute."""
+    from heartfit.api import diagnosis
     from heartfit.cli.diagnose import run_mechanism_files
     from heartfit.core.validation import validate
-    from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES
-    from heartfit.discovery.sphere_model import diagnose as diagnosis
+    from heartfit.discovery.sphere_model.consistency import implausible
+    from heartfit.discovery.sphere_model.diagnose import diagnose_change
     from heartfit.io.causes import write_cause_card
     from heartfit.io.files import write_text
     from heartfit.io.pressures import read_pressure
     from heartfit.io.recordings import read_conditions, read_recording
+    from heartfit.io.structure import read_controls
     from heartfit.places import PLACES
     from heartfit.results.cause_figure import render_cause
     from heartfit.results.mechanism_file import mechanism_file
@@ -152,23 +155,23 @@ def diagnose(arguments: argparse.Namespace) -> int:
         recording = recording.with_pressure(read_pressure(source, recording.period).curve)
     conditions = read_conditions(arguments.condition, recording.period)
     require_writable(arguments.output)
-    _warn(recording, arguments.measured)
+    known = implausible(recording, str(arguments.measured))
+    _print_warnings(known, arguments.measured)
     if arguments.against:
         before = read_recording(arguments.against)
-        _warn(before, arguments.against)
-        conclusion = diagnosis.diagnose_change(recording, before)
+        _print_warnings(implausible(before, str(arguments.against)), arguments.against)
+        conclusion = diagnose_change(recording, before)
     else:
-        rules = STRICT_RULES if arguments.strict else DEFAULT_RULES
-        structure = None if arguments.trust_simulator else _structure(arguments)
-        places = PLACES if arguments.trust_simulator else ()
         conclusion = diagnosis.diagnose(
             recording,
             conditions,
-            rules=rules,
-            structure=structure,
-            places=places,
-            left_out=arguments.without,
+            trust_simulator=arguments.trust_simulator,
+            controls=read_controls(arguments.reference) if arguments.reference else None,
+            places={None: None, True: PLACES, False: ()}[arguments.places],
+            strict=arguments.strict,
+            without=arguments.without,
         )
+    _print_warnings([line for line in conclusion.warnings if line not in known], arguments.measured)
     code = fingerprint(Path(diagnosis.__file__))
     write_cause_card(arguments.output, render_cause(conclusion, arguments.measured.stem), code)
     sentences = [verdict_sentence(conclusion)]
@@ -180,9 +183,10 @@ def diagnose(arguments: argparse.Namespace) -> int:
 
 
 def _require_consistent(arguments: argparse.Namespace) -> None:
-    if arguments.against and (arguments.condition or arguments.strict or arguments.without):
+    located = arguments.places is not None
+    if arguments.against and (arguments.condition or arguments.strict or arguments.without or located):
         raise InputError(
-            "--against compares two recordings; expected it without --condition, --without and --strict: "
+            "--against compares two recordings; expected it without --condition, --without, --strict and --places: "
             "leave them out"
         )
     for name in arguments.without:
@@ -192,22 +196,9 @@ def _require_consistent(arguments: argparse.Namespace) -> None:
             raise InputError(f"--without: {unknown.args[0]}") from unknown
 
 
-def _warn(recording: "Recording", file: Path) -> None:
-    """Print what is implausible about a recording."""
-    from heartfit.discovery.sphere_model.consistency import implausible
-
-    for line in implausible(recording, str(file)):
+def _print_warnings(lines: Iterable[str], file: Path) -> None:
+    for line in lines:
         print(f"{file}: warning: {line}", file=sys.stderr)
-
-
-def _structure(arguments: argparse.Namespace) -> "Structure":
-    """Return the structure of the user's controls or, without them, of healthy hearts of other simulators."""
-    from heartfit.discovery.sphere_model.structure import Structure, learn_from_controls
-    from heartfit.io.structure import read_controls, read_residuals
-
-    if arguments.reference:
-        return learn_from_controls(read_controls(arguments.reference))
-    return Structure.from_residuals(read_residuals())
 
 
 def petab_select_arguments(command: argparse.ArgumentParser) -> None:

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from heartfit.cli.console import Command, Progress, add_configuration, beat_summary
 from heartfit.core.errors import InputError
+from heartfit.core.periodic import BEATS
 from heartfit.io.beats import write_beat
 from heartfit.io.configuration import read_study
 from heartfit.io.files import require_writable
 from heartfit.io.fingerprint import fingerprint
-from heartfit.io.image_times import BEATS
 from heartfit.io.meshes import read_prepared_mesh
 from heartfit.personalise import run as protocol
 from heartfit.personalise.setting import Setting, compose_heart, declaration

@@ -8,10 +8,14 @@ from these declarations. All computation is in SI.
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields, replace
 from functools import cache
-from math import exp
+from math import exp, inf
 from typing import Any
 
 from heartfit.core.errors import InputError
+
+LARGEST = {"m": 10.0, "m^2": 1e-2, "m^3": 1e-2, "s": 60.0}
+"""Largest value of a parameter by its SI unit, unless it declares another: no part of a heart is 10 m long, no
+valve has 100 cm^2, no cavity 10 L, and no time of a beat lasts a minute. A larger number is in mm, cm^2, mL or ms."""
 
 
 @dataclass(frozen=True)
@@ -19,7 +23,7 @@ class Parameter:
     """Declaration of one parameter: SI ``value``, ``unit``, LaTeX ``symbol``, ``meaning``.
 
     ``sd`` is the relative standard deviation of its log-normal prior (``None``: never calibrated), ``off`` the
-    value at which a mechanism vanishes, ``low`` the bound below which the value makes no physical sense.
+    value at which a mechanism vanishes, ``low`` and ``high`` the bounds outside of which the value makes no sense.
     ``scale``, in ``unit``, is the standard deviation that a search for causes gives a parameter instead: normal about
     ``off`` where it has one, about ``value`` otherwise, and half-normal where nothing below ``off`` makes sense.
     """
@@ -33,6 +37,7 @@ class Parameter:
     off: float | None = None
     low: float = 0.0
     scale: float | None = None
+    high: float = inf
 
     @property
     def one_sided(self) -> bool:
@@ -64,10 +69,15 @@ def parameter(
     off: float | None = None,
     low: float = 0.0,
     scale: float | None = None,
+    high: float | None = None,
 ) -> Any:
-    """Return a dataclass field that declares a parameter; see :class:`Parameter`."""
+    """Return a dataclass field that declares a parameter; see :class:`Parameter`.
+
+    ``high`` is that of ``LARGEST`` for the unit if None.
+    """
     description = {"unit": unit, "symbol": symbol, "meaning": meaning}
     prior = {"sd": sd, "off": off, "low": low, "scale": scale}
+    prior["high"] = LARGEST.get(unit, inf) if high is None else high
     return field(default=value, metadata={"parameter": description | prior})
 
 
@@ -103,7 +113,7 @@ def _declarations(kind: Any) -> tuple[Parameter, ...]:
 
 
 def require_admissible(part: Any) -> None:
-    """Raise ``InputError`` unless every parameter of ``part`` is finite and not below its lower bound."""
+    """Raise ``InputError`` unless every parameter of ``part`` is finite and within its bounds."""
     kind: Any = type(part)
     for declared in _declarations(kind):
         value = getattr(part, declared.name)
@@ -111,6 +121,11 @@ def require_admissible(part: Any) -> None:
             raise InputError(
                 f"{type(part).__name__}.{declared.name} = {value:g} {declared.unit}: expected a finite "
                 f"value of at least {declared.low:g} ({declared.meaning})"
+            )
+        if value > declared.high:
+            raise InputError(
+                f"{type(part).__name__}.{declared.name} = {value:g} {declared.unit}: expected at most "
+                f"{declared.high:g} {declared.unit} ({declared.meaning}): convert it to {declared.unit}"
             )
 
 

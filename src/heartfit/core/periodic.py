@@ -9,6 +9,8 @@ from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 
 Response = Callable[[Floats], NDArray]
+BEATS = (0.2, 3.0)
+"""Periods of a human heart [s]: 300 to 20 beats a minute."""
 SAMPLING_TOLERANCE = 1e-6
 """Spread of the sampling steps over the period up to which it counts as rounding."""
 

@@ -13,12 +13,13 @@ COST = "cpu_s"
 """Key of the CPU time [s] among the diagnostics; the only one that differs from run to run."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Beat:
     """One cycle from time 0 to ``period``, in SI units.
 
-    ``time`` (t,); ``volume`` of "lv", "rv"; ``pressure`` of every compartment; ``flow`` through every branch;
-    ``trigger`` is the simulated time of the measured frame 0. ``status`` is "completed", or "failed" with a
+    ``time`` (t,); ``volume`` of "lv", "rv"; ``pressure`` of every compartment; ``flow`` through every branch. Time 0 is
+    the start of atrial systole; ``trigger`` is the time of the R wave, at which the time of a recording begins:
+    :func:`heartfit.observation.beat.beat_curves` shifts the curves. ``status`` is "completed", or "failed" with a
     ``reason``; ``diagnostics`` holds the number of beats, the drift, the cost and the change of wall volume.
     ``positions`` (t, n, 3) are the nodes at every time if the simulation kept them, else None.
     """
@@ -33,6 +34,15 @@ class Beat:
     reason: str = ""
     diagnostics: Mapping[str, float] = field(default_factory=dict)
     positions: Floats | None = None
+
+    def __repr__(self) -> str:
+        if not self.completed:
+            return f"Beat(failed: {self.reason})"
+        ranges = (
+            f"{name} {1e6 * values.min():.1f} to {1e6 * values.max():.1f} mL"
+            for name, values in self.volume.items()
+        )
+        return f"Beat({self.period:g} s: {', '.join(ranges)})"
 
     def signals(self) -> dict[str, Floats]:
         """Curves (t,) by name: "lv_volume", "aorta_pressure", "mitral_flow", ...; empty for a failed beat."""

@@ -6,11 +6,13 @@ from difflib import get_close_matches
 from functools import cached_property, reduce
 from typing import Any
 
+from heartfit.core.errors import InputError
 from heartfit.core.parameter import parameter_values
+from heartfit.core.periodic import BEATS
 from heartfit.heart.circulation.network import Circulation
 from heartfit.heart.muscle.tissue import Tissue
 from heartfit.mechanisms.atrial_kick import AtrialKick
-from heartfit.roles import Mechanism, Sensor
+from heartfit.roles import Mechanism, Sensor, registered
 
 PAPER_PARAMETERS = (
     "sigma_0", "k_RS", "k_ATP", "k_0", "alpha", "mu", "E_s", "K", "c_1", "c_2", "R_p", "tau", "Z_c", "L",
@@ -18,11 +20,12 @@ PAPER_PARAMETERS = (
 """Names of the fourteen parameters of Marchesseau et al., MICCAI 2012."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Heart:
     """Slots (tissue, circulation), mechanisms and the period of the beat [s].
 
-    ``heart + mechanism`` is a new heart with that mechanism added; it replaces one of the same class.
+    ``heart + mechanism`` is a new heart with that mechanism added; it replaces one of the same name. Raises InputError
+    for a period that no human heart has, and TypeError for a mechanism that is no instance of one.
     """
 
     tissue: Tissue = field(default_factory=Tissue)
@@ -30,9 +33,22 @@ class Heart:
     mechanisms: tuple[Mechanism, ...] = (AtrialKick(),)
     period: float = 0.829
 
+    def __post_init__(self) -> None:
+        if not BEATS[0] <= self.period <= BEATS[1]:
+            raise InputError(
+                f"heart: period = {self.period:g} s; expected {BEATS[0]:g} to {BEATS[1]:g} s: convert it to seconds"
+            )
+        for mechanism in self.mechanisms:
+            _require_instance(mechanism)
+
     def __add__(self, mechanism: Mechanism) -> "Heart":
-        kept = tuple(present for present in self.mechanisms if type(present) is not type(mechanism))
+        name = type(mechanism).__name__
+        kept = tuple(present for present in self.mechanisms if type(present).__name__ != name)
         return replace(self, mechanisms=(*kept, mechanism))
+
+    def __repr__(self) -> str:
+        slots = f"{type(self.tissue.passive).__name__}, {type(self.tissue.active).__name__}"
+        return f"Heart({self.period:g} s, {slots}; {', '.join(map(repr, self.mechanisms)) or 'no mechanism'})"
 
     @property
     def trigger(self) -> float:
@@ -92,9 +108,29 @@ def _resolve_path(name: str, parameters: Mapping[str, float]) -> str:
         paths = [path for path in paths if not path.startswith("tissue.right.")]
     if len(paths) == 1:
         return paths[0]
-    near = get_close_matches(name, [path.rsplit(".", 1)[-1] for path in parameters] + list(parameters))
-    problem = f"is one of {paths}: give the path" if paths else f"is unknown, nearest are {near}"
+    problem = f"is one of {paths}: give the path" if paths else _unknown(name, parameters)
     raise KeyError(f"parameter {name!r} {problem}")
+
+
+def _unknown(name: str, parameters: Mapping[str, float]) -> str:
+    kind = name.split(".")[0]
+    if kind in registered():
+        return f"is one of a mechanism that the heart lacks: add it, heart + {kind}()"
+    near = get_close_matches(name, [path.rsplit(".", 1)[-1] for path in parameters] + list(parameters))
+    return f"is unknown, nearest are {near}" if near else "is unknown; heart.parameters() lists all"
+
+
+def _require_instance(mechanism: object) -> None:
+    """Raise TypeError unless this is an instance of a mechanism."""
+    if isinstance(mechanism, Mechanism):
+        return
+    text, name = (
+        (f"class {mechanism.__name__}", mechanism.__name__)
+        if isinstance(mechanism, type)
+        else (repr(mechanism), str(mechanism))
+    )
+    example = name if name in registered() else "MitralRegurgitation"
+    raise TypeError(f"heart: {text} is no mechanism; expected an instance: create one, such as {example}()")
 
 
 def _list_parameters(part: Any, prefix: str = "") -> list[tuple[str, float]]:

@@ -105,16 +105,15 @@ def write_curves(path: Path, curves: Mapping[str, Curve]) -> None:
         if curve.period != first.period:
             raise ValueError(f"curves: {name} has its own period; expected one period in a file")
     times = np.unique(np.concatenate([curve.times for curve in curves.values()]))
-    write_table_of_curves(
-        path, times, {name: _spread(curve, times) for name, curve in curves.items()}, first.period
-    )
+    spread = {name: spread_over(times, curve.times, curve.values) for name, curve in curves.items()}
+    write_table_of_curves(path, times, spread, first.period)
 
 
-def _spread(curve: Curve, times: np.ndarray) -> np.ndarray:
-    """Samples of a curve at their places among ``times``, NaN elsewhere."""
-    values = np.full(len(times), np.nan)
-    values[np.searchsorted(times, curve.times)] = curve.values
-    return values
+def spread_over(times: np.ndarray, sampled: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Values (k,) at the places of their ``sampled`` times (k,) among ``times`` (t,), NaN elsewhere."""
+    spread = np.full(len(times), np.nan)
+    spread[np.searchsorted(times, sampled)] = values
+    return spread
 
 
 def read_curves(path: Path, period: float | None = None) -> dict[str, Curve]:
@@ -147,15 +146,22 @@ def _table(path: Path) -> dict[str, list[str]]:
 def _numbers(path: Path, column: str, cells: list[str]) -> np.ndarray:
     """Numbers of a column, NaN where a cell is empty; times may not be empty."""
     if column not in TIMES and _curve_of(column) is None:
-        near = difflib.get_close_matches(column.lower(), COLUMNS, n=1, cutoff=0.0)
         raise InputError(
-            f"{path}: unknown column {column}; did you mean {near[0]}? Rename it or leave it out"
+            f"{path}: unknown column {column}; did you mean {' or '.join(_nearest(column))}? Rename it or leave it out"
         )
     values = np.full(len(cells), np.nan)
     for row, cell in enumerate(cells):
         if cell.strip() or column in TIMES:
             values[row] = number_in(path, column, row, cell)
     return values
+
+
+def _nearest(column: str) -> list[str]:
+    """Return the columns that are nearest to an unknown one, all that are equally near: "volume" names no ventricle."""
+    likeness = {
+        known: difflib.SequenceMatcher(None, known, column.lower()).ratio() for known in sorted(COLUMNS)
+    }
+    return [known for known in likeness if likeness[known] == max(likeness.values())]
 
 
 def stated_period(path: Path) -> float | None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
+from heartfit.core.periodic import BEATS
 from heartfit.io.files import write_text
 from heartfit.io.image_names import stem
 from heartfit.io.text import read_json
@@ -17,9 +18,6 @@ KEYS = ("period_s", "times_s")
 EXPECTED = '{"period_s": a number, "times_s": a list of numbers}'
 LONGEST_GAP = 1.5
 """Largest time between two frames over the median; beyond it a frame is missing."""
-
-BEATS = (0.2, 3.0)
-"""Shortest and longest plausible beat [s]: 300 and 20 per minute."""
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,10 @@ import numpy as np
 
 from heartfit.core.arrays import Floats, Integers, Names
 from heartfit.core.errors import InputError
+from heartfit.core.periodic import BEATS
 from heartfit.geometry.mesh import require_phases
 from heartfit.geometry.soundness import require_heart, require_indices
 from heartfit.geometry.surface import LabelledSurface, enclosed_volume, orient
-from heartfit.io.image_times import BEATS
 from heartfit.io.text import parsing, read_json, read_text, require_file
 
 EXPECTED = "the template of a biv-me fit"

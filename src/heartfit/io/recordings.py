@@ -7,22 +7,38 @@ import numpy as np
 
 from heartfit.core.errors import InputError
 from heartfit.discovery.sphere_model.recording import Recording, Samples
-from heartfit.io.curves import read_sampled, stated_period
+from heartfit.heart.beat import Beat
+from heartfit.io.curves import read_sampled, spread_over, stated_period, write_table_of_curves
 
 MEASURED = "MEASURED.csv"
 """File name of the recording at rest in the folder of a planted case; other conditions are NAME.csv beside it."""
 
 
-def read_recording(path: Path, period: float | None = None) -> Recording:
+def read_recording(path: Path | str, period: float | None = None) -> Recording:
     """Read a recording in SI units; without ``period`` [s] the file states it.
 
     Raises InputError that names the file for samples that a recording refuses.
     """
+    path = Path(path)
     times, values, period = read_sampled(path, period)
     try:
         return Recording(period, {name: _samples(name, times, array) for name, array in values.items()})
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
+
+
+def write_recording(path: Path | str, recording: Recording | Beat) -> None:
+    """Write a recording, or a simulated beat from the R wave on, as a file that :func:`read_recording` reads.
+
+    Raises InputError for a failed beat.
+    """
+    if isinstance(recording, Beat):
+        recording = Recording.from_beat(recording)
+    times = np.unique(np.concatenate([samples.times for samples in recording.curves.values()]))
+    values = {
+        name: spread_over(times, samples.times, samples.values) for name, samples in recording.curves.items()
+    }
+    write_table_of_curves(Path(path), times, values, recording.period)
 
 
 def read_conditions(arguments: Iterable[str], period: float) -> dict[str, Recording]:

@@ -1,6 +1,6 @@
 """The headline of a diagnosis, and the lines below it: evidence beside its threshold, and what the sizes are."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -19,7 +19,7 @@ SILENT = ("none", "model")
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
     """Return the verdict as one sentence: "Missing mechanism: mitral regurgitation, 0.31 cm² (95 % CI ...)."."""
-    named = "; ".join(map(mechanism_with_size, sizes(diagnosis, diagnosis.mechanisms)))
+    named = "; ".join(map(mechanism_with_size, diagnosis.named))
     return {
         "none": f"No missing mechanism detected (none): {_silence(diagnosis)}.",
         "model": f"No missing mechanism detected (model): {_silence(diagnosis)}. The misfit is of the size and shape "
@@ -74,19 +74,6 @@ def strongest(diagnosis: Diagnosis) -> tuple[str, float]:
     return max(diagnosis.ranking.items(), key=lambda item: item[1], default=("", float("nan")))
 
 
-def sizes(diagnosis: Diagnosis, causes: Sequence[Cause]) -> tuple[Cause, ...]:
-    """Return the named mechanisms, or those of a candidate, with the one size that is told of each.
-
-    It is that of the model in three dimensions where there was a refit, and from all samples where it was computed.
-    """
-    known = {cause.name: cause for cause in _from_all_samples(diagnosis)}
-    return tuple(known.get(cause.name, cause) for cause in causes)
-
-
-def _from_all_samples(diagnosis: Diagnosis) -> tuple[Cause, ...]:
-    return (diagnosis.refitted or diagnosis).from_all_samples
-
-
 def mechanism_with_size(cause: Cause) -> str:
     """Return a mechanism with its size, such as "mitral regurgitation, 0.31 cm² (95 % CI 0.24 to 0.39)"."""
     unit, factor = AMPLITUDE_UNITS.get(cause.unit, (cause.unit, 1.0))
@@ -130,7 +117,10 @@ def candidate_names(diagnosis: Diagnosis) -> str:
 def candidate_sentence(diagnosis: Diagnosis) -> str:
     """Return the leading explanation with its sizes, and by which rule it is not named."""
     assert diagnosis.candidate is not None
-    causes, beside = sizes(diagnosis, diagnosis.candidate.causes), diagnosis.candidate.beside_process
+    causes, beside = (
+        diagnosis.with_stated_sizes(diagnosis.candidate.causes),
+        diagnosis.candidate.beside_process,
+    )
     subject = "the pair" if len(causes) == 2 else "the mechanism"
     side = "above" if beside.over >= 0.0 else "below"
     rules = {
@@ -174,14 +164,14 @@ def size_lines(diagnosis: Diagnosis) -> Iterable[str]:
     """Yield what the size of each named mechanism measures, and from which samples and model it comes."""
     if diagnosis.verdict == "group":
         return
-    sized = sizes(diagnosis, diagnosis.mechanisms or candidate_causes(diagnosis))
+    sized = diagnosis.with_stated_sizes(diagnosis.mechanisms or candidate_causes(diagnosis))
     for cause in sized:
         kind = registered().get(cause.name)
         if kind is not None:
             yield f"Size of {spaced_name(cause.name)}: {kind.switch().meaning}."
     if sized:
         model = "the refit in three dimensions" if diagnosis.refitted else "the fit of the sphere"
-        final = _from_all_samples(diagnosis)
+        final = (diagnosis.refitted or diagnosis).from_all_samples
         samples = "all samples, after one half of them had judged" if final else "the samples that choose"
         yield f"Sizes are from {model} to {samples}."
 

@@ -1,6 +1,7 @@
 """Form that both atria share: their parameters, and the coefficients of their law."""
 
 from dataclasses import dataclass
+from math import inf
 
 from heartfit.core.parameter import parameter, require_admissible
 from heartfit.roles.chamber import Atrium
@@ -42,6 +43,7 @@ class ElasticAtrium(Chamber):
         symbol="V_s",
         meaning="volume over which the passive elastance grows e-fold",
         sd=0.5,
+        high=inf,  # of a linear wall
     )
     active: float = parameter(
         2e7, unit="Pa/m^3", symbol="E_{act}", meaning="active elastance at the peak of the kick", sd=0.6

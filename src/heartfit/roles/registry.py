@@ -24,6 +24,7 @@ from heartfit.roles.interfaces import (
     Sensor,
     Stress,
 )
+from heartfit.roles.requirements import require_complete
 
 ROLES: tuple[type[Mechanism], ...] = (
     *(Amendment, Attachment, Availability, Delay, Relaxation, Stress),
@@ -40,15 +41,21 @@ _REGISTRY: dict[str, type[Mechanism]] = {}
 
 
 def mechanism(cls: M) -> M:
-    """Register a mechanism under its class name.
+    """Register a mechanism under its class name; the same name of the same module, as of a cell run again, replaces.
 
-    Raises ``TypeError`` for a class without a role or without exactly one switch, and for a name that is registered.
+    Raises ``TypeError`` for a class without a role, for one that lacks what its role needs (a method, a compartment or
+    a valve that exists, exactly one switch), and for a name that another module has registered.
     """
     if not issubclass(cls, ROLES):
         raise TypeError(f"{cls.__name__} plays no role: derive it from one of {[r.__name__ for r in ROLES]}")
-    cls.switch()
-    if _REGISTRY.setdefault(cls.__name__, cls) is not cls:
-        raise TypeError(f"mechanism {cls.__name__} is registered twice: rename one of them")
+    other = _REGISTRY.get(cls.__name__, cls)
+    if other.__module__ != cls.__module__:
+        raise TypeError(
+            f"mechanism {cls.__name__} is registered twice, by {other.__module__} and {cls.__module__}: "
+            "rename one of them"
+        )
+    require_complete(cls)
+    _REGISTRY[cls.__name__] = cls
     return cls
 
 

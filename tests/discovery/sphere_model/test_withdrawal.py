@@ -128,6 +128,9 @@ class Searched:
     def problem(self, recording: Recording) -> SimpleNamespace:
         return SimpleNamespace(data=f"data of {recording}")
 
+    def far_parameters(self, effects: Effects) -> tuple[str, ...]:
+        return (f"far beside {' and '.join(effects)}",)
+
     def changes(self, effects: Effects) -> tuple[()]:
         return ()
 
@@ -203,6 +206,8 @@ def test_a_name_that_helps_in_every_test_is_kept(monkeypatch: pytest.MonkeyPatch
     assert (diagnosis.verdict, names(diagnosis), diagnosis.withdrawn) == ("named", LEAK, ())
     assert [cause.amplitude for cause in diagnosis.from_all_samples] == [2.0]
     assert [cause.amplitude for cause in diagnosis.mechanisms] == [1.0]
+    assert [cause.amplitude for cause in diagnosis.named] == [2.0]
+    assert diagnosis.warnings == ("far beside Leak",)
 
 
 @pytest.mark.parametrize(("gain", "kept"), [(3.9, DELAY), (2.5, DELAY + LEAK), (0.5, LEAK + DELAY)])

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from heartfit.core.errors import InputError
 from heartfit.heart.finite_elements.body import StepFailed, Tissue
 from heartfit.heart.finite_elements.unloading import inflate
 from heartfit.heart.sphere.body import Sphere, SphereState, SphericalBody, fibre_class_means
@@ -112,3 +113,11 @@ def test_fibre_classes_share_the_segments_in_their_order(classes: int) -> None:
     assert fibre_class_means(regional, classes, 1) == pytest.approx(left)
     assert sorted(fibre_class_means(regional, 17, 1)) == pytest.approx(regional[1:])
     assert fibre_class_means(regional, 8, 1)[0] == pytest.approx((81.0 + 64.0 + 0.125 * 14.0**2) / 2.125)
+
+
+@pytest.mark.parametrize(
+    ("cavity", "wall", "name"), [(120, 120, "cavity"), (1.2e-4, 120, "wall"), (0, 1e-4, "cavity")]
+)
+def test_volumes_in_another_unit_are_refused(cavity: float, wall: float, name: str) -> None:
+    with pytest.raises(InputError, match=rf"sphere: {name} = .* m\^3; expected .*: convert it to m\^3"):
+        Sphere.from_volumes(cavity, wall)

@@ -15,7 +15,7 @@ CONSISTENCY_MUTANTS = (
         ("a beat that does not close passes", "if gap > LARGEST_GAP:", "if gap > 10.0:"),
     ),
     *changes(
-        "discovery/sphere_model/recording.py",
+        "discovery/sphere_model/samples.py",
         TESTS,
         ("beats are not folded", "np.mod(samples.times, period)", "np.minimum(samples.times, period)"),
         ("rounding makes a bin of its own", "< ROUNDING * length", "< 0.0"),

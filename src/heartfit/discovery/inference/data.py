@@ -39,8 +39,9 @@ STRUCTURE_SCALES = (0.0, 0.25, 0.5, 1.0, 2.0)
 class Noise:
     """Noise of a curve in the unit of its values.
 
-    levels: standard deviations s that are tried; memory: tau [s]; roughness: r; roughness_memory: tau_r [s];
-    discrepancy: c; length: l [s].
+    levels: standard deviations s that are tried; memory: tau; roughness: r; roughness_memory: tau_r; discrepancy: c;
+    length: l; all times are in the unit of the block's. The default times are those of a heart beat in seconds:
+    :meth:`white` makes the noise of other data.
     """
 
     levels: tuple[float, ...]
@@ -50,6 +51,15 @@ class Noise:
     roughness_memory: float = 0.05
     length: float = 0.07
 
+    @classmethod
+    def white(cls, sd: float | Sequence[float], discrepancy: float, length: float) -> "Noise":
+        """Return independent noise of one standard deviation, or of several that are equally likely.
+
+        discrepancy, length: standard deviation and correlation length of what an unknown effect would do.
+        """
+        levels = tuple(float(level) for level in np.atleast_1d(sd))
+        return cls(levels, 0.0, 0.0, discrepancy, length, length)
+
     @property
     def middle(self) -> float:
         """The expected level of a measurement that does not exist yet."""
@@ -58,25 +68,39 @@ class Noise:
     def covariance(self, times: Floats, period: float, level: float) -> Floats:
         """Sigma (k, k) at one of the levels."""
         lags = np.abs(times[:, None] - times)
-        phases = np.abs(lags - period * np.round(lags / period))
+        phases = np.abs(lags - period * np.round(lags / period)) if np.isfinite(period) else lags
         instrument = np.exp(-lags / self.memory) if self.memory > 0.0 else np.eye(times.size)
         return level**2 * instrument + self.roughness**2 * np.exp(-phases / self.roughness_memory)
 
     def discrepancy_covariance(self, times: Floats, others: Floats, period: float) -> Floats:
         """K (k, m) between two sets of times."""
-        turn = np.sin(np.pi * (times[:, None] - others) / period) * period / (np.pi * self.length)
+        lags = times[:, None] - others
+        if not np.isfinite(period):
+            return self.discrepancy**2 * np.exp(-0.5 * (lags / self.length) ** 2)
+        turn = np.sin(np.pi * lags / period) * period / (np.pi * self.length)
         return self.discrepancy**2 * np.exp(-0.5 * turn**2)
 
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """One measured curve: its name, its unit, times (k,) [s], which may span several beats, and period [s]."""
+    """One measured curve: its name, its unit, and times (k,), which may span several periods.
+
+    period: in the unit of the times, [s] of a heart; infinite where nothing repeats.
+    """
 
     curve: str
     unit: str
     times: Floats
     period: float
     noise: Noise
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "times", np.asarray(self.times, dtype=float))
+        if not self.period > 0.0:
+            raise InputError(
+                f"block {self.curve}: period = {self.period:g}; expected a positive time, or math.inf where nothing "
+                "repeats: correct it"
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +118,7 @@ class Data:
     scales: tuple[float, ...] = STRUCTURE_SCALES
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "values", np.asarray(self.values, dtype=float))
         expected = sum(block.times.size for block in self.blocks)
         if self.values.shape != (expected,):
             raise InputError(f"data: {self.values.shape} values; expected ({expected},), one for each time")

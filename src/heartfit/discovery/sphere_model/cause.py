@@ -1,6 +1,6 @@
 """The result of a diagnosis: verdict, causes with their sizes, and their gains on held-out samples."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -21,6 +21,13 @@ class Cause:
     amplitude: float
     unit: str
     interval: tuple[float, float]
+
+    def __str__(self) -> str:
+        low, high = self.interval
+        return (
+            f"{self.name} {self.amplitude:.3g} {self.unit} ({low:.3g} to {high:.3g}), "
+            f"ln Bayes factor {self.ln_bayes_factor:.1f}"
+        )
 
 
 @dataclass(frozen=True)
@@ -203,12 +210,13 @@ ShownModel = Literal["sphere", "3-D heart"]
 """The model of the search, or the refitted one."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Diagnosis:
     """The verdict and its grounds.
 
-    - mechanisms: the named causes, all members of a group; alternatives: sets of mechanisms that the data cannot tell
-      from the best; withdrawn: names that did not help on held-out data.
+    - mechanisms: the named causes, all members of a group, with their sizes in the samples that chose them;
+      alternatives: sets of mechanisms that the data cannot tell from the best; withdrawn: names that did not help on
+      held-out data.
     - threshold: the least ln Bayes factor of a detection; ranking: ln Bayes factors over the baseline of every single
       mechanism and, as "unknown", of a GP discrepancy.
     - candidate: the leading explanation where it is detected but not named, None otherwise.
@@ -230,7 +238,8 @@ class Diagnosis:
     - read_twice: standard deviation of the noise [SI] of curves that were read twice.
     - model, free_parameters: whose curves the traces show, and how many parameters it has free without a cause, 0 where
       it is not told.
-    - warnings: numbers of the recording outside the range of living ventricles, one sentence each.
+    - warnings: numbers of the recording outside the range of living ventricles, and parameters that were fitted far
+      outside their priors, one sentence each.
     - margin: the smallest change of one ln Z that changes the decision of the search; None if it is not close.
     - fits: of the curves about the 3-D model without a cause, empty where none was refitted.
     """
@@ -265,6 +274,19 @@ class Diagnosis:
     candidate: UnnamedCandidate | None = None
     fits: tuple[CurveFit, ...] = ()
     margin: Margin | None = None
+
+    @property
+    def named(self) -> tuple[Cause, ...]:
+        """The mechanisms with the one size that the card states of each: from all samples where it was computed."""
+        return self.with_stated_sizes(self.mechanisms)
+
+    def with_stated_sizes(self, causes: Sequence[Cause]) -> tuple[Cause, ...]:
+        """Return causes with the size of the 3-D model where there was a refit, from all samples where computed."""
+        stated = {cause.name: cause for cause in (self.refitted or self).from_all_samples}
+        return tuple(stated.get(cause.name, cause) for cause in causes)
+
+    def __repr__(self) -> str:
+        return f"Diagnosis({', '.join([self.verdict, *map(str, self.named)])})"
 
 
 CLEAR_DEVIATIONS = 2.0

@@ -29,7 +29,9 @@ def diagnose(
     places: Sequence[type[Place]] = (),
     left_out: Collection[str] = (),
 ) -> Diagnosis:
-    """Diagnose the effects that the model of the heart lacks to explain the recording.
+    """Diagnose the effects that the model of the heart lacks to explain the recording; see ``heartfit.diagnose``.
+
+    This function of the workflow trusts the model by default, the public one does not.
 
     conditions: recordings of the same heart under other loading, by name; only the loading is fitted to them. nominal:
     a sphere that was fitted to a beat of the 3-D model; the adult's, scaled to the recorded size, if None. unseen:
@@ -97,7 +99,7 @@ def conclude(
         tried=case.tried(),
         samples=case.data.values.size,
         from_all_samples=case.sizes_from_all_samples(kept),
-        warnings=warnings,
+        warnings=(*warnings, *case.far_parameters(best)),
         structural_scale=case.findings.structural_scale,
         changes=case.changes(best),
         strokes=Strokes.from_recording(case.recording),

@@ -11,12 +11,13 @@ Where the volume of the right ventricle is searched, too, a second sphere adds t
 pressures of the atria both sides share the muscle and its control, and nothing else.
 """
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from math import sqrt
 from operator import add
 
+from heartfit.calibration.gaussian import Gaussian
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.free_parameters import (
     FREE_PARAMETERS,
@@ -78,9 +79,11 @@ class RightVolumeGain(Sensor):
         return self.gain * values
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class NominalHeart:
     """A heart whose left ventricle is a sphere: volumes of its stress-free cavity and of its wall [m^3].
+
+    ``nominal + mechanism``, ``parameters()`` and ``with_parameters()`` act on its :class:`heartfit.heart.heart.Heart`.
 
     filled: end-diastolic volume [m^3]; inertia: of wall and valves, which the heart itself leaves out; spread: duration
     of the activation over that of a healthy sphere; stands_for: whom the priors of the free parameters describe; right:
@@ -95,6 +98,35 @@ class NominalHeart:
     spread: float = 1.0
     stands_for: Standing = "person"
     right: RightSphere | None = None
+
+    def __add__(self, mechanism: Mechanism) -> "NominalHeart":
+        return replace(self, heart=self.heart + mechanism)
+
+    def __repr__(self) -> str:
+        sides = "left ventricle" if self.right is None else "both ventricles"
+        return f"NominalHeart({sides}, filled to {1e6 * self.filled:.0f} mL; {self.heart!r})"
+
+    @property
+    def sensors(self) -> tuple[Sensor, ...]:
+        """Mechanisms of the heart that distort the measurements."""
+        return self.heart.sensors
+
+    def parameters(self) -> dict[str, float]:
+        """Parameters of the heart by path [SI]."""
+        return self.heart.parameters()
+
+    def with_parameters(self, values: Mapping[str, float]) -> "NominalHeart":
+        """Copy with the parameters ``values`` of the heart replaced; raises KeyError as its method does."""
+        return replace(self, heart=self.heart.with_parameters(values))
+
+    def prior(self, relative_sd: Mapping[str, float]) -> Gaussian:
+        """Log-normal prior of some parameters: their values here as medians, and relative standard deviations.
+
+        Raises KeyError for an unknown parameter, and ValueError for a median or a deviation that is not positive.
+        """
+        values = self.heart.parameters()
+        medians = {name: values[self.heart.parameter_path(name)] for name in relative_sd}
+        return Gaussian.from_relative(medians, relative_sd)
 
     @property
     def free(self) -> tuple[FreeParameter, ...]:
@@ -214,6 +246,14 @@ WITH_RIGHT = replace(
 )
 """The adult with a right ventricle: EDV 159 mL, ESV 66 mL, so that both strokes agree to 1 mL; peak pressure 2.8 kPa,
 mean pressure of the pulmonary artery 1.8 kPa (13 mmHg; 14 in people, Kovacs et al. 2009)."""
+
+
+def adult(both_ventricles: bool = False) -> NominalHeart:
+    """Return an adult at rest with spherical ventricles: the left one, or both.
+
+    Of the left ventricle: end-diastolic volume 151 mL, end-systolic volume 58 mL, peak pressure 15.4 kPa.
+    """
+    return WITH_RIGHT if both_ventricles else ADULT
 
 
 def perturb(nominal: NominalHeart, x: Floats, near: Heart | None = None) -> NominalHeart:

@@ -6,7 +6,7 @@ is one of some levels, equally likely. Volumes err by 1 to 6 % of the end-diasto
 catheter's samples by 0.3 kPa each. Roughness is the residual of any model, discrepancy that of a wrong one.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Self
 
@@ -15,8 +15,15 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.core.errors import InputError
 from heartfit.discovery.inference.data import Block, Data, Noise
+from heartfit.discovery.sphere_model.samples import BIN as BIN
+from heartfit.discovery.sphere_model.samples import ROUNDING
+from heartfit.discovery.sphere_model.samples import Samples as Samples
+from heartfit.discovery.sphere_model.samples import averaged_by_phase as averaged_by_phase
+from heartfit.heart.beat import Beat
+from heartfit.observation.beat import beat_curves
 from heartfit.observation.curve import Curve, require_pressures, require_volumes
 from heartfit.observation.second_reading import FrameNoise
+from heartfit.roles import Sensor
 
 KNOWN_CURVES = ("lv_volume", "lv_pressure", "aorta_pressure", "rv_volume", "rv_pressure")
 """Curves that a recording may contain."""
@@ -35,47 +42,7 @@ HUMAN_PERIODS = (0.25, 2.5)
 """Periods of a human heart [s]."""
 
 
-@dataclass(frozen=True, eq=False)
-class Samples:
-    """Values (k,) [SI] at increasing times (k,) [s after a trigger]; times beyond the period belong to later beats.
-
-    Raises InputError unless shapes agree, times increase and all numbers are finite.
-    """
-
-    times: Floats
-    values: Floats
-
-    def __post_init__(self) -> None:
-        if self.times.ndim != 1 or self.times.shape != self.values.shape:
-            raise InputError(
-                f"{self.times.shape} times and {self.values.shape} values; expected one value a time"
-            )
-        if not (np.isfinite(self.times).all() and np.isfinite(self.values).all()):
-            raise InputError("a time or a value is not finite: leave the sample out")
-        back = np.flatnonzero(np.diff(self.times) <= 0.0)
-        if back.size:
-            before, after = self.times[back[0]], self.times[back[0] + 1]
-            raise InputError(
-                f"time goes from {before:g} s to {after:g} s; expected increasing times: sort them"
-            )
-
-    @classmethod
-    def from_curve(cls, curve: Curve) -> Self:
-        """Return the samples of a curve."""
-        return cls(curve.times, curve.values)
-
-    def part(self, kept: np.ndarray) -> "Samples":
-        """The samples that the mask (k,) keeps."""
-        return Samples(self.times[kept], self.values[kept])
-
-    def merged(self, others: "Samples") -> "Samples":
-        """These samples and others, in the order of time."""
-        times = np.concatenate([self.times, others.times])
-        order = np.argsort(times)
-        return Samples(times[order], np.concatenate([self.values, others.values])[order])
-
-
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Recording:
     """Curves by name, as in ``KNOWN_CURVES``, of a heart that beats with the ``period`` [s].
 
@@ -89,6 +56,24 @@ class Recording:
     noise: Mapping[str, FrameNoise] = field(default_factory=dict)
     unsearched: Mapping[str, str] = field(default_factory=lambda: UNSEARCHED)
     balanced: bool = False
+
+    @classmethod
+    def from_beat(cls, beat: Beat, sensors: Sequence[Sensor] = ()) -> Self:
+        """Return the recording of a simulated beat without noise, its time zero at the R wave, as the sensors show it.
+
+        Raises InputError for a failed beat.
+        """
+        if not beat.completed:
+            raise InputError(f"recording: the beat failed ({beat.reason}); expected one that was completed")
+        curves = beat_curves(beat, sensors)
+        return cls(
+            beat.period,
+            {
+                name: Samples.from_curve(curves[name]).from_trigger(beat.period)
+                for name in KNOWN_CURVES
+                if name in curves
+            },
+        )
 
     @classmethod
     def from_curves(cls, curves: Mapping[str, Curve]) -> Self:
@@ -106,6 +91,10 @@ class Recording:
             raise InputError(f"no lv_volume among {', '.join(self.curves) or 'no curves'}: record it")
         for name, samples in self.curves.items():
             self._check(name, samples)
+
+    def __repr__(self) -> str:
+        counts = (f"{name} {samples.times.size} samples" for name, samples in self.curves.items())
+        return f"Recording({self.period:g} s: {', '.join(counts)})"
 
     def _check(self, name: str, samples: Samples) -> None:
         if name not in KNOWN_CURVES:
@@ -171,6 +160,13 @@ class Recording:
         """The curves that a search explains."""
         return tuple(name for name in KNOWN_CURVES if name in self.curves and name not in self.unsearched)
 
+    def curve(self, name: str) -> Curve:
+        """One beat of a curve; samples of several beats are averaged over 10 ms of the phase."""
+        samples = self.curves[name]
+        if np.ptp(samples.times) >= self.period * (1.0 - ROUNDING):
+            samples = averaged_by_phase(samples, self.period, BIN)
+        return Curve(samples.times, samples.values, self.period)
+
     def end_diastolic_volume(self, name: str = "lv_volume") -> float:
         """End-diastolic volume of a ventricle [m^3]: mean of the largest tenth of its volumes."""
         values = np.sort(self.curves[name].values)
@@ -190,10 +186,6 @@ def _first_half(name: str, samples: Samples, period: float) -> np.ndarray:
     return np.floor(samples.times / BLOCK).astype(int) % 2 == 0
 
 
-BIN = 0.010
-"""Length of the bins over which pressure is averaged [s]."""
-ROUNDING = 1e-6
-"""Rounding of times, over the bin: a sample on the edge belongs to the later bin."""
 VOLUME_LEVELS, VOLUME_MEMORY = (0.008, 0.0133, 0.02, 0.028, 0.04, 0.056), 0.065
 """Noise levels of a frame over the end-diastolic volume, and their memory [s]."""
 PRESSURE_LEVELS = (50.0, 100.0, 200.0)
@@ -233,20 +225,6 @@ def _average(recording: Recording, name: str) -> Samples:
     if name.endswith("_volume") or not _needs_averaging(samples, recording.period):
         return samples
     return averaged_by_phase(samples, recording.period, BIN)
-
-
-def averaged_by_phase(samples: Samples, period: float, length: float) -> Samples:
-    """Return the means of the samples of all beats in bins of this length [s] of the phase; empty bins are left out.
-
-    A sample that rounding puts before the end of a beat belongs to the first bin of the next one.
-    """
-    phases = np.mod(samples.times, period)
-    phases = np.where(period - phases < ROUNDING * length, phases - period, phases)
-    places = np.floor(phases / length + ROUNDING).astype(int)
-    counts = np.bincount(places)
-    held = counts > 0
-    times, values = (np.bincount(places, column)[held] / counts[held] for column in (phases, samples.values))
-    return Samples(times, values)
 
 
 def _needs_averaging(samples: Samples, period: float) -> bool:

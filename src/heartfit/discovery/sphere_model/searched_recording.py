@@ -43,6 +43,8 @@ VOLUME_ALONE = ("lv_volume",)
 VOLUME_ONLY_THRESHOLD = 10.0
 """ln Bayes factor that a recording of the volume alone must give: it shows one in nine of the effects that pressure
 reveals, and an instrument explains a single curve as well as a heart does."""
+FAR = 4.0
+"""Standard deviations of its prior beyond which a fitted parameter hints at a mistake in the recording."""
 NAMING_VERDICTS = ("named", "two", "group")
 
 
@@ -200,6 +202,16 @@ class SearchedRecording:
             if parameter is not FREE_PARAMETERS[TIME_SHIFT_INDEX] and abs(mean) > CLEAR_DEVIATIONS * sd
         ]
         return tuple(change for _, change in sorted(clear, key=lambda entry: -entry[0]))
+
+    def far_parameters(self, effects: Effects) -> tuple[str, ...]:
+        """One sentence for each parameter that was fitted, beside these effects, far outside its prior."""
+        fitted = zip(self.model.nominal.free, self.findings.explanation(effects).fit.x, strict=False)
+        return tuple(
+            f"{parameter.name} is fitted {x:+.1f} standard deviations from its expected value, expected at most "
+            f"{FAR:g}: check {'that time zero is the R wave' if place == TIME_SHIFT_INDEX else 'units and columns'}"
+            for place, (parameter, x) in enumerate(fitted)
+            if abs(x) > FAR
+        )
 
     def ranking(self) -> dict[str, float]:
         """ln Bayes factors over the baseline, in descending order."""

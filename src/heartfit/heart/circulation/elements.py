@@ -72,7 +72,13 @@ class SeriesValve(LinearValve):
     The one loses by viscosity alone, the other by inertia alone; a real valve by both.
     """
 
-    area: float = parameter(4e-4, unit="m^2", symbol="A", meaning="effective orifice area of the open valve")
+    area: float = parameter(
+        4e-4,
+        unit="m^2",
+        symbol="A",
+        meaning="effective orifice area of the open valve",
+        high=math.inf,  # of a valve that loses by viscosity alone
+    )
 
     def law(self) -> Branch:
         return super().law().with_narrowing(self.area**-2)

@@ -20,6 +20,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
 from heartfit.geometry.territory import ACTIVATION_ORDER
 from heartfit.heart.finite_elements.body import StepFailed, Tissue
 from heartfit.heart.muscle.bcs import Drive
@@ -28,6 +29,9 @@ from heartfit.heart.time_step import STATIC_STEP, TimeStep
 
 HEALTHY_ACTIVATION = np.linspace(0.0, 0.07, 8)
 """Activation times of the fibre classes in a healthy QRS complex [s]."""
+
+SMALLEST_VOLUME, LARGEST_VOLUME = 1e-7, 1e-2
+"""Bounds of the volumes of a cavity and of a wall [m^3]: 0.1 mL to 10 L."""
 
 SMALLEST_STRETCH, LARGEST_STRETCH = 0.4, 2.0
 """Bounds of admissible stretches."""
@@ -43,7 +47,16 @@ class Sphere:
     @classmethod
     @lru_cache(maxsize=64)
     def from_volumes(cls, cavity: float, wall: float) -> "Sphere":
-        """Sphere with the volumes ``cavity`` and ``wall`` [m^3]; kept, since many hearts of a search share it."""
+        """Sphere with the volumes ``cavity`` and ``wall`` [m^3]; kept, since many hearts of a search share it.
+
+        Raises InputError for volumes that no ventricle has.
+        """
+        for name, volume in (("cavity", cavity), ("wall", wall)):
+            if not SMALLEST_VOLUME <= volume <= LARGEST_VOLUME:
+                raise InputError(
+                    f"sphere: {name} = {volume:g} m^3; expected {SMALLEST_VOLUME:g} to {LARGEST_VOLUME:g} m^3: "
+                    "convert it to m^3, 1 mL = 1e-6 m^3"
+                )
         radius = brentq(lambda r: _cavity_volume(r, wall / (4.0 * np.pi * r * r), 1.0) - cavity, 1e-3, 1.0)
         return cls(radius, wall / (4.0 * np.pi * radius**2))
 

@@ -36,7 +36,7 @@ SHIFTED_ROWS = [time + row for time in (rows.NOW, rows.BEFORE, rows.OLDER) for r
 
 def simulate_spheres(
     heart: Heart,
-    spheres: Sequence[Sphere],
+    spheres: Sphere | Sequence[Sphere],
     numerics: Numerics | None = None,
     activation: Floats = HEALTHY_ACTIVATION,
     inertia: Inertia | None = None,
@@ -50,6 +50,7 @@ def simulate_spheres(
     """
     numerics = numerics or Numerics()
     inertia = inertia or Inertia()
+    spheres = [spheres] if isinstance(spheres, Sphere) else spheres
     return simulate_spherical(
         SphericalHeart(heart, spheres, activation, inertia, numerics.second_order), numerics
     )
