@@ -26,7 +26,7 @@ NONE, LEAKING = Extension(PLAIN), Extension.from_names(PLAIN, "MitralRegurgitati
 SLOPES = np.random.default_rng(5).standard_normal((12, 3))
 TRUTH = np.array([0.6, -0.4, 1.2])
 NOISE = 0.2**2 * np.eye(12)
-WITHIN = 0.1
+WITHIN = 0.3
 """Predicted decrease of the objective that ends a refit."""
 
 

@@ -63,6 +63,7 @@ class Schedule:
     """Lengths of steps, corrections of the Jacobian, and stopping criteria.
 
     - objective_tolerance: a step with a smaller predicted decrease [ln Z] ends the descent.
+    - least_decrease: so does a step after which the objective is lower by less [ln Z].
     - damping: the least lambda, over the curvature of the prior, 1; a failed step multiplies lambda by ten, a step down
       divides it by ten.
     - step_tolerance: an undamped step below it in every coordinate ends the descent [prior standard deviations].
@@ -82,6 +83,7 @@ class Schedule:
     full_near_end: bool = False
     correct_on_failure: bool = False
     active_set: bool = False
+    least_decrease: float = 0.0
 
 
 LONGEST_STEP = 1.5
@@ -187,11 +189,14 @@ class Descent:
             self._reject()
 
     def _accept(self, x: Floats, predicted: Floats, objective: float) -> None:
+        decrease = self.objective - objective
         self.x, self.predicted, self.objective = x, predicted, objective
         self.damping, self.steps = max(0.1 * self.damping, self.schedule.damping), self.steps + 1
         self.fresh = self.differences is None
         if self.steps == self.schedule.jacobian_refresh:
             self._refresh()
+        if decrease < self.schedule.least_decrease:
+            self.ended = self.converged = True
 
     def _reject(self) -> None:
         if self.fresh:

@@ -34,9 +34,16 @@ from heartfit.heart.beat import Beat
 from heartfit.observation.beat import beat_curves
 
 SCHEDULE = Schedule(
-    0.1, 0.1, longest_step=LONGEST_STEP, jacobian_refresh=1, full_near_end=True, active_set=True
+    0.3,
+    0.1,
+    longest_step=LONGEST_STEP,
+    jacobian_refresh=1,
+    full_near_end=True,
+    active_set=True,
+    least_decrease=0.3,
 )
-"""Steps with slopes of their own, until these predict a decrease of less than 0.1, which changes no verdict."""
+"""Steps with slopes of their own, until one is predicted to lower the objective, or lowers it, by less than 0.3, which
+changes no verdict."""
 
 
 @dataclass(frozen=True, eq=False)
