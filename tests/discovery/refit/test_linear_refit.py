@@ -144,6 +144,15 @@ def test_every_step_has_slopes_of_its_own(monkeypatch: pytest.MonkeyPatch) -> No
     assert fit.objective < 0.5 * TRUTH @ TRUTH + 0.1
 
 
+def test_slopes_that_cost_too_much_are_corrected_instead(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "SLOPE_BEATS", 1)
+    negative = target(TRUTH * [1.0, 1.0, -1.0])
+    fit = refit(LEAKING, run, negative, negative, 20)
+    assert fit.converged
+    assert fit.slopes == pytest.approx(SLOPES), "of a linear model these stay right"
+    assert 1 + 1 + 3 < fit.simulations < 1 + 1 + 3 + 10, "slopes once, then a beat for each step"
+
+
 def test_the_final_posterior_is_that_of_all_samples_whatever_half_was_fitted() -> None:
     complete = target()
     half = Target({"lv_volume": complete.samples["lv_volume"].part(np.arange(12) % 2 == 0)}, NOISE[:6, :6])

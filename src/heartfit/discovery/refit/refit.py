@@ -44,6 +44,9 @@ SCHEDULE = Schedule(
 )
 """Steps with slopes of their own, until one is predicted to lower the objective, or lowers it, by less than 0.3, which
 changes no verdict."""
+SLOPE_BEATS = 60
+"""Beats of one refit after which slopes are corrected instead of renewed: where a tangent-linear beat fails, each slope
+costs one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +56,7 @@ class Refit:
     misfit: r^T R^-1 r of n samples at the estimate; objective: the minimised function; log_evidence: up to a
     constant of the samples; simulations: number of beats, a tangent-linear one counting once; converged: no step was
     predicted to lower the objective; predicted (n,), slopes (n, d): of the samples at the estimate; complete_slopes
-    (m, d): there, of both halves of the samples, NaN where a neighbouring beat failed.
+    (m, d): of both halves of the samples, where slopes were last renewed, NaN where a neighbouring beat failed.
     """
 
     names: tuple[str, ...]
@@ -154,24 +157,28 @@ def _descend(forward: "_Forward", start: Floats, most: int) -> Refit:
 class _Forward:
     """Prediction of the fitted samples (n,) by an extension at coordinates (d,); None if its beat fails.
 
-    complete_slopes (m, d): of both halves of the samples, where slopes were last asked for.
+    complete_slopes (m, d): of both halves of the samples, where slopes were last renewed.
     """
 
     def __init__(self, extension: Extension, run: Simulator, target: Target, complete: Target) -> None:
         self.extension, self.run, self.target, self.complete = extension, run, target, complete
-        self.simulations, self.complete_slopes = 0, np.empty((0, 0))
+        self.simulations = self.slope_beats = 0
+        self.complete_slopes = np.empty((0, 0))
 
     def __call__(self, x: Floats) -> Floats | None:
         self.simulations += 1
         return self._samples(self.run(self.extension, self.extension.parameters(x)), x, self.target)
 
     def slopes(self, x: Floats, _predicted: Floats, known: Floats) -> Floats:
-        """Slopes (n, d) at the coordinates (d,), the known ones (n, d) where a neighbouring beat fails.
+        """Slopes (n, d) at the coordinates (d,), the known ones (n, d) where there is no beat or too many were run.
 
         Raises CalibrationError if the beat at the coordinates fails.
         """
+        if self.slope_beats >= SLOPE_BEATS:
+            return known
         around = self.run.nearby(self.extension, x)
         self.simulations += around.simulations
+        self.slope_beats += around.simulations
         beats, points = (around.centre, *around.others), points_around(x, around.step)
         centre, *others = (
             self._samples(beat, point, self.complete) for beat, point in zip(beats, points, strict=True)
