@@ -22,7 +22,8 @@ def test_the_page_is_that_of_the_parsers(reference):
     assert reference.PAGE.read_text(encoding="utf-8") == reference.page(), "python docs/command_line.py"
 
 
-def test_every_option_of_the_help_is_on_the_page(reference, capsys):
+def test_every_option_of_the_help_is_on_the_page(reference, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "1000")  # no option is broken at a hyphen
     with pytest.raises(SystemExit):
         command_parser().parse_args(["diagnose", "--help"])
     options = set(re.findall(r"--[\w-]+", capsys.readouterr().out)) - {"--help"}
