@@ -79,6 +79,9 @@ def test_a_parameter_of_an_absent_mechanism_names_the_mechanism() -> None:
         Heart().with_parameters({"MitralRegurgitation.area": 1e-5})
     with pytest.raises(KeyError, match=r"is unknown; heart\.parameters\(\) lists all"):
         Heart().with_parameters({"zzzzzzzz": 1.0})
+    leaking = Heart() + MitralRegurgitation()
+    with pytest.raises(KeyError, match=r"is unknown; MitralRegurgitation has MitralRegurgitation\.area"):
+        leaking.with_parameters({"MitralRegurgitation.gradient": 1.0})
 
 
 def test_a_mechanism_of_the_same_name_is_replaced() -> None:

@@ -114,6 +114,9 @@ def _resolve_path(name: str, parameters: Mapping[str, float]) -> str:
 
 def _unknown(name: str, parameters: Mapping[str, float]) -> str:
     kind = name.split(".")[0]
+    own = [path for path in parameters if path.startswith(f"{kind}.")]
+    if own:
+        return f"is unknown; {kind} has {', '.join(own)}"
     if kind in registered():
         return f"is one of a mechanism that the heart lacks: add it, heart + {kind}()"
     near = get_close_matches(name, [path.rsplit(".", 1)[-1] for path in parameters] + list(parameters))
