@@ -247,6 +247,14 @@ def test_the_card_states_what_structure_lets_the_simulation_err():
     assert "Difference of structure" not in markdown_card(diagnosis("none"), "heart")
 
 
+def test_a_card_whose_mechanism_needs_no_structure_says_so():
+    """The scale is that of the fit without a mechanism: the sizes beside it were once those with it, 0 mL."""
+    none = replace(TRACE, structure=np.zeros(20))
+    text = markdown_card(diagnosis("named", (LEAK,), traces=(none,), structural_scale=1.0), "heart")
+    assert "(scale 1); with the mechanism it needs none" in text
+    assert " 0 mL" not in text.partition("Difference of structure")[2].partition("##")[0]
+
+
 def test_the_figure_shows_the_band_of_structure():
     allowed = replace(TRACE, structure=np.full(20, 1.5e-6))
     figure = plot_cause(diagnosis("model", traces=(allowed,), structural_scale=0.5))

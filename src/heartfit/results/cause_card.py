@@ -51,6 +51,13 @@ def structure_text(diagnosis: Diagnosis) -> str:
         if trace.structure is not None
         for unit, size in [printed_curve_unit(trace.curve)]
     ]
+    allowed = any(np.any(trace.structure) for trace in diagnosis.traces if trace.structure is not None)
+    if diagnosis.mechanisms and not allowed:
+        return (
+            "## Difference of structure\n\nWithout a mechanism the fit takes up a misfit like that of healthy hearts "
+            f"of other simulators, the controls or the earlier recording (scale {diagnosis.structural_scale:g}); with "
+            "the mechanism it needs none."
+        )
     return (
         "## Difference of structure\n\nHealthy hearts of other simulators, the controls or the earlier recording let "
         f"this simulation err by {' and '.join(sizes)} (root mean square; scale {diagnosis.structural_scale:g}). A "
