@@ -13,6 +13,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from math import inf
 
 import numpy as np
@@ -62,21 +63,25 @@ class Ensemble:
     @classmethod
     def of(cls, stored: Tables, members: Sequence[Tables]) -> "Ensemble":
         """Return the ensemble of the tables of at least two runs, whose cells are those of stored tables."""
-        held = {name: table for name, table in stored.items() if name not in UNHELD}
+        return cls._of_moves(stored, [_held_moves(stored, tables) for tables in members])
+
+    @classmethod
+    def _of_moves(cls, stored: Tables, moves: Sequence[Sequence[Move]]) -> "Ensemble":
+        """Return the ensemble of runs by the cells in which each differs from stored tables."""
         printed: dict[Cell, list[str]] = defaultdict(list)
         reshaped: Counter[str] = Counter()
         before: dict[Cell, str] = {}
-        for tables in members:
-            for move in find_moves(held, tables):
-                printed[move.cell].append(move.now)
-                before[move.cell] = move.before
-                reshaped[move.cell[0]] += not move.cell[2]
+        for move in chain.from_iterable(moves):
+            printed[move.cell].append(move.now)
+            before[move.cell] = move.before
+            reshaped[move.cell[0]] += not move.cell[2]
         for (table, row, column), texts in printed.items():
-            same_form = len(members) - (reshaped[table] if column else 0)
+            same_form = len(moves) - (reshaped[table] if column else 0)
             texts += [before[table, row, column]] * (same_form - len(texts))
-        tested = sum(len(numbers(text)) for table in held.values() for text in table.to_numpy().ravel())
+        held = (table for name, table in stored.items() if name not in UNHELD)
+        tested = sum(len(numbers(text)) for table in held for text in table.to_numpy().ravel())
         spreads = {cell: _spreads(cell, texts) for cell, texts in printed.items()}
-        return cls(len(members), tested, spreads)
+        return cls(len(moves), tested, spreads)
 
     def holds(self, move: Move) -> bool:
         """True if a cell that differs from the stored one is one of this ensemble, as far as can be told."""
@@ -128,12 +133,17 @@ class Ensemble:
 
 def leave_one_out(stored: Tables, members: Mapping[str, Tables]) -> dict[str, list[Move]]:
     """Return of each member the cells that lie outside the ensemble of the others."""
+    moves = {name: _held_moves(stored, tables) for name, tables in members.items()}
     outside: dict[str, list[Move]] = {}
-    for name, tables in members.items():
-        others = Ensemble.of(stored, [other for key, other in members.items() if key != name])
-        held = {key: table for key, table in stored.items() if key not in UNHELD}
-        outside[name] = [move for move in find_moves(held, tables) if not others.holds(move)]
+    for name, own in moves.items():
+        others = Ensemble._of_moves(stored, [other for key, other in moves.items() if key != name])
+        outside[name] = [move for move in own if not others.holds(move)]
     return outside
+
+
+def _held_moves(stored: Tables, tables: Tables) -> list[Move]:
+    """Cells of the tables of which a member tells something that differ from the stored ones."""
+    return find_moves({name: table for name, table in stored.items() if name not in UNHELD}, tables)
 
 
 def _read(cell: Cell, text: str) -> tuple[str, list[float]]:
