@@ -1,8 +1,10 @@
-"""Syntax trees of the sources, each parsed once for all tests that read it, and not before."""
+"""Sources that tests read: syntax trees, each parsed once and not before, and scripts outside the package."""
 
 import ast
 from functools import cache
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from types import ModuleType
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "heartfit"
@@ -23,3 +25,13 @@ def trees_below(folder: Path) -> dict[str, ast.Module]:
 def nodes(tree: ast.AST) -> tuple[ast.AST, ...]:
     """All nodes of a syntax tree."""
     return tuple(ast.walk(tree))
+
+
+def script(path: str) -> ModuleType:
+    """Module of a script outside the package, executed anew; path: relative to the checkout."""
+    spec = spec_from_file_location(Path(path).stem, ROOT / path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

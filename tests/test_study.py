@@ -2,22 +2,19 @@
 
 import subprocess
 import sys
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 import pytest
 
 from tests.printed import numbers_in
+from tests.sources import script
 
 ROOT = Path(__file__).parents[1]
 
 
 @pytest.fixture
 def study():
-    spec = spec_from_file_location("study", ROOT / "study.py")
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("study.py")
 
 
 def test_the_script_imports_the_standard_library_only():

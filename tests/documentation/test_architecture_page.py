@@ -1,12 +1,11 @@
 """The page of the architecture shows the rooms and the imports of the sources, and names files that exist."""
 
-import importlib.util
 import re
 
 import pytest
 
 from tests.documentation.blocks import ROOT
-from tests.sources import PACKAGE, trees_below
+from tests.sources import PACKAGE, script, trees_below
 from tests.test_architecture import ROOMS, imported_rooms, room_of
 
 PAGE = ROOT / "docs" / "architecture.md"
@@ -16,10 +15,7 @@ ROW = re.compile(r"^ *\d+ +(\d+)  (\w+) *([x.]*)$", re.MULTILINE)
 
 @pytest.fixture(scope="module")
 def rooms():
-    spec = importlib.util.spec_from_file_location("rooms", ROOT / "docs" / "rooms.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("docs/rooms.py")
 
 
 def drawn_arrows(text):

@@ -1,21 +1,17 @@
 """The reference page of the command line is what the parsers of the commands say."""
 
 import argparse
-import importlib.util
 import re
 
 import pytest
 
 from heartfit.cli.main import command_parser
-from tests.documentation.blocks import ROOT
+from tests.sources import script
 
 
 @pytest.fixture(scope="module")
 def reference():
-    spec = importlib.util.spec_from_file_location("command_line", ROOT / "docs" / "command_line.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("docs/command_line.py")
 
 
 def test_the_page_is_that_of_the_parsers(reference):

@@ -1,6 +1,5 @@
 """Pages print the stored results, which are the reference results of the study; each is printed."""
 
-import importlib.util
 import re
 from itertools import pairwise
 from pathlib import Path
@@ -8,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from heartfit.io.tables import read_published
+from tests.sources import script
 
 ROOT = Path(__file__).parents[2]
 WHICH_DATA = ROOT / "docs" / "which_data.md"
@@ -15,10 +15,7 @@ WHICH_DATA = ROOT / "docs" / "which_data.md"
 
 @pytest.fixture(scope="module")
 def pages():
-    spec = importlib.util.spec_from_file_location("measured_pages", ROOT / "docs" / "measured_pages.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script("docs/measured_pages.py")
 
 
 def test_pages_print_the_stored_results(pages):

@@ -4,6 +4,8 @@ import runpy
 
 import pytest
 
+from heartfit.discovery.sphere_model import searched_recording
+from heartfit.discovery.sphere_model.forward_model import candidates
 from heartfit.roles import registry
 from tests.examples.pages import EXAMPLES
 
@@ -20,3 +22,16 @@ def run(tmp_path, monkeypatch, capsys):
         return capsys.readouterr().out
 
     return run_example
+
+
+TRIED = ("CatheterDelay", "ImageShrinkage", "MitralRegurgitation")
+
+
+@pytest.fixture
+def three_mechanisms(monkeypatch):
+    """A search of three mechanisms; all are tried where the pages run the command."""
+    monkeypatch.setattr(
+        searched_recording,
+        "candidates",
+        lambda model: {name: one for name, one in candidates(model).items() if name in TRIED},
+    )

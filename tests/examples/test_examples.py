@@ -7,14 +7,11 @@ import numpy as np
 import pytest
 
 import heartfit as hf
-from heartfit.discovery.sphere_model import searched_recording
-from heartfit.discovery.sphere_model.forward_model import candidates
 from heartfit.roles import registry
 from tests.examples.pages import EXAMPLES, PAGES, assert_shown
 from tests.sources import ROOT
 
 SCRIPTS = sorted(EXAMPLES.glob("*.py"))
-NAMES = ("CatheterDelay", "ImageShrinkage", "MitralRegurgitation")
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.name)
@@ -38,14 +35,8 @@ def test_a_leaking_heart_is_simulated_and_drawn(run, tmp_path):
     assert (tmp_path / "loops.png").stat().st_size > 10_000
 
 
-@pytest.mark.usefixtures("coarse_search")
-def test_the_recording_is_diagnosed(run, monkeypatch):
-    """Among three mechanisms; all are tried where the pages run the command."""
-    monkeypatch.setattr(
-        searched_recording,
-        "candidates",
-        lambda model: {name: one for name, one in candidates(model).items() if name in NAMES},
-    )
+@pytest.mark.usefixtures("coarse_search", "three_mechanisms")
+def test_the_recording_is_diagnosed(run):
     printed = run("diagnose.py")
     assert "verdict: named\nMitralRegurgitation: " in printed
     assert "check first" not in printed

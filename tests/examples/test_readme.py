@@ -6,10 +6,7 @@ import shlex
 import pytest
 
 from heartfit.cli import main as cli
-from heartfit.discovery.sphere_model import searched_recording
-from heartfit.discovery.sphere_model.forward_model import candidates
 from tests.examples.pages import EXAMPLES
-from tests.examples.test_examples import NAMES
 from tests.sources import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -17,13 +14,11 @@ RUN_HERE = re.compile(r"<!-- run by tests/examples/test_readme.py -->\n```(\w*)\
 BLOCKS = {language or "console": code for language, code in RUN_HERE.findall(README)}
 
 
+pytestmark = pytest.mark.usefixtures("coarse_search", "three_mechanisms")
+
+
 @pytest.fixture(autouse=True)
-def _few_mechanisms(monkeypatch, coarse_search, tmp_path):
-    monkeypatch.setattr(
-        searched_recording,
-        "candidates",
-        lambda model: {name: one for name, one in candidates(model).items() if name in NAMES},
-    )
+def _in_a_folder_with_the_examples(monkeypatch, tmp_path):
     (tmp_path / "examples").symlink_to(EXAMPLES)
     monkeypatch.chdir(tmp_path)
 

@@ -26,11 +26,11 @@ BEATS = 9
 SD = 0.1
 
 
-def fitted(extension: Extension, evidence: float, objective: float = 1.0) -> Refit:
+def fitted(extension: Extension, evidence: float) -> Refit:
     """A refit that ends with every mechanism at two scales."""
     x = extension.start(2.0)
     covariance = SD**2 * np.eye(x.size)
-    known = extension.names, x, covariance, extension.parameters(x), 1.0, objective, evidence
+    known = extension.names, x, covariance, extension.parameters(x), 1.0, 1.0, evidence
     return Refit(*known, 10, BEATS, True, x, covariance, covariance)
 
 

@@ -83,8 +83,6 @@ class Judge:
             raise CalibrationError("no beat")
         return fitted(extension, self.evidence[len(extension.added)])
 
-    continue_refit = extended
-
     def at(self, extension: Extension, fit: Refit) -> SimpleNamespace:
         return SimpleNamespace(extension=extension, refit=fit)
 
