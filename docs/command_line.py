@@ -28,10 +28,10 @@ def page() -> str:
 
 
 def _commands(parser: argparse.ArgumentParser) -> Iterator[tuple[str, argparse.ArgumentParser]]:
-    """Commands by name, without those that only say where they moved."""
+    """Commands by name."""
     for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction):
-            yield from ((name, command) for name, command in action.choices.items() if command.description)
+            yield from ((name, command) for name, command in action.choices.items())
 
 
 def _section(command: argparse.ArgumentParser) -> str:

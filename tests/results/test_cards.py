@@ -35,11 +35,11 @@ def test_an_interval_reaches_as_far_as_95_percent_of_its_own_posterior(cohort, r
 def test_the_table_has_a_row_per_parameter_and_no_verdict_without_a_truth(cohort):
     table = cards_table(cohort).set_index(["case", "parameter"])
     assert len(table) == 5 * 4 + 2 * 7
-    assert (table.loc["real", "weighed covered"] == "").all()
+    assert (table.loc["real", "noise-aware covered"] == "").all()
     assert table.loc["real", "truth"].isna().all()
     row = table.loc[("volunteer1", "R_p")]
-    assert row["seen"] == pytest.approx(1 - row["weighed sd over prior"] ** 2)
-    assert row["met sd over prior"] <= row["weighed sd over prior"] < 1
+    assert row["variance reduction"] == pytest.approx(1 - row["noise-aware sd over prior"] ** 2)
+    assert row["noise-free sd over prior"] <= row["noise-aware sd over prior"] < 1
     assert row["rank"] == "3 of 4"
 
 
@@ -51,7 +51,7 @@ def test_a_long_step_names_the_posteriors_that_took_it(cohort):
         card, noise_free=replace(card.noise_free, estimate=replace(card.noise_free.estimate, mean=place))
     )
     flags = cards_table([far]).set_index("parameter")["long steps"]
-    assert flags.tolist() == ["met", "", "", ""]
+    assert flags.tolist() == ["noise-free", "", "", ""]
     assert "†" in plot_card(far, COLOUR).axes[0].get_yticklabels()[0].get_text()
     assert "†" not in plot_card(card, COLOUR).axes[0].get_yticklabels()[0].get_text()
 
@@ -61,11 +61,11 @@ def test_coverage_counts_hearts_with_a_truth(cohort):
         replace(card, truth={name: 1e3 * value for name, value in card.truth.items()}) for card in cohort[:2]
     ]
     table = coverage_table([*wrong, *cohort[2:]]).set_index(["posterior", "parameter"])
-    row = table.loc[("noise and fixed", POOLED)]
+    row = table.loc[("noise-aware", POOLED)]
     assert row["hearts"] == 6, "the measured heart has no truth"
     assert row["covered (%)"] == pytest.approx(100 * 4 / 6, abs=0.1)
     assert row["from (%)"] < row["covered (%)"] < row["to (%)"]
-    assert table.loc[("noise and fixed", "tau"), "hearts"] == 2
+    assert table.loc[("noise-aware", "tau"), "hearts"] == 2
 
 
 def test_no_estimate_is_held_against_a_true_K():

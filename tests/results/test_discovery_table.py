@@ -46,7 +46,7 @@ def test_the_size_stands_beside_the_hidden_one_in_the_same_unit() -> None:
 
 def test_the_misfit_is_the_mean_of_a_phase_over_its_noise() -> None:
     """Two samples of 1 kPa noise each, where the simulation is 1 kPa too high at the peak."""
-    wrong = numbers(result()).loc["wrong by: left ventricular pressure"]
+    wrong = numbers(result()).loc["misfit: left ventricular pressure"]
     size = 1e3 * WAVE[5:7].mean()
     assert wrong["value"] == pytest.approx(size / (1e3 / np.sqrt(2.0)))
     assert wrong["text"].startswith(f"{1e-3 * size:.2g} ± 0.71 kPa too high in early filling")
@@ -99,7 +99,7 @@ def test_a_sound_heart_hides_nothing_and_is_not_extended() -> None:
     sound = DiscoveryResult("sound1", "physical", silent, silent, (), TRUTH)
     frame = numbers(sound)
     assert frame.loc["hidden", "text"] == "nothing"
-    assert frame.loc["said after the refit", "text"] == "none"
+    assert frame.loc["verdict after the refit", "text"] == "none"
     assert not [name for name in frame.index if name.startswith(("size", "error ratio", "change"))]
 
 
@@ -113,7 +113,7 @@ def test_a_candidate_is_printed_as_not_named() -> None:
     expected = "insufficient (candidate, not named: mitral regurgitation)"
     assert frame.loc["ln Bayes factor of the candidate", "value"] == 12.0
     assert "1.4 below" in frame.loc["ln Bayes factor of the candidate", "text"]
-    assert [frame.loc[f"said {when}", "text"] for when in ("by the search", "after the refit")] == [
+    assert [frame.loc[f"verdict {when}", "text"] for when in ("of the search", "after the refit")] == [
         expected
     ] * 2
 
@@ -144,4 +144,4 @@ def test_cases_are_columns_in_print_with_one_row_for_each_finding() -> None:
 def test_a_withdrawn_name_is_listed_with_the_verdict() -> None:
     judged = replace(diagnosis(), verdict="unknown", mechanisms=(), withdrawn=("SlowRelaxation",))
     frame = numbers(DiscoveryResult("hidden1", "physical", diagnosis(), judged, (LEAK,), TRUTH))
-    assert frame.loc["said after the refit", "text"] == "unknown (withdrawn: slow relaxation)"
+    assert frame.loc["verdict after the refit", "text"] == "unknown (withdrawn: slow relaxation)"

@@ -14,7 +14,7 @@ STORED = {
     "table1": pd.DataFrame(
         {"case": ["v1", "mean of 7"], "V_min (%)": ["0.4", "1.73412"], "failed points": ["0 of 9", ""]}
     ),
-    "discovery": pd.DataFrame({"quantity": ["wrong by"], "text": ["3 kPa too high in ejection: 3.0 sd"]}),
+    "discovery": pd.DataFrame({"quantity": ["misfit"], "text": ["3 kPa too high in ejection: 3.0 sd"]}),
 }
 
 

@@ -43,9 +43,9 @@ def test_the_estimate_without_the_pull_of_the_prior_is_nearer_the_truth(compared
         reading: abs(
             np.log(compared.ratios(reading, "c_1")["lbbb2"] / compared.ratios("truth", "c_1")["lbbb2"])
         )
-        for reading in ("noise and fixed", "unshrunk")
+        for reading in ("noise-aware", "unshrunk")
     }
-    assert error["unshrunk"] < error["noise and fixed"]
+    assert error["unshrunk"] < error["noise-aware"]
 
 
 def test_p_cannot_be_below_that_of_one_labeling(compared):
@@ -66,10 +66,10 @@ def test_long_steps_are_named_by_reading_and_never_of_the_truth(cohort, groups):
     sick = [with_contractility_at(card, -2.9 if card.case == "lbbb2" else -1.0) for card in cohort]
     compared = compare_groups(sick, groups)
     flags = specificity_table(compared).set_index(["parameter", "reading"])["long steps"]
-    assert flags["sigma_0", "observations met"] == "lbbb2 -2.9"
+    assert flags["sigma_0", "noise-free"] == "lbbb2 -2.9"
     assert flags["sigma_0", "truth"] == ""
     claims = specificity_claims(compared, LIMITS).set_index(["claim", "reading"])["long steps"]
-    assert claims["sigma_0 of lbbb1 and lbbb2 below", "observations met"] == "lbbb2 -2.9"
+    assert claims["sigma_0 of lbbb1 and lbbb2 below", "noise-free"] == "lbbb2 -2.9"
 
 
 def unseen(card: Card) -> Card:
@@ -81,7 +81,7 @@ def unseen(card: Card) -> Card:
 def test_a_difference_not_informed_by_the_data_has_a_warning(cohort, groups):
     table = specificity_table(compare_groups([unseen(card) for card in cohort], groups))
     assert (table["warning"] != "").all()
-    assert table["seen"].dropna().tolist() == pytest.approx([0.0] * 19, abs=1e-9), (
+    assert table["variance reduction"].dropna().tolist() == pytest.approx([0.0] * 19, abs=1e-9), (
         "no unshrunk information is left"
     )
     informed = specificity_table(compare_groups(cohort, groups))
@@ -95,7 +95,7 @@ def test_both_claims_hold_for_the_truth_and_one_fails_under_the_prior(compared):
     table = claims["holds"]
     assert (table.loc["sigma_0 of lbbb1 and lbbb2 below"] == "holds").all()
     assert table.loc[("c_1 of lbbb2 above", "truth")] == "holds"
-    assert table.loc[("c_1 of lbbb2 above", "noise and fixed")] == "does not hold"
+    assert table.loc[("c_1 of lbbb2 above", "noise-aware")] == "does not hold"
 
 
 def test_K_is_compared_with_the_true_stiffness(cohort, groups):

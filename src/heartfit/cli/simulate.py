@@ -30,7 +30,7 @@ def simulate_arguments(command: argparse.ArgumentParser) -> None:
         "--output",
         type=Path,
         default=Path("beat.json"),
-        help="file of the beat; its curves are written to the .csv beside it",
+        help="file of the beat; its curves are written to a .csv of the same name",
     )
 
 
@@ -39,7 +39,7 @@ def simulate(arguments: argparse.Namespace) -> int:
     if arguments.output.suffix == ".csv" or arguments.output.is_dir():
         raise InputError(
             f"--output {arguments.output}: expected a file such as beat.json; "
-            "its curves are written to the .csv beside it"
+            "its curves are written to a .csv of the same name"
         )
     require_writable(arguments.output.parent)
     if not BEATS[0] <= arguments.period <= BEATS[1]:

@@ -103,7 +103,9 @@ def _paragraph(one: ActingPlace, threshold: float) -> str:
 
 def _laws_table(laws: Sequence[RankedLaw]) -> str:
     rows = [f"| {law.name} | ${law.formula}$ | {_law_size(law)} | {law.ln_likelihood:.1f} |" for law in laws]
-    return "| law | formula | size | ln likelihood beside the best |\n|---|---|---|---|\n" + "\n".join(rows)
+    return "| law | formula | size | ln likelihood minus that of the best |\n|---|---|---|---|\n" + "\n".join(
+        rows
+    )
 
 
 def _law_size(law: RankedLaw) -> str:

@@ -105,8 +105,8 @@ def cards(
 
 
 POSTERIORS: dict[str, Callable[[Card], Gaussian]] = {
-    "observations met": lambda card: card.noise_free.estimate,
-    "noise and fixed": lambda card: card.noise_aware.estimate,
+    "noise-free": lambda card: card.noise_free.estimate,
+    "noise-aware": lambda card: card.noise_aware.estimate,
 }
 """Posteriors by their names in the tables."""
 
@@ -116,8 +116,8 @@ POOLED = "all"
 def cards_table(cards: Sequence[Card]) -> pd.DataFrame:
     """Return one row per case, setting and parameter; places are in prior standard deviations from the prior mean.
 
-    "seen" is the share of the prior variance that the data remove, as is that of the least informed direction in
-    "least seen"; "covered" says if the 95 % interval contains the truth, blank without a truth.
+    "variance reduction" is the share of the prior variance that the data remove, which "least informed" states of the
+    direction where it is least; "covered" says if the 95 % interval contains the truth, blank without a truth.
     """
     return pd.DataFrame([row for card in cards for row in _card_rows(card)])
 
@@ -141,11 +141,11 @@ def _card_rows(card: Card) -> list[dict[str, object]]:
     information = card.information
     noise_free, noise_aware = card.noise_free.estimate, card.noise_aware.estimate
     covered = {name: card.covered(estimate(card)) for name, estimate in POSTERIORS.items()}
-    long = {"met": card.long_steps(noise_free), "weighed": card.long_steps(noise_aware)}
+    long = {"noise-free": card.long_steps(noise_free), "noise-aware": card.long_steps(noise_aware)}
     common = {
         "rank": f"{information.rank} of {len(information.names)}",
         "effective number": information.degrees,
-        "least seen": f"{card.weakest()} ({100 * information.reduction[-1]:.0f} %)",
+        "least informed": f"{card.weakest()} ({100 * information.reduction[-1]:.0f} %)",
     }
     return [
         {
@@ -153,15 +153,15 @@ def _card_rows(card: Card) -> list[dict[str, object]]:
             "case": card.case,
             "parameter": name,
             "prior sd (%)": 100 * card.prior.sd[i],
-            "met": card.place(noise_free)[i],
-            "met sd over prior": noise_free.sd[i] / card.prior.sd[i],
-            "weighed": card.place(noise_aware)[i],
-            "weighed sd over prior": information.sd_ratio[i],
-            "seen": 1.0 - information.sd_ratio[i] ** 2,
+            "noise-free": card.place(noise_free)[i],
+            "noise-free sd over prior": noise_free.sd[i] / card.prior.sd[i],
+            "noise-aware": card.place(noise_aware)[i],
+            "noise-aware sd over prior": information.sd_ratio[i],
+            "variance reduction": 1.0 - information.sd_ratio[i] ** 2,
             LONG_STEPS: ", ".join(label for label, steps in long.items() if name in steps),
             "truth": card.true_place()[i],
-            "met covered": _yes_or_no(covered["observations met"].get(name)),
-            "weighed covered": _yes_or_no(covered["noise and fixed"].get(name)),
+            "noise-free covered": _yes_or_no(covered["noise-free"].get(name)),
+            "noise-aware covered": _yes_or_no(covered["noise-aware"].get(name)),
         }
         | common
         for i, name in enumerate(card.prior.names)

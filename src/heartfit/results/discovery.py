@@ -107,9 +107,9 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
         yield Entry(HIDDEN, "; ".join(map(_hidden_effect, result.hidden)) or NOTHING)
     yield from map(_departure, departures(proved))
     yield from (_fit(fit, "without a mechanism") for fit in proved.fits)
-    yield Entry("said by the search", _verdict(searched))
+    yield Entry("verdict of the search", _verdict(searched))
     yield _factor_of_the_search(searched)
-    yield _number("its threshold", searched.threshold)
+    yield _number("threshold of a detection", searched.threshold)
     if searched.candidate:
         yield _candidate_beside_process(searched.candidate.beside_process)
     yield Entry(SAID, _verdict(proved))
@@ -174,7 +174,7 @@ def _verdict(diagnosis: Diagnosis) -> str:
 
 def _departure(departure: Departure) -> Entry:
     text = f"{mean_misfit(departure)}: {abs(departure.deviations):.1f} sd"
-    return Entry(f"wrong by: {CURVES.get(departure.curve, departure.curve)}", text, departure.deviations)
+    return Entry(f"misfit: {CURVES.get(departure.curve, departure.curve)}", text, departure.deviations)
 
 
 def _fit(fit: CurveFit, model: str) -> Entry:

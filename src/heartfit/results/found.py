@@ -11,7 +11,7 @@ import pandas as pd
 from heartfit.core.errors import InputError
 
 TABLE = "discovery"
-HIDDEN, SAID = "hidden", "said after the refit"
+HIDDEN, SAID = "hidden", "verdict after the refit"
 """Rows of the table of discovery: the answer of a sealed heart, and the verdict on it."""
 NOTHING, NONE = "nothing", "none"
 

@@ -81,8 +81,8 @@ def _truth(card: Card) -> dict[str, float]:
 
 
 READINGS: dict[str, Callable[[Card], dict[str, float]]] = {
-    "observations met": _noise_free,
-    "noise and fixed": _noise_aware,
+    "noise-free": _noise_free,
+    "noise-aware": _noise_aware,
     "unshrunk": _unshrunk,
     "truth": _truth,
 }

@@ -37,8 +37,8 @@ def specificity_table(comparisons: Sequence[PatientComparison]) -> pd.DataFrame:
     """Return one row per setting, parameter and reading: each patient over the healthy mean, and the exact test.
 
     "difference" is in prior standard deviations; p is two-sided over all labelings, "least p" the smallest possible p;
-    "seen" is the share of the prior variance of the difference that the data remove; for all parameters together it is
-    the share of the squared difference in informed directions. Below one half there is a warning.
+    "variance reduction" is the share of the prior variance of the difference that the data remove; for all parameters
+    together it is the share of the squared difference in informed directions. Below one half there is a warning.
     """
     rows = [(*_parameter_rows(comparison), *_joint_rows(comparison)) for comparison in comparisons]
     return pd.DataFrame(chain.from_iterable(rows))
@@ -68,7 +68,7 @@ def _parameter_rows(comparison: PatientComparison) -> Iterable[Row]:
                     / float(np.sqrt(comparison.patients[0].prior.marginal([name]).covariance[0, 0])),
                     "p": test.p,
                     "least p": 1.0 / test.labelings,
-                    "seen": informed,
+                    "variance reduction": informed,
                     "warning": _warning(informed),
                     LONG_STEPS: printed_steps(comparison.long_steps(reading, name)),
                 }
@@ -84,7 +84,7 @@ def _joint_rows(comparison: PatientComparison) -> Iterable[Row]:
                 "parameter": "all",
                 "reading": reading,
                 "difference": float(np.linalg.norm(difference)),
-                "seen": informed,
+                "variance reduction": informed,
                 "warning": _warning(informed),
                 LONG_STEPS: "",
             }
@@ -153,8 +153,8 @@ def _claim_row(
 
 MARKERS = ("^", "s", "v", "D")
 LABELS = {
-    "observations met": "noise-\nfree",
-    "noise and fixed": "noise-\naware",
+    "noise-free": "noise-\nfree",
+    "noise-aware": "noise-\naware",
     "unshrunk": "unshrunk",
     "truth": "truth",
 }

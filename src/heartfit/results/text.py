@@ -208,14 +208,14 @@ NOTES = {
         "healthy mean confirms nothing of the paper."
     ),
     "cards": (
-        "seen: share of the prior variance that the data remove. Below one half, the prior determines the "
-        "estimate more than the data do, whatever its error. Places are in prior standard deviations from the "
+        "Variance reduction: share of the prior variance that the data remove. Below one half, the prior determines "
+        "the estimate more than the data do, whatever its error. Places are in prior standard deviations from the "
         "prior mean."
     ),
     "coverage_cohort": (
         "The paper gives no intervals. An exact fit of the observations claims that they are certain. The "
-        "model's own error explains coverage below 95 % that remains after noise and fixed parameters are "
-        "included. Each heart is one trial."
+        "error of the model explains coverage below 95 % that remains in the noise-aware estimate, which includes "
+        "the noise and the fixed parameters. Each heart is one trial."
     ),
     "specificity": (
         "The paper reports differences without a test. The least possible p is that of one labeling of all "

@@ -128,7 +128,7 @@ def candidate_sentence(diagnosis: Diagnosis) -> str:
         f"{beside.gain - beside.over:.1f}, by {beside.required:g}; it is {abs(beside.over):.1f} {side}.": (
             beside.over < beside.required
         ),
-        f"A Gaussian process beside {subject} gains {beside.left:.1f} more in ln evidence; "
+        f"A Gaussian process added to {subject} gains {beside.left:.1f} more in ln evidence; "
         f"at most {beside.allowed:.1f} may be left.": beside.left > beside.allowed,
     }
     named = "; ".join(map(mechanism_with_size, causes))

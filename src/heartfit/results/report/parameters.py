@@ -81,7 +81,7 @@ def plot_parameters(cases: Sequence[CaseRecord], setting: str, colour: str) -> P
         for axes, name in zip(panels, names, strict=True):
             _panel(axes, fits, name, colour)
         legend(figure, panels)
-        return as_picture(figure, f"{', '.join(names)} of each case, setting {setting}, beside the prior")
+        return as_picture(figure, f"{', '.join(names)} of each case, setting {setting}, with the prior")
 
 
 def plot_estimates(case: CaseRecord, cases: Sequence[CaseRecord], colours: Mapping[str, str]) -> Picture:
@@ -102,7 +102,7 @@ def plot_estimates(case: CaseRecord, cases: Sequence[CaseRecord], colours: Mappi
                 [other.fits[setting] for other in cases if other is not case and setting in other.fits],
             )
             axes.set_title(setting, pad=LEGEND)
-        return as_picture(figure, f"Parameters of {case.name} beside the prior and the cohort")
+        return as_picture(figure, f"Parameters of {case.name} with the prior and the cohort")
 
 
 def _others(axes: Axes, fit: FittedCase, others: Sequence[FittedCase]) -> None:

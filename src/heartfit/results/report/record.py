@@ -60,13 +60,13 @@ def curve_deviation(
 
 
 TITLES = {
-    "claims": "Every number that the paper states, beside ours",
+    "claims": "Every number that the paper states, and ours",
     "table1_as_printed": "Table 1 as printed, and ours in its layout",
     "table2_as_printed": "Table 2 as printed, and ours in its layout",
     "table1": "Errors of the healthy hearts (the paper's Table 1)",
     "table2": "Parameters of the healthy hearts (the paper's Table 2)",
     "table3": "Errors of the patients (the paper's Table 3)",
-    "table3_parameters": "Parameters of the patients beside the healthy mean (the paper's Table 3)",
+    "table3_parameters": "Parameters of the patients over the healthy mean (the paper's Table 3)",
     "plausibility": "Plausibility outside the observations",
     "costs": "Computing time and memory",
 }
