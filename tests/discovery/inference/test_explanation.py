@@ -22,3 +22,23 @@ def test_the_interval_is_free_of_the_prior() -> None:
     middle, low, high = explanation.interval("a")
     assert middle == pytest.approx(weighted @ y / information, rel=1e-3)
     assert high - low == pytest.approx(2.0 * 1.96 * INTERVAL_WIDENING / np.sqrt(information), rel=1e-3)
+
+
+@pytest.mark.parametrize("one_sided", [True, False])
+@pytest.mark.parametrize("factor", [4.0, 0.25])
+@pytest.mark.parametrize("amplitude", [3.0, 0.1, -0.4])
+def test_another_scale_gives_the_evidence_of_a_fit_with_it(
+    one_sided: bool, factor: float, amplitude: float
+) -> None:
+    """The model is linear and its noise known, so that both are exact."""
+    J = slopes(3)
+    y = J @ [0.5, -0.3, amplitude] + 0.2 * np.random.default_rng(3).standard_normal(TIMES.size)
+    coordinate = Coordinate("a", one_sided=one_sided, amplitude=True)
+    scaled = J * [1.0, 1.0, factor]
+    context = FitContext(data(y, KNOWN))
+    at_one, at_factor = (
+        context.explain(effect, effect.at(1.0))
+        for effect in (hypothesis(J, coordinate), hypothesis(scaled, coordinate))
+    )
+    assert at_one.log_evidence_at_scale("a", 1.0) == pytest.approx(at_one.log_evidence, abs=1e-9)
+    assert at_one.log_evidence_at_scale("a", factor) == pytest.approx(at_factor.log_evidence, abs=2e-3)

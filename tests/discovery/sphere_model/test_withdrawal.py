@@ -131,6 +131,9 @@ class Searched:
     def far_parameters(self, effects: Effects) -> tuple[str, ...]:
         return (f"far beside {' and '.join(effects)}",)
 
+    def scale_notes(self) -> tuple[()]:
+        return ()
+
     def changes(self, effects: Effects) -> tuple[()]:
         return ()
 

@@ -23,7 +23,7 @@ from dataclasses import dataclass, field
 from functools import reduce
 
 import numpy as np
-from scipy.special import logsumexp, ndtr, ndtri
+from scipy.special import log_ndtr, logsumexp, ndtr, ndtri
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.inference.data import Whitening
@@ -217,6 +217,26 @@ class Explanation:
     @property
     def log_evidence(self) -> float:
         return self.posterior.log_evidence
+
+    def log_evidence_at_scale(self, name: str, factor: float) -> float:
+        r"""ln Z if the prior of a coordinate had the standard deviation f = ``factor`` instead of 1, without a new fit.
+
+        .. math:: \ln \frac{Z_f}{Z_1} = \frac{m^2 (v_f - v)}{2 v^2} + \frac12 \ln \frac{v_f}{f^2 v}
+                  + \ln \frac{\Phi(m \sqrt{v_f} / v)}{\Phi(m / \sqrt v)}, \qquad
+                  \frac1{v_f} = \frac1v - 1 + \frac1{f^2},
+
+        with the mean m and the variance v of its posterior, the last term if it is one-sided; exact where the model is
+        linear.
+        """
+        index = self.fit.hypothesis.names.index(name)
+        mean, variance = self.posterior.mean[index], self.posterior.covariance[index, index]
+        changed = 1.0 / (1.0 / variance - 1.0 + 1.0 / factor**2)
+        gain = 0.5 * (mean / variance) ** 2 * (changed - variance) + 0.5 * np.log(
+            changed / factor**2 / variance
+        )
+        if self.fit.hypothesis.coordinates[index].one_sided:
+            gain += log_ndtr(mean / variance * np.sqrt(changed)) - log_ndtr(mean / np.sqrt(variance))
+        return float(self.log_evidence + gain)
 
     def interval(self, name: str, level: float = 0.95) -> tuple[float, float, float]:
         """Median, least and largest value of a coordinate from the data alone; a one-sided one is cut off at 0.

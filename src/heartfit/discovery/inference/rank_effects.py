@@ -6,14 +6,13 @@ effect is switched on by one more parameter, whose typical size, the scale, is t
 .. math:: \theta_i = m_i + s_i x_i, \qquad a_j = \sigma_j x_j, \qquad x \sim N(0, 1), \quad x_j \ge 0
           \text{ of an effect of known sign.}
 
-A scale is a judgement, and ln Z depends on it in two ways: a wide prior is penalised by Occam's factor, a narrow one
-holds a strong effect back. So each effect is fitted again with a scale four times as large and four times as small, and
-a ranking that would then have another leader, be it "unknown", or detect an effect or none, says so.
+Each effect is fitted again with a scale four times as large and four times as small, and a ranking that would then have
+another leader, be it "unknown", or detect an effect or none, says so.
 """
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import product
+from functools import partial
 from math import inf
 
 import numpy as np
@@ -24,10 +23,9 @@ from heartfit.discovery.inference.context import FitContext
 from heartfit.discovery.inference.data import Block, Data, Noise
 from heartfit.discovery.inference.decide import DEFAULT_RULES, Effects, Rules, Verdict
 from heartfit.discovery.inference.hypothesis import Coordinate, Hypothesis
+from heartfit.discovery.inference.scale_dependence import scale_dependences
 from heartfit.discovery.inference.search import Findings, search
 
-SCALE_FACTORS = (4.0, 0.25)
-"""Factors on the scale of an effect at which the ranking is examined."""
 UNKNOWN_SIZE, UNKNOWN_LENGTH = 3.0, 0.1
 """Default size of an unknown effect over the noise, and its correlation length over the span of the times."""
 
@@ -194,19 +192,16 @@ def _sizes(findings: Findings, scales: Mapping[str, float]) -> dict[str, tuple[f
 
 def _scale_notes(question: _Question, data: Data, findings: Findings) -> Iterator[str]:
     """Yield a sentence for each effect whose scale decides which effect leads, or whether one is detected."""
-    least, context, table = findings.rules.detected, FitContext(data), _ranking(findings)
-    leader = max(table, key=table.__getitem__)
-    for name, factor in product((single.effects[0] for single in findings.survey.singles), SCALE_FACTORS):
-        changed = table | {name: _factor_at(question, context, findings, name, factor)}
-        other = max(changed, key=changed.__getitem__)
-        detected = table[leader] >= least, changed[other] >= least
-        if any(detected) and (other != leader or not all(detected)):
-            scale = question.scales[name]
-            yield (
-                f"the ranking depends on the scale of {name}: with {scale:.3g} {leader} leads with "
-                f"{table[leader]:.1f}, with {factor * scale:.3g} {other} with {changed[other]:.1f} (ln Bayes factors, "
-                f"detected from {least:g})"
-            )
+    least, context = findings.rules.detected, FitContext(data)
+    at_scale = {
+        single.effects[0]: partial(_factor_at, question, context, findings, single.effects[0])
+        for single in findings.survey.singles
+    }
+    for case in scale_dependences(_ranking(findings), at_scale, least):
+        yield (
+            f"the ranking depends on the scale of {case.name}, {question.scales[case.name]:.3g}: {case} "
+            f"(ln Bayes factors, detected from {least:g})"
+        )
 
 
 def _factor_at(

@@ -239,7 +239,7 @@ class Diagnosis:
     - model, free_parameters: whose curves the traces show, and how many parameters it has free without a cause, 0 where
       it is not told.
     - warnings: numbers of the recording outside the range of living ventricles, and parameters that were fitted far
-      outside their priors, one sentence each.
+      outside their priors, and scales that decide the finding, one sentence each.
     - margin: the smallest change of one ln Z that changes the decision of the search; None if it is not close.
     - fits: of the curves about the 3-D model without a cause, empty where none was refitted.
     """

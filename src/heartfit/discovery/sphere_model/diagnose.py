@@ -99,7 +99,7 @@ def conclude(
         tried=case.tried(),
         samples=case.data.values.size,
         from_all_samples=case.sizes_from_all_samples(kept),
-        warnings=(*warnings, *case.far_parameters(best)),
+        warnings=(*warnings, *case.far_parameters(best), *case.scale_notes()),
         structural_scale=case.findings.structural_scale,
         changes=case.changes(best),
         strokes=Strokes.from_recording(case.recording),

@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from heartfit.discovery.inference.decide import (
     leading_effects,
 )
 from heartfit.discovery.inference.evidence import Explanation
+from heartfit.discovery.inference.scale_dependence import scale_dependences
 from heartfit.discovery.inference.search import Findings, search
 from heartfit.discovery.sphere_model.cause import (
     CLEAR_DEVIATIONS,
@@ -212,6 +213,25 @@ class SearchedRecording:
             for place, (parameter, x) in enumerate(fitted)
             if abs(x) > FAR
         )
+
+    def scale_notes(self) -> tuple[str, ...]:
+        """One sentence for each scale that decides whether a mechanism is detected or named alone."""
+        if self.verdict in ("two", "group", "unknown"):
+            return ()
+        at_scale = {
+            single.effects[0]: partial(self._factor_at, single) for single in self.findings.survey.singles
+        }
+        return tuple(
+            f"the finding depends on the scale of {case.name}: {case} (ln Bayes factors, detected from "
+            f"{self.rules.detected:g}): compare the scale with the sizes that this mechanism has in patients"
+            for case in scale_dependences(self.ranking(), at_scale, self.rules.detected, self.rules.group)
+        )
+
+    def _factor_at(self, single: Explanation, factor: float) -> float:
+        """ln Bayes factor of a mechanism with its scale times a factor."""
+        (name,) = single.effects
+        coordinate = f"{name}.{self.library[name].unknowns[0].name}"
+        return single.log_evidence_at_scale(coordinate, factor) - self.findings.evidences.baseline
 
     def ranking(self) -> dict[str, float]:
         """ln Bayes factors over the baseline, in descending order."""

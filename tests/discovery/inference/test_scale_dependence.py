@@ -1,0 +1,33 @@
+"""Scales that decide a finding are told, others are not."""
+
+import pytest
+
+from heartfit.discovery.inference.scale_dependence import scale_dependences
+
+
+@pytest.mark.parametrize(
+    ("ranking", "wide", "told"),
+    [
+        ({"leak": 12.0, "stenosis": 8.0}, 8.9, []),
+        (
+            {"leak": 12.0, "stenosis": 8.0},
+            9.1,
+            ["leak (12.0); with 4 times this scale leak (12.0) or stenosis (9.1)"],
+        ),
+        ({"leak": 12.0, "stenosis": 8.0}, 20.0, ["leak (12.0); with 4 times this scale stenosis (20.0)"]),
+        ({"leak": 4.0, "stenosis": 3.0}, 4.9, []),
+        ({"leak": 1.0, "stenosis": 3.0}, 6.0, ["nothing; with 4 times this scale stenosis (6.0)"]),
+        ({"leak": 1.0, "stenosis": 6.0}, 4.0, ["stenosis (6.0); with 4 times this scale nothing"]),
+    ],
+    ids=[
+        "still apart",
+        "not apart",
+        "another leads",
+        "nothing is detected",
+        "now detected",
+        "no more detected",
+    ],
+)
+def test_only_a_scale_that_decides_is_told(ranking, wide, told):
+    at_scale = {"stenosis": lambda factor: wide if factor > 1.0 else ranking["stenosis"]}
+    assert [str(case) for case in scale_dependences(ranking, at_scale, 5.0, apart=3.0)] == told
