@@ -29,6 +29,9 @@ class Cause:
             f"ln Bayes factor {self.ln_bayes_factor:.1f}"
         )
 
+    def __repr__(self) -> str:
+        return f"Cause({self})"
+
 
 @dataclass(frozen=True)
 class UnnamedCandidate:
