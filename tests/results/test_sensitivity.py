@@ -82,6 +82,17 @@ def test_the_rule_prefers_what_is_independent_and_sets_are_ranked() -> None:
     assert rule["place by volume"].iloc[1] == "1 of 3432"
 
 
+def test_fewer_parameters_than_observations_have_no_volume() -> None:
+    """Its determinant is zero up to rounding, which would decide the place among sets that all have none."""
+    table = selection_table(
+        {"physical": sensitivity()}, {"physical": ranges()}, {"physical": (FOUR[:2], SEVEN[:5])}
+    )
+    ours = table[table["chosen by"] == "this study"]
+    assert ours["volume of Z (%)"].isna().all()
+    assert set(ours["place by volume"]) == {""}
+    assert (ours["squares (%)"] > 0.0).all()
+
+
 def test_the_paper_is_left_out_where_its_parameters_are_not_studied() -> None:
     whole = sensitivity()
     kept = [index for index, name in enumerate(PAPER_PARAMETERS) if name != "K"]

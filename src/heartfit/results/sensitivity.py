@@ -152,9 +152,10 @@ def selection_table(
     """Return per setting the selections by the rule, by the paper and by the study, with two measures of each.
 
     estimated: parameters that the study estimates from volume, and from volume and pressure. "squares (%)": share of
-    the squared Cov(X, Z); "volume of Z (%)": det(A_S^T A_S) / det(A^T A), zero for a set that does not move a
-    combination of the observations; "place": rank among all sets of as many parameters by that measure. The rule is
-    applied under the prior of the study and, in a second row, under the deviations of the plausible ranges.
+    the squared Cov(X, Z); "volume of Z (%)": det(A_S^T A_S) / det(A^T A), empty for fewer parameters than
+    observations, which leave a combination of these unmoved; "place": rank among all sets of as many parameters by that
+    measure. The rule is applied under the prior of the study and, in a second row, under the deviations of the
+    plausible ranges.
     """
     rows = [
         row
@@ -193,6 +194,9 @@ def _selection_row(sensitivity: Sensitivity, names: Sequence[str], chosen: Seque
         ("squares (%)", "place by squares", squared_share),
         ("volume of Z (%)", "place by volume", volume_share),
     ):
+        if measure is volume_share and len(rows) < len(names):
+            row |= {label: np.nan, place: ""}
+            continue
         better, sets = rank_among_all(covariance, rows, measure)
         row |= {label: 100 * measure(covariance, rows), place: f"{better} of {sets}"}
     return row
