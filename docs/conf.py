@@ -24,7 +24,9 @@ html_static_path = ["_site/static"]
 html_css_files = ["site.css"]
 html_show_sphinx = False
 html_copy_source = False
-toc_object_entries = False  # the navigation of every page would copy an entry for each function of the library
+toc_object_entries = (
+    False  # the navigation of every page would copy an entry for each function of the library
+)
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4

@@ -91,8 +91,8 @@ def printed_findings(results: Sequence[DiscoveryResult]) -> pd.DataFrame:
 
 
 NOTE = (
-    "Wrong by: the misfit of the refitted three-dimensional heart without an added mechanism, on average over the "
-    "phase in which it is clearest, ± the noise of this average; sd: misfit over noise. The search on the sphere and "
+    "Misfit: of the refitted three-dimensional heart without an added mechanism, on average over the phase in which it "
+    "is clearest, ± the noise of this average; sd: misfit over noise. The search on the sphere and "
     "the refits use one half of the samples; the error ratio, with the mechanism over without it, is that of the other "
     "half and of the strain, to which nothing was fitted. Chi-squared of the refits: of all samples of a curve, of its "
     "degrees of freedom, with the probability p that a correct model is further off. The size from all samples is one "
@@ -122,7 +122,7 @@ def _entries(result: DiscoveryResult) -> Iterator[Entry]:
         yield from (_fit(fit, "with the mechanism") for fit in proved.refitted.fits)
     yield from map(_gain, proved.gain)
     yield from _parameters(result)
-    yield Entry("simulated beats", str(proved.simulations), proved.simulations)
+    yield Entry("simulated beats", f"{float(f'{proved.simulations:.2g}'):.0f}", proved.simulations)
 
 
 def _number(quantity: str, value: float) -> Entry:
@@ -142,7 +142,12 @@ def _factor_of_the_search(searched: Diagnosis) -> Entry:
     else:
         owner, factor = "nothing tried", NAN
     subject = "a Gaussian process" if owner == "unknown" else owner
-    return Entry("ln Bayes factor of the search", f"{factor:.1f} ({subject})", factor)
+    return Entry("ln Bayes factor of the search", f"{_held(factor)} ({subject})", factor)
+
+
+def _held(factor: float) -> str:
+    """Return the printed ln Bayes factor of a search: rounding moves the decimal of a large one."""
+    return f"{factor:.0f}" if abs(factor) >= 10.0 else f"{factor:.1f}"
 
 
 def _candidate_beside_process(beside: BesideProcess) -> Entry:
