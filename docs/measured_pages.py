@@ -8,10 +8,11 @@ docs/measured/NAME.tsv holds either single values, with the columns of `COLUMNS`
 made it. A page of `TEMPLATES` is written from docs/templates, which prints a value by `NAME('quantity', decimals)`, a
 table by `table('NAME')`, one of its cells by `cell('NAME', 'row', 'column')`, the number of its rows with a value in a
 column by `count('NAME', 'column', 'value')`, and the exact interval of a count by `exact('9 of 10')`. Any other page of
-docs and studies holds its tables between comments, and is filled in place:
+docs and studies holds its tables, and single values, between comments, and is filled in place:
 
     <!-- table: NAME -->  or  <!-- table: NAME; column = value or value -->, which selects rows
     <!-- end -->
+    <!-- value: NAME('quantity', decimals) --><!-- end -->, within a line and not at its start
 """
 
 import csv
@@ -25,6 +26,7 @@ from functools import cache
 from pathlib import Path
 
 import pandas as pd
+from jinja2 import Environment
 
 from heartfit.core.pages import render_page, table_row
 from heartfit.io.files import write_text
@@ -35,14 +37,13 @@ ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "docs" / "measured"
 TEMPLATES = {
     "README": ROOT / "README.md",
-    **{
-        name: ROOT / "docs" / f"{name}.md"
-        for name in ("measured_heart", "reproducible", "study", "validation")
-    },
+    **{name: ROOT / "docs" / f"{name}.md" for name in ("measured_heart", "study", "validation")},
 }
 """Templates by name, and what is written from them."""
 FILLED = re.compile(r"(<!-- table: (\w+)(?:; ([^=>]+) = ([^>]+))? -->\n).*?(<!-- end -->)", re.DOTALL)
 """Place of a table in a page."""
+VALUE = re.compile(r"(<!-- value: ([^>]+) -->).*?(<!-- end -->)", re.DOTALL)
+"""Place of a single value in a page, and what a template would print."""
 COUNT = re.compile(r"(\d+) of (\d+)")
 STUDY = RESULTS / "study.tsv"
 FULL = "python3 study.py run --configfile config/full.yaml, with methods: false"
@@ -143,27 +144,31 @@ def exact(counted: str) -> str:
     return f"{100 * share.covered:.0f} % ({100 * share.low:.0f} to {100 * share.high:.0f})"
 
 
-def render(name: str) -> str:
-    """A page from its template and the stored results."""
+@cache
+def printers() -> dict[str, object]:
+    """What templates print the stored results by: functions of tables, and single values by the name of their file."""
     tables = stored()
     values = {
         stem: Values(table.file, {row[0]: row[1] for row in table.rows[1:]})
         for stem, table in tables.items()
         if table.rows[0] == COLUMNS
     }
-    return render_page(
-        name,
-        table=lambda stem: markdown(tables[stem].rows),
-        cell=lambda stem, *key: tables[stem].cell(*key),
-        count=lambda stem, column, value: tables[stem].count(column, value),
-        exact=exact,
-        commit=commit,
-        **values,
-    )
+    return values | {
+        "table": lambda stem: markdown(tables[stem].rows),
+        "cell": lambda stem, *key: tables[stem].cell(*key),
+        "count": lambda stem, column, value: tables[stem].count(column, value),
+        "exact": exact,
+        "commit": commit,
+    }
+
+
+def render(name: str) -> str:
+    """A page from its template and the stored results."""
+    return render_page(name, **printers())
 
 
 def fill(text: str) -> str:
-    """A page with the tables that stand between its comments."""
+    """A page with the tables and the values that stand between its comments."""
 
     def filled(found: re.Match[str]) -> str:
         opening, stem, column, values, closing = found.groups()
@@ -171,7 +176,11 @@ def fill(text: str) -> str:
         rows = table.where(column, *values.split(" or ")) if column else table.rows
         return f"{opening}\n{markdown(rows)}\n{closing}"
 
-    return FILLED.sub(filled, text)
+    def value(found: re.Match[str]) -> str:
+        opening, expression, closing = found.groups()
+        return f"{opening}{Environment().compile_expression(expression)(**printers())}{closing}"
+
+    return VALUE.sub(value, FILLED.sub(filled, text))
 
 
 def markdown(rows: Rows) -> str:
@@ -185,7 +194,7 @@ def pages() -> dict[Path, str]:
     written = {page: render(name) for name, page in TEMPLATES.items()}
     others = [*ROOT.glob("docs/*.md"), *ROOT.glob("studies/**/*.md")]
     texts = {page: page.read_text(encoding="utf-8") for page in others if page not in written}
-    return written | {page: fill(text) for page, text in texts.items() if FILLED.search(text)}
+    return written | {page: fill(text) for page, text in texts.items() if "<!-- end -->" in text}
 
 
 def differences(wanted: Mapping[Path, str] | None = None) -> list[str]:

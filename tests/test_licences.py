@@ -1,4 +1,4 @@
-"""No dependency of the core is under the GPL or AGPL alone; see docs/decisions/001-licences.md."""
+"""No dependency of the core is under the GPL or AGPL alone; see docs/decisions/set_up.md."""
 
 import re
 from importlib import metadata

@@ -19,7 +19,7 @@ def add_navigation(_, name, source):
     if name == "validation":
         source[0] += toctree(["studies/*/*"], ":glob:", ":hidden:", ":maxdepth: 1")
     if name == "decisions/README":
-        source[0] += toctree(["[0-9]*"], ":glob:", ":maxdepth: 1")
+        source[0] += toctree(PAGE.findall(source[0]), ":hidden:", ":maxdepth: 1")
 
 
 def section(caption, text):

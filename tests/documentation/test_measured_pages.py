@@ -63,11 +63,15 @@ PRINTED_VALUE = re.compile(r"(\w+)\('([^']+)'(?:, (\d+))?")
 
 def test_a_stored_value_has_the_same_digits_on_every_page(pages):
     """README and pages once printed one number as 2.001, 2.2 and 2.0."""
+    templates = [(ROOT / "docs" / "templates" / f"{name}.md.j2").read_text() for name in pages.TEMPLATES]
+    values = [
+        value
+        for page in (ROOT / "docs").glob("*.md")
+        for _, value, _ in pages.VALUE.findall(page.read_text())
+    ]
     digits = {}
-    for name in pages.TEMPLATES:
-        for stem, quantity, decimals in PRINTED_VALUE.findall(
-            (ROOT / "docs" / "templates" / f"{name}.md.j2").read_text()
-        ):
+    for text in (*templates, *values):
+        for stem, quantity, decimals in PRINTED_VALUE.findall(text):
             digits.setdefault((stem, quantity), set()).add(decimals)
     assert len(digits) >= 80
     assert not {value: ways for value, ways in digits.items() if len(ways) > 1}
@@ -104,6 +108,15 @@ def test_tables_of_a_page_are_filled_and_rows_selected(pages, tmp_path, monkeypa
     assert (table.cell("two", "v"), table.count("v", "2")) == ("2", "1 of 3")
     with pytest.raises(KeyError, match="0 rows that begin with"):
         table.cell("four", "v")
+
+
+def test_a_value_within_a_line_is_filled_and_one_that_is_not_stored_is_an_error(pages):
+    text = "Of <!-- value: study('coverage spheres', 0) -->9<!-- end --> % and <!-- value: 1 + 1 --><!-- end -->."
+    filled = pages.fill(text)
+    assert filled == text.replace(">9<", ">95<").replace("1 --><", "1 -->2<")
+    assert pages.fill(filled) == filled
+    with pytest.raises(KeyError, match="has no 'coverage of nothing'"):
+        pages.fill("<!-- value: study('coverage of nothing', 0) --><!-- end -->")
 
 
 def test_a_count_has_its_exact_interval(pages):

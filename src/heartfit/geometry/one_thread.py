@@ -1,7 +1,7 @@
 """One thread for the mesher, because with more of them some meshes in a hundred differ.
 
 The Python package of fTetWild ignores `max_threads`. So oneTBB, which it uses, is limited from outside by its own
-`tbb::global_control`, as fTetWild's own program does; see docs/decisions/003-meshes.md.
+`tbb::global_control`, as fTetWild's own program does; see docs/decisions/geometry.md.
 """
 
 import ctypes

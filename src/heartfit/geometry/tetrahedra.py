@@ -2,7 +2,7 @@
 
 The mesher is fTetWild (Hu et al. 2020, doi 10.1145/3386569.3392385). It inserts the triangles in an order that it
 shuffles with a number from the C++ library's random device, and offers no way to seed it; see
-docs/decisions/003-meshes.md. Its second generator starts from a constant, once in a process. So each mesh is
+docs/decisions/geometry.md. Its second generator starts from a constant, once in a process. So each mesh is
 made in a process of its own, `python -m heartfit.geometry.tetrahedra`, in which the random device returns the seed: the
 first bytes of the one function of libstdc++ that draws the number are replaced, in the memory of this process alone, by
 `return seed`. It runs in one thread. The input is rounded, because two processors agree on a surface only to the last

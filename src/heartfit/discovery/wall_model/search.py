@@ -31,7 +31,7 @@ from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.roles import registered
 
 RULES = STRICT_RULES
-"""See decision 15: sound hearts of another mesh and other valves reach 8.7."""
+"""Controls of another mesh and other valves reach 8.7, see docs/decisions/search.md."""
 BASELINE_STEPS, EFFECT_STEPS = (10, 8, 6), 8
 """Largest numbers of steps of the baseline, with its first and with renewed slopes, and of an effect."""
 CONVERGED = 1.5
