@@ -271,7 +271,7 @@ def of_the_measured_heart(frame: pd.DataFrame) -> pd.DataFrame:
     """The numbers of the measured heart under the setting without locking, a row for each, with one decimal."""
     (row,) = frame[(frame["case"] == "patient1") & (frame["setting"] == "physical")].to_dict("records")
     numbers = {name: f"{float(cell):.1f}" for name, cell in row.items() if FRACTION.search(cell)}
-    return pd.DataFrame(numbers.items(), columns=["beside the observations", "calibrated beat"])
+    return pd.DataFrame(numbers.items(), columns=["quantity", "calibrated beat"])
 
 
 def findings_by_case(frame: pd.DataFrame) -> pd.DataFrame:
