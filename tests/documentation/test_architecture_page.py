@@ -59,5 +59,5 @@ def test_a_cycle_of_imports_has_no_lowest_room(rooms):
 
 
 def test_every_room_has_one_row_that_states_its_purpose():
-    table = TEXT.partition("## The rooms")[2].partition("Beside the package:")[0]
+    table = TEXT.partition("## The rooms")[2].partition("Outside the package:")[0]
     assert sorted(re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE)) == sorted(ROOMS)
