@@ -216,7 +216,7 @@ def test_targets_stand_beside_what_was_measured() -> None:
         ]
     )
     targets = targets_table(places).set_index("quantity")
-    assert targets.loc["sound hearts with a place"].tolist() == ["at most 4 %", "2 % (1 of 40)", "met"]
+    assert targets.loc["controls with a place"].tolist() == ["at most 4 %", "2 % (1 of 40)", "met"]
     assert targets.loc["right region first"].tolist() == ["at least 80 %", "73 % (8 of 11)", "**missed**"]
     assert targets.loc["with a place at 3 scales", "measured"] == "42 % (22 of 52)"
     assert targets.loc["with a place or named in its region at 3 scales", "measured"] == "58 % (30 of 52)"

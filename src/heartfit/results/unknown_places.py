@@ -179,7 +179,7 @@ def targets_table(places: pd.DataFrame) -> pd.DataFrame:
     )
     of = int(three["number"].sum())
     rows = [
-        _target("sound hearts with a place", _count(sound["with a place"]), AIMED_SOUND, least=False),
+        _target("controls with a place", _count(sound["with a place"]), AIMED_SOUND, least=False),
         *(_target(name, _count(hidden[name]), share) for name, share in AIMED_AT.items()),
         _target("with a place at 3 scales", (detected, of), AIMED_DETECTED),
         _target("with a place or named in its region at 3 scales", (detected + named, of), AIMED_DETECTED),

@@ -116,10 +116,10 @@ def rates_table(hearts: pd.DataFrame) -> pd.DataFrame:
     rows = [
         ("hearts without an effect that are named", "at most 2 %", _named(sound, PRESSURE)),
         ("hearts without an effect whose verdict is unknown", "", _is_unknown(sound)),
-        ("scars of 2 scales that are seen", "80 %", _seen(scars, PRESSURE)),
+        ("scars of 2 scales that are detected", "80 %", _seen(scars, PRESSURE)),
         ("the same by images alone", "80 %", _seen(scars, IMAGES)),
         ("scars that the sphere names", "", scars["on the sphere"] == "scar"),
-        ("right territory of those seen", "90 %", _right_territory(scars, PRESSURE)),
+        ("right territory of those detected", "90 %", _right_territory(scars, PRESSURE)),
         ("the same by images alone", "90 %", _right_territory(scars, IMAGES)),
         ("effects that are detected", "60 %", detected),
         ("names that are right", "95 %", _right_names(hidden, PRESSURE)),
