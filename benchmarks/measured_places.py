@@ -30,7 +30,7 @@ from heartfit.io.figures import write_figure
 from heartfit.io.refits import read_measured_case
 from heartfit.mechanisms.left_atrium import LeftAtrium
 from heartfit.observation.beat import beat_curves
-from heartfit.places import AtrialPressure
+from heartfit.places.library import AtrialPressure
 from heartfit.results.residual_places import ResidualPlaces, plot_residual_places, residual_table
 from heartfit.roles import Mechanism
 

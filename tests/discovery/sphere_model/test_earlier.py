@@ -14,7 +14,8 @@ from heartfit.discovery.sphere_model.problem import SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.heart import Heart
 from heartfit.io.other_worlds import read_other_hearts
-from heartfit.places import EARLIER_PLACES, Place, WallPressure
+from heartfit.places import EARLIER_PLACES, Place
+from heartfit.places.wall import WallPressure
 from heartfit.roles import Sensor
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.other_worlds import OtherHeart, measure

@@ -38,7 +38,9 @@ from heartfit.discovery.sphere_model.nominal_heart import PEOPLE, NominalHeart, 
 from heartfit.discovery.sphere_model.problem import NO_BEAT, SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.heart import Heart
-from heartfit.places import COEFFICIENTS, EARLIER_PLACES, FunctionOfTime, PeriodicFunction
+from heartfit.places import EARLIER_PLACES
+from heartfit.places.periodic import COEFFICIENTS, PeriodicFunction
+from heartfit.places.place import FunctionOfTime
 from heartfit.roles import Mechanism
 
 CHANGE_SCALES = (0.05, 0.1, 0.2)
