@@ -1,13 +1,12 @@
-"""Detection limits by measured curves, and diagnoses of planted hearts by the left ventricle alone and by both."""
+"""Diagnoses of planted hearts by the left ventricle alone and by both."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
 from heartfit.discovery.sphere_model.cause import Diagnosis
-from heartfit.discovery.sphere_model.limits import SIZES, DetectionLimit
 from heartfit.results.text import spaced_name
 
 
@@ -20,25 +19,6 @@ class RightTrial:
     scales: float
     left: Diagnosis
     both: Diagnosis
-
-
-def right_limits_table(limits: Mapping[str, Sequence[DetectionLimit]]) -> pd.DataFrame:
-    """Return the expected ln Bayes factor at two scales and the detection limit of every effect, by measured curves."""
-    columns = {
-        f"{curves}: {what}": [tell(limit) for limit in some]
-        for curves, some in limits.items()
-        for what, tell in (("ln B at 2 scales", _at_two), ("least scales", _least))
-    }
-    names = [spaced_name(limit.name) for limit in next(iter(limits.values()))]
-    return pd.DataFrame({"effect": names} | columns)
-
-
-def _at_two(limit: DetectionLimit) -> str:
-    return f"{limit.factors[SIZES.index(2.0)]:.1f}"
-
-
-def _least(limit: DetectionLimit) -> str:
-    return f"over {SIZES[-1]:g}" if limit.least is None else f"{limit.least:.1f}"
 
 
 def right_table(trials: Sequence[RightTrial]) -> pd.DataFrame:

@@ -93,19 +93,6 @@ class EarlierHeart:
         carried = (_carried(place, times, period) for place in _places(nominal.heart))
         return nominal.with_mechanisms(carried)
 
-    def misfit(self, recording: Recording) -> dict[str, float]:
-        """Return the root mean square residual of the earlier recording over the noise, by curve."""
-        problem = SphereProblem.from_recording(recording, self.nominal)
-        predicted = problem.model.predict(np.zeros(BASE), ())
-        if predicted is None:
-            raise InputError(NO_BEAT)
-        left = problem.data.values - predicted
-        blocks = zip(problem.data.blocks, problem.data.rows, strict=True)
-        return {
-            block.curve: float(np.sqrt(np.mean(left[rows] ** 2))) / self.levels[block.curve][0]
-            for block, rows in blocks
-        }
-
     def enter(self, problem: SphereProblem) -> SphereProblem:
         """Return the problem of a later recording, whose data may hold changes of the functions."""
         model = CountedHypothesis(_hypothesis(problem.model))
