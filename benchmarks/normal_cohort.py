@@ -9,6 +9,7 @@ patients are those of config/cases.tsv.
 import sys
 from collections.abc import Iterator
 
+from benchmarks.normal_adults import NormalAdult, abnormal, draw_adult
 from benchmarks.ventricles import ROOT
 from heartfit.calibration.plausible import Limit
 from heartfit.io.configuration import read_study
@@ -16,7 +17,6 @@ from heartfit.io.files import write_text
 from heartfit.io.noise_models import read_limits
 from heartfit.io.templates import TEMPLATES, find_template
 from heartfit.study.study import Study
-from heartfit.synthetic.normal import NormalAdult, abnormal, draw_adult
 from heartfit.synthetic.volunteer import Template, VolunteerError, generate, hide_heart
 
 FIRST_SEED, COUNT = 2001, 7

@@ -14,12 +14,7 @@ from typing import TypeVar
 import pandas as pd
 
 from benchmarks.measured_table import store_table
-from heartfit.discovery.sphere_model.diagnose import diagnose
-from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.discovery.sphere_model.structure import Structure
-from heartfit.io.other_worlds import read_other_hearts
-from heartfit.io.structure import read_residuals
-from heartfit.results.other_worlds import (
+from benchmarks.other_worlds.tables import (
     ALONE,
     Judged,
     fits_table,
@@ -27,6 +22,11 @@ from heartfit.results.other_worlds import (
     outcomes_table,
     priors_table,
 )
+from heartfit.discovery.sphere_model.diagnose import diagnose
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.structure import Structure
+from heartfit.io.other_worlds import read_other_hearts
+from heartfit.io.structure import read_residuals
 from heartfit.synthetic.other_worlds import OtherHeart, measure
 
 PROCESSES = 2

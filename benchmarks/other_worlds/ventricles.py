@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 
+from benchmarks.normal_adults import abnormal, draw_adult
 from benchmarks.ventricles import ROOT
 from heartfit.io.configuration import read_study
 from heartfit.io.noise_models import read_limits
 from heartfit.io.templates import TEMPLATES, find_template
 from heartfit.observation.beat import beat_curves
-from heartfit.synthetic.normal import abnormal, draw_adult
 from heartfit.synthetic.other_worlds import OtherHeart
 from heartfit.synthetic.volunteer import Volunteer, VolunteerError, generate, hide_heart
 

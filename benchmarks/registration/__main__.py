@@ -54,11 +54,11 @@ def main() -> None:
 def row(name: str, method: Method, heart: Known, sequence: ImageSequence) -> dict[str, str]:
     """Errors of a method: of the observations, of the points, folded tetrahedra, shape at end systole, and its cost."""
     begin = time.process_time()
-    found = method(sequence, heart.mesh)
+    registered = method(sequence, heart.mesh)
     cpu = (time.process_time() - begin) / (len(sequence.times) - 1)
     truth = heart.motion.resample(sequence.times)
-    both = compare_motions(heart.mesh, truth, found, {"lv_volume": VolumeFeatures(len(truth.times))})
-    shape = motion_shape(heart.mesh, found)
+    both = compare_motions(heart.mesh, truth, registered, {"lv_volume": VolumeFeatures(len(truth.times))})
+    shape = motion_shape(heart.mesh, registered)
     mean, most = both.point_error_of_beat
     return {
         "method": name,

@@ -6,9 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model.cause import Cause
-from heartfit.observation.curve import Curve
-from heartfit.results.other_worlds import (
+from benchmarks.other_worlds.tables import (
     ALONE,
     HEALTHY,
     MECHANISM,
@@ -20,6 +18,8 @@ from heartfit.results.other_worlds import (
     outcomes_table,
     priors_table,
 )
+from heartfit.discovery.sphere_model.cause import Cause
+from heartfit.observation.curve import Curve
 from heartfit.synthetic.other_worlds import OtherHeart
 from heartfit.synthetic.trial import ScoredDiagnosis
 

@@ -1,7 +1,7 @@
 """Tables of the searches with and without the right ventricle."""
 
+from benchmarks.right_ventricle import RightTrial, right_hearts_table, right_table
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
-from heartfit.results.right_ventricle import RightTrial, right_hearts_table, right_table
 
 
 def diagnosed(factor: float, *names: str) -> Diagnosis:
