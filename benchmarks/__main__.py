@@ -5,6 +5,7 @@
 
 import sys
 from collections.abc import Callable
+from functools import partial
 from typing import TypeVar
 
 from benchmarks import sphere
@@ -28,14 +29,14 @@ def main(arguments: list[str]) -> None:
     announced("installing the other programs", install_peers)
     announced("compiling the kernels", compile_kernels)
     for mesh in meshes:
-        announced(f"mesh of {mesh} tetrahedra", lambda mesh=mesh: mesh_file(mesh))
+        announced(f"mesh of {mesh} tetrahedra", partial(mesh_file, mesh))
     beats = {
-        (mesh, setting): announced(f"beat of {mesh}, {setting}", lambda m=mesh, s=setting: cost(m, s))
+        (mesh, setting): announced(f"beat of {mesh}, {setting}", partial(cost, mesh, setting))
         for mesh in meshes
         for setting in ELEMENTS
     }
     steps = [
-        announced(f"Newton steps on {mesh}, {element}", lambda m=mesh, e=element: newton_steps(m, e))
+        announced(f"Newton steps on {mesh}, {element}", partial(newton_steps, mesh, element))
         for mesh in SMALL
         for element in ELEMENTS.values()
     ]

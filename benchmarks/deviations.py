@@ -1,39 +1,50 @@
-"""Effects of departures from the paper; writes the tables deviations_*.tsv of docs/measured, ten minutes.
+"""Effects of departures from the paper on a beat; stores docs/measured/deviations_beats and deviations_activation.
 
 python -m benchmarks.deviations RESULTS   RESULTS: folder of a finished study, of which virtual hearts are read
 
-Then `python3 study.py numbers` fills studies/calibration/deviations.md.
+The numbers are those of simulated beats, without images. Then `python3 study.py numbers` fills
+studies/calibration/deviations.md. Two minutes.
 """
 
-import subprocess
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.deviations_spheres import SLOPE, Score, length_dependence, scales, weights
-from benchmarks.deviations_step import ADDITIVE, LOGARITHMIC
-from benchmarks.deviations_ventricles import (
-    FILLED,
-    NOT_UNLOADED,
-    STARLING,
-    VOLUMES,
-    Calibration,
-    Ventricles,
-    calibrations,
-    other_conductions,
-    single_beats,
-)
-from benchmarks.ventricles import ROOT
-from heartfit.io.configuration import read_cases, read_study
-from heartfit.io.files import write_text
-from heartfit.observation.operator import PressureFeatures
-from heartfit.study.study import Study
+import pandas as pd
 
-SETTINGS = ("locking", "physical")
-VICINITY, FAR, PATIENT = "volunteer1", "volunteer6", "lbbb1"
-"""A volunteer near the mean of the prior, the one farthest from it, and a patient with a fitted map of activation."""
-NUMBERS = (*VOLUMES, *PressureFeatures.names, FILLED)
-Rows = list[list[str]]
+from benchmarks.measured_table import store_table
+from benchmarks.ventricles import ROOT
+from heartfit.geometry.fibres import prepare
+from heartfit.geometry.mesh import VentricularMesh
+from heartfit.heart.activation.conduction import (
+    CONDUCTIONS,
+    HEALTHY,
+    Conduction,
+    assign_activation,
+    fit_conduction,
+)
+from heartfit.io.configuration import read_cases, read_study
+from heartfit.io.meshes import read_mesh
+from heartfit.io.results import read_truth
+from heartfit.io.templates import TEMPLATES, find_template
+from heartfit.observation.beat import beat_curves
+from heartfit.observation.operator import PressureFeatures, VolumeFeatures, cavity_indices, observe
+from heartfit.personalise.numerics import TimeScheme
+from heartfit.personalise.run import run_beat
+from heartfit.personalise.setting import Setting
+from heartfit.study.case import Case
+from heartfit.study.study import Study
+from heartfit.synthetic.volunteer import OTHER_CONDUCTIONS
+
+MODULE = "benchmarks.deviations RESULTS"
+VICINITY, PATIENT = "volunteer1", "lbbb1"
+"""A volunteer near the mean of the prior, and a patient with a fitted map of activation."""
+FILLED = "EDV"
+NUMBERS = (*VolumeFeatures.names, *PressureFeatures.names, FILLED)
+SLOPES = (0.15, 0.3)
+"""Slopes of the length dependence of n_0: of the nominal heart of the search in 3-D, and of the hidden hearts."""
+Numbers = dict[str, float]
 
 
 def main(arguments: list[str]) -> int:
@@ -42,117 +53,98 @@ def main(arguments: list[str]) -> int:
         return 2
     study = read_study([ROOT / "config" / "config.yaml"])
     cases = {case.case: case for case in read_cases(ROOT / study.cases)}
-    near, far, patient = (
-        Ventricles.of(study, cases[name], Path(arguments[0])) for name in (VICINITY, FAR, PATIENT)
-    )
-    tables: dict[str, Callable[[], Rows]] = {
-        "scale": lambda: scale_rows(study),
-        "weights": lambda: weight_rows(study),
-        "length": lambda: length_rows(study),
-        "activation": lambda: activation_rows(patient),
-        "beats": lambda: beat_rows(near),
-        "calibrations": lambda: calibration_rows(near, far),
-    }
-    for name, rows in tables.items():
-        _write(name, rows())
+    near, patient = (Ventricles.of(study, cases[name], Path(arguments[0])) for name in (VICINITY, PATIENT))
+    store_table("deviations_beats", beats_table(near), MODULE)
+    store_table("deviations_activation", activation_table(patient, "physical"), MODULE)
     return 0
 
 
-def _write(name: str, rows: Rows) -> None:
-    commit = subprocess.run(
-        ["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True
-    ).stdout.strip()
-    made_by = f"# made by: python -m benchmarks.deviations RESULTS; commit: {commit}"
-    text = "\n".join([made_by, *("\t".join(row) for row in rows)])
-    write_text(ROOT / "docs" / "measured" / f"deviations_{name}.tsv", f"{text}\n")
+@dataclass(frozen=True, eq=False)
+class Ventricles:
+    """A virtual case as its calibrator sees it: mesh, and true parameters."""
+
+    study: Study
+    case: Case
+    mesh: VentricularMesh
+    truth: Mapping[str, float]
+
+    @classmethod
+    def of(cls, study: Study, case: Case, results: Path) -> "Ventricles":
+        """Mesh the hidden wall with the calibrator's template, as the study does, without activation."""
+        folder, sizes = results / case.case / "cohort", (study.virtual_mesh, study.cohort.mesh)
+        template, generator = (find_template(size, ROOT / TEMPLATES) for size in sizes)
+        wall = template.fill_wall_of(read_mesh(folder / "heart.vtu"), generator.mesh)
+        return cls(study, case, prepare(wall), read_truth(folder / "truth.json"))
+
+    def activated(self, conduction: Conduction | None = None) -> VentricularMesh:
+        """The mesh with the case's conduction or another, fitted to the QRS duration if that is known."""
+        kind = conduction or CONDUCTIONS[self.case.conduction]
+        qrs = None if kind is HEALTHY else self.case.qrs
+        return assign_activation(self.mesh, fit_conduction(self.mesh, kind, qrs))
+
+    def numbers(
+        self,
+        mesh: VentricularMesh,
+        setting: Setting,
+        parameters: Mapping[str, float],
+        scheme: TimeScheme | None = None,
+    ) -> Numbers:
+        """Six numbers and the largest left volume [SI] of a beat, with the study's numerics unless others are given."""
+        pressures = self.study.filling_pressures(self.case)
+        beat = run_beat(mesh, setting, self.case.period, parameters, pressures, scheme or self.study.numerics)
+        curves = beat_curves(beat)
+        features = self.study.observation.trial_features(self.study.observation.frames)
+        return {**observe(curves, features), FILLED: cavity_indices(curves)[FILLED]}
 
 
-def _score_cells(score: Score) -> list[str]:
-    median, largest = score.observations
-    return [f"{median:.1f}, {largest:.0f}", f"{score.parameters:.0f}"]
-
-
-def scale_rows(study: Study) -> Rows:
-    """Rows of the two scales on spheres."""
-    head = [
-        "observed",
-        "spread of hearts and prior",
-        "scale",
-        "error: median, largest (%)",
-        "error of ln theta (%)",
-    ]
-    rows = [[*head, "sigma points below zero", "hearts without an estimate"]]
-    for observed, width, scale, score in scales(study):
-        spread = "as in the study" if width == 1.0 else f"{width:g} times"
-        lost = f"{score.lost} of {study.sphere_study.hearts}"
-        rows.append([observed, spread, scale, *_score_cells(score), str(score.impossible), lost])
-    return rows
-
-
-def weight_rows(study: Study) -> Rows:
-    """Rows of the distance of the sigma points on spheres."""
-    rows = [["a", "error: median, largest (%)", "error of ln theta (%)"]]
-    return rows + [[f"{a:g}", *_score_cells(score)] for a, score in weights(study)]
-
-
-def length_rows(study: Study) -> Rows:
-    """Rows of spheres whose n_0 depends on length, calibrated without and with that dependence."""
-    head = ["observed", "slope of the calibrator", "error: median, largest (%)", "error of ln theta (%)"]
-    rows = [[*head, "mean error of ln sigma_0, ln mu (%)"]]
-    for observed, slope, score in length_dependence(study):
-        bias = f"{score.bias['sigma_0']:+.1f}, {score.bias['mu']:+.1f}"
-        known = "0, as in the study" if slope == 0.0 else f"{SLOPE:g}, the true one"
-        rows.append([observed, known, *_score_cells(score), bias])
-    return rows
-
-
-def calibration_rows(near: Ventricles, far: Ventricles) -> Rows:
-    """Rows of calibrations in 3-D."""
-    head = ["volunteer, setting", "variant", *(f"{name} (%)" for name in VOLUMES), "EDV (%)"]
-    rows = [[*head, "longest move (prior sd)", "estimate over truth"]]
-    steps = (LOGARITHMIC, ADDITIVE)
-    runs = (
-        (near, "physical", (*steps, NOT_UNLOADED, STARLING)),
-        (near, "locking", (*steps, NOT_UNLOADED)),
-        (far, "locking", steps),
+def beats_table(near: Ventricles) -> pd.DataFrame:
+    """Return the change of each number by a departure, under every setting at the mean of its prior."""
+    return pd.DataFrame(
+        [
+            {"setting": f"`{name}`", "departure": departure, **_changes(usual, other)}
+            for name in ("locking", "physical")
+            for usual, departure, other in single_beats(near, name)
+        ]
     )
-    for ventricles, setting, variants in runs:
-        fits = calibrations(ventricles, setting, variants)
-        rows += [_calibration_row(ventricles, calibration) for calibration in fits]
-    return rows
 
 
-def _calibration_row(ventricles: Ventricles, calibration: Calibration) -> list[str]:
-    name = f"{ventricles.case.case}, `{calibration.setting}`"
-    ratios = [
-        f"{parameter} {_printed(parameter, value, ventricles.truth)}"
-        for parameter, value in calibration.estimate.items()
-    ]
-    errors = [f"{value:+.1f}" for value in calibration.errors.values()]
-    return [name, calibration.variant, *errors, f"{calibration.longest:.1f}", ", ".join(ratios)]
+def single_beats(ventricles: Ventricles, name: str) -> Iterator[tuple[Numbers, str, Numbers]]:
+    """Yield the usual numbers, a departure, and its numbers, in beats of a setting at the mean of its prior."""
+    mesh, standard = ventricles.activated(), ventricles.study.setting(name)
+    mean = standard.gaussian().physical()
+    once = ventricles.study.numerics.model_copy(update={"max_beats": 1})
+    departures: dict[str, tuple[Setting, TimeScheme | None]] = {
+        "not unloaded": (standard.model_copy(update={"reference": "end_diastolic"}), None),
+        **{
+            f"n_0 depends on length, slope {slope}": (
+                standard.model_copy(update={"heart": {"starling.slope": slope}}),
+                None,
+            )
+            for slope in SLOPES
+        },
+        "one beat instead of the limit cycle": (standard, once),
+    }
+    usual = ventricles.numbers(mesh, standard, mean)
+    for departure, (setting, scheme) in departures.items():
+        yield usual, departure, ventricles.numbers(mesh, setting, mean, scheme)
 
 
-def _printed(parameter: str, value: float, truth: Mapping[str, float]) -> str:
-    """Ratio of an estimate to the truth; of K, which has none on a locking mesh, the value."""
-    return f"= {value / 1e3:.0f} kPa" if parameter == "K" else f"{value / truth[parameter]:.2f}"
+def activation_table(patient: Ventricles, name: str) -> pd.DataFrame:
+    """Return the change of each number of a patient's true heart if the map of activation is another."""
+    setting = patient.study.setting(name)
+    truth = {parameter: patient.truth[parameter] for parameter in setting.estimate}
+    usual, hidden, healthy = (
+        patient.numbers(patient.activated(conduction), setting, truth)
+        for conduction in (None, OTHER_CONDUCTIONS["lbbb"], HEALTHY)
+    )
+    rows = {"the hidden map": hidden, "healthy conduction": healthy}
+    return pd.DataFrame(
+        [{"instead of the fitted map": what, **_changes(usual, other)} for what, other in rows.items()]
+    )
 
 
-def beat_rows(near: Ventricles) -> Rows:
-    """Rows of single beats of a volunteer at the mean of the prior."""
-    rows = [["setting", "departure", *(f"{name} (%)" for name in NUMBERS)]]
-    for setting in SETTINGS:
-        rows += [[f"`{setting}`", *cells] for cells in _change_rows(single_beats(near, setting))]
-    return rows
-
-
-def activation_rows(patient: Ventricles) -> Rows:
-    """Rows of single beats of a patient's true heart with other maps of activation."""
-    rows = [["instead of the fitted map", *(f"{name} (%)" for name in NUMBERS)]]
-    return rows + _change_rows(other_conductions(patient, "physical"))
-
-
-def _change_rows(changes: Iterable[tuple[str, Mapping[str, float]]]) -> Rows:
-    return [[departure, *(f"{change[name]:+.1f}" for name in NUMBERS)] for departure, change in changes]
+def _changes(usual: Numbers, other: Numbers) -> dict[str, str]:
+    return {f"{name} (%)": f"{100.0 * (other[name] / usual[name] - 1.0):+.1f}" for name in NUMBERS}
 
 
 if __name__ == "__main__":

@@ -75,6 +75,8 @@ def write_problem(path: Path, mesh: VentricularMesh, element: str) -> None:
     probe = x[:, [1, 2, 0, *range(3, x.shape[1])]]
     derivative = (step.forces(x + PROBE * probe) - step.forces(x - PROBE * probe)) / (2.0 * PROBE)
     law = step.body.tissue.passive
+    assert isinstance(law, MooneyRivlin)
+    assert mesh.fibres is not None
     np.savez(
         path,
         points=mesh.points,

@@ -8,56 +8,48 @@ patients are those of config/cases.tsv.
 
 import sys
 from collections.abc import Iterator
+from itertools import count, islice
 
+from benchmarks.normal_adults import NormalAdult, abnormal, draw_adult
 from benchmarks.ventricles import ROOT
-from heartfit.calibration.plausible import Limit
 from heartfit.io.configuration import read_study
 from heartfit.io.files import write_text
 from heartfit.io.noise_models import read_limits
 from heartfit.io.templates import TEMPLATES, find_template
-from heartfit.study.study import Study
-from heartfit.synthetic.normal import NormalAdult, abnormal, draw_adult
-from heartfit.synthetic.volunteer import Template, VolunteerError, generate, hide_heart
+from heartfit.synthetic.volunteer import Volunteer, VolunteerError, generate, hide_heart
 
 FIRST_SEED, COUNT = 2001, 7
+CONFIGURATION = ROOT / "config" / "config.yaml"
 TABLE = ROOT / "config" / "normal_cases.tsv"
 LIMITS = ROOT / "resources" / "plausible_beat.csv"
 
 
 def main() -> int:
-    study = read_study([ROOT / "config" / "config.yaml"])
-    template = find_template(study.registration_error.mesh, ROOT / TEMPLATES)
-    head, *rows = (ROOT / study.cases).read_text(encoding="utf-8").splitlines()
+    head, *rows = (ROOT / read_study([CONFIGURATION]).cases).read_text(encoding="utf-8").splitlines()
     patients = [row for row in rows if "\tlbbb\t" in row]
-    kept = normal_adults(study, template, read_limits(LIMITS))
-    drawn = [row_of(f"normal{number}", seed, adult) for number, (seed, adult) in enumerate(kept, start=1)]
+    kept = enumerate(islice(normal_hearts(FIRST_SEED), COUNT), start=1)
+    drawn = [row_of(f"normal{number}", seed, adult) for number, (seed, adult, _) in kept]
     write_text(TABLE, "\n".join([head, *drawn, *patients]) + "\n")
     return 0
 
 
-def normal_adults(study: Study, template: Template, limits: list[Limit]) -> Iterator[tuple[int, NormalAdult]]:
-    """Yield seed and adult of the first COUNT hearts with a normal beat, and print why others are left out."""
-    seed, kept = FIRST_SEED, 0
-    while kept < COUNT:
+def normal_hearts(first_seed: int) -> Iterator[tuple[int, NormalAdult, Volunteer]]:
+    """Yield seed, adult and beat on a coarse mesh of hearts whose beat is normal; print why others are left out."""
+    study, limits = read_study([CONFIGURATION]), read_limits(LIMITS)
+    template = find_template(study.registration_error.mesh, ROOT / TEMPLATES)
+    protocol = study.registration_error.protocol(study.end_diastolic_pressure)
+    for seed in count(first_seed):
         adult = draw_adult(seed)
-        reasons = judged(study, template, adult, seed, limits)
+        hidden = hide_heart(study.cohort.heart, adult.ratios, adult.anatomy.period, seed)
+        try:
+            volunteer = generate(template.deformed_to(adult.anatomy.shape), hidden, protocol)
+            reasons = abnormal(volunteer.beat, limits)
+        except VolunteerError as failure:
+            reasons = [str(failure)]
         sys.stdout.write(f"{seed}: {adult.sex}, {', '.join(reasons) or 'kept'}\n")
         sys.stdout.flush()
         if not reasons:
-            kept += 1
-            yield seed, adult
-        seed += 1
-
-
-def judged(study: Study, template: Template, adult: NormalAdult, seed: int, limits: list[Limit]) -> list[str]:
-    """Limits that the beat of an adult violates on a coarse mesh."""
-    hidden = hide_heart(study.cohort.heart, adult.ratios, adult.anatomy.period, seed)
-    protocol = study.registration_error.protocol(study.end_diastolic_pressure)
-    try:
-        volunteer = generate(template.deformed_to(adult.anatomy.shape), hidden, protocol)
-    except VolunteerError as failure:
-        return [str(failure)]
-    return abnormal(volunteer.beat, limits)
+            yield seed, adult, volunteer
 
 
 def row_of(name: str, seed: int, adult: NormalAdult) -> str:

@@ -1,7 +1,7 @@
 """Means of the prior from the beat of the mean healthy adult; writes docs/measured/prior*.tsv, five minutes.
 
 The observations are those of resources/normal_beat.csv with the errors of their means, the heart is the mean adult of
-`heartfit.synthetic.normal` on the study's virtual mesh. X0 of a setting is the maximum a posteriori about its declared
+`benchmarks.normal_adults` on the study's virtual mesh. X0 of a setting is the maximum a posteriori about its declared
 values, after STEPS unscented steps, in DIGITS digits: what the normal beat does not determine keeps its declared value.
 No heart of a cohort enters.
 """
@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.measured_table import store_table
+from benchmarks.normal_adults import MEAN_ADULT
 from benchmarks.ventricles import ROOT
 from heartfit.calibration.alternatives import iterate
 from heartfit.calibration.unscented import Forward, Outcome
@@ -28,7 +29,6 @@ from heartfit.observation.operator import observe
 from heartfit.personalise.run import run_beat
 from heartfit.personalise.setting import Setting
 from heartfit.study.study import Study
-from heartfit.synthetic.normal import MEAN_ADULT
 from heartfit.synthetic.volunteer import Template
 
 STEPS, DIGITS = 3, 3

@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -33,7 +34,7 @@ TOLERANCE = 0.02
 
 def cost(run: Callable[[int], Beat]) -> tuple[float, float]:
     """CPU time of an additional beat and of the overhead of a run [s]: medians, with compiled kernels."""
-    few, many = (_median(lambda n=n: run(n)) for n in (SMALL, MANY))
+    few, many = (_median(partial(run, n)) for n in (SMALL, MANY))
     beat = (many - few) / (MANY - SMALL)
     return beat, few - SMALL * beat
 
@@ -56,7 +57,7 @@ def standard(spheres: Sequence[Sphere], activation: Floats, beats: int) -> Beat:
 
 def costs() -> dict[str, tuple[float, float]]:
     """CPU time of a beat and of the overhead [s], by case; PhysioBlocks has one number."""
-    ours = {name: cost(lambda n, case=case: standard(*case, n)) for name, case in CASES.items()}
+    ours = {name: cost(partial(standard, *case)) for name, case in CASES.items()}
     theirs = physioblocks()
     differences = departures(theirs, reference_beat())
     if max(differences.values()) > TOLERANCE:

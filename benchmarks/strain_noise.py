@@ -6,7 +6,7 @@ quality in each segment. Ten seconds of one core per sequence; finished sequence
 """
 
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import product
 from typing import get_args
 
@@ -24,6 +24,7 @@ from heartfit.observation.strain import SEGMENTS
 MODULE = "benchmarks.strain_noise"
 SOUND_HEARTS = "sound"
 ALL_HEARTS = "all"
+Judge = Callable[[RegionalNoise, RegionalPair, str], float]
 
 
 def main() -> None:
@@ -131,7 +132,7 @@ def chi_square_of_mean(noise: RegionalNoise, pair: RegionalPair, kind: str) -> f
     return float(residual @ np.linalg.solve(covariance, residual)) / residual.size
 
 
-def _each(judges: Sequence[RegionalNoise], pairs: Sequence[RegionalPair], kind: str, judge) -> Floats:
+def _each(judges: Sequence[RegionalNoise], pairs: Sequence[RegionalPair], kind: str, judge: Judge) -> Floats:
     """Judgement (n,) of each pair by its noise."""
     return np.array([judge(noise, pair, kind) for noise, pair in zip(judges, pairs, strict=True)])
 

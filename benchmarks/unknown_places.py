@@ -10,12 +10,7 @@ from dataclasses import dataclass
 
 from benchmarks.in_turn import searched_in_turn, spread_evenly
 from benchmarks.measured_table import store_table
-from heartfit.discovery.sphere_model.diagnose import conclude
-from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
-from heartfit.discovery.sphere_model.unknown_place import locate
-from heartfit.places import PLACES, regions_of
-from heartfit.results.unknown_places import (
+from benchmarks.place_tables import (
     COMPLETE,
     OUTSIDE,
     REMOVED,
@@ -27,6 +22,11 @@ from heartfit.results.unknown_places import (
     places_table,
     targets_table,
 )
+from heartfit.discovery.sphere_model.diagnose import conclude
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
+from heartfit.discovery.sphere_model.unknown_place import locate
+from heartfit.places import PLACES, regions_of
 from heartfit.synthetic.campaign import Kind, PlantedPlan, plantable
 from heartfit.synthetic.case import RAISED, REST, plant
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY

@@ -20,6 +20,7 @@ from benchmarks.planted_ventricles import (
     wall_recording,
 )
 from benchmarks.ventricles import ROOT
+from benchmarks.wall_tables import WallResult, WallTrial, hearts_table, rates_table
 from heartfit.discovery.inference.decide import Effects
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.searched_recording import NAMING_VERDICTS
@@ -34,7 +35,6 @@ from heartfit.discovery.wall_model.wall_data import WallRecording
 from heartfit.geometry.territory import APEX
 from heartfit.io.figures import write_figure
 from heartfit.results.bullseye import plot_bullseye
-from heartfit.results.wall_search import WallResult, WallTrial, hearts_table, rates_table
 from heartfit.roles import registered
 from heartfit.synthetic.campaign import PlantedPlan, plantable
 from heartfit.synthetic.case import REST, PlantedCase

@@ -9,10 +9,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from benchmarks.other_worlds.score import judged_in_turn, simulators, store_of_worlds
+from benchmarks.other_worlds.tables import AGAINST, Judged, changes_table, hearts_table
 from heartfit.discovery.sphere_model.diagnose import diagnose_change
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.io.other_worlds import read_other_hearts
-from heartfit.results.other_worlds import AGAINST, Judged, changes_table, hearts_table
 from heartfit.synthetic.other_worlds import OtherHeart, measure
 
 Pair = tuple[OtherHeart, OtherHeart]

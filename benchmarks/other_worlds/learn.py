@@ -7,7 +7,8 @@ many of our own model in three dimensions; a quarter of an hour of two cores
 import sys
 from concurrent.futures import ProcessPoolExecutor
 
-from benchmarks.other_worlds.score import PROCESSES, healthy_hearts, simulators
+from benchmarks.in_turn import PROCESSES
+from benchmarks.other_worlds.score import healthy_hearts, simulators
 from benchmarks.other_worlds.ventricles import healthy_ventricles
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.recording import Recording

@@ -18,9 +18,9 @@ from benchmarks.other_worlds.score import (
     simulators,
     store_of_worlds,
 )
+from benchmarks.other_worlds.tables import outcomes_table
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.discovery.sphere_model.structure import Structure, learn_from_controls
-from heartfit.results.other_worlds import outcomes_table
 from heartfit.synthetic.other_worlds import measure
 
 CONTROLS = 8

@@ -4,22 +4,16 @@ Of every file of resources/other_worlds: HEALTHY healthy hearts and the severe o
 heart and stores docs/measured/other_worlds_*.tsv. Twenty-five minutes of two cores.
 """
 
-import sys
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor
 from itertools import zip_longest
 from pathlib import Path
 from typing import TypeVar
 
 import pandas as pd
 
+from benchmarks.in_turn import searched_in_turn
 from benchmarks.measured_table import store_table
-from heartfit.discovery.sphere_model.diagnose import diagnose
-from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.discovery.sphere_model.structure import Structure
-from heartfit.io.other_worlds import read_other_hearts
-from heartfit.io.structure import read_residuals
-from heartfit.results.other_worlds import (
+from benchmarks.other_worlds.tables import (
     ALONE,
     Judged,
     fits_table,
@@ -27,10 +21,14 @@ from heartfit.results.other_worlds import (
     outcomes_table,
     priors_table,
 )
+from benchmarks.ventricles import ROOT
+from heartfit.discovery.sphere_model.diagnose import diagnose
+from heartfit.discovery.sphere_model.recording import Recording
+from heartfit.discovery.sphere_model.structure import Structure
+from heartfit.io.other_worlds import read_other_hearts
+from heartfit.io.structure import read_residuals
 from heartfit.synthetic.other_worlds import OtherHeart, measure
 
-PROCESSES = 2
-ROOT = Path(__file__).resolve().parents[2]
 BANK = ROOT / "resources" / "other_worlds"
 HEALTHY = 4
 Task = tuple[OtherHeart, Structure]
@@ -53,13 +51,8 @@ def judged_in_turn(
 ) -> Iterator[list[Judged]]:
     """Search one heart of each simulator after the other; print each, and yield all so far by simulator."""
     tasks = [task for some in zip_longest(*by_simulator) for task in some if task is not None]
-    judged: list[Judged] = []
-    with ProcessPoolExecutor(PROCESSES) as pool:
-        for one in pool.map(search, tasks):
-            judged.append(one)
-            sys.stdout.write(f"{' | '.join(map(str, hearts_table([one]).iloc[0]))}\n")
-            sys.stdout.flush()
-            yield sorted(judged, key=lambda judged_heart: judged_heart.heart.world)
+    for judged in searched_in_turn(search, tasks, hearts_table):
+        yield sorted(judged, key=lambda one: one.heart.world)
 
 
 def store(judged: list[Judged]) -> None:

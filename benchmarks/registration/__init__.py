@@ -1,1 +1,1 @@
-"""Comparison of registrations: the library's and ours on synthetic images of a known motion."""
+"""Comparison of registrations: SimpleITK's and ours on synthetic images of a known motion."""

@@ -1,58 +1,76 @@
-"""Measure every registration and store docs/measured/registration_*.tsv, in a quarter of an hour.
+"""Registrations on images of a heart whose motion is known: python -m benchmarks.registration
 
-`--kept` takes the rows that are on disk, as after an interrupted run.
+The best known settings of SimpleITK's methods and ours. Stores docs/measured/registration_methods.tsv; four minutes.
 """
 
 import sys
-from functools import lru_cache
+import time
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+import pandas as pd
 
 from benchmarks.measured_table import store_table
-from benchmarks.registration.contrasts import CONTRASTS, USUAL, scanner
-from benchmarks.registration.kept import Kept
-from benchmarks.registration.methods import METHODS, OURS, Method
-from benchmarks.registration.phantom import HEARTS, Known, known_heart
-from benchmarks.registration.repeat import digest_on
-from benchmarks.registration.row import Row, measured
-from benchmarks.registration.tables import contrasts_table, methods_table
-from benchmarks.ventricles import FOLDER
+from benchmarks.registration.carried import carried, nothing
+from benchmarks.registration.library import demons, splines
+from benchmarks.registration.phantom import Known, known_heart
+from heartfit.geometry.mesh import Motion, VentricularMesh
+from heartfit.imaging.registration.track import FreeForm, track
 from heartfit.imaging.sequence import ImageSequence
+from heartfit.observation.comparison import compare_motions
+from heartfit.observation.operator import VolumeFeatures
+from heartfit.observation.shape import motion_shape
 from heartfit.synthetic.cine import image_beat
+from heartfit.synthetic.scanner import Scanner
+
+Method = Callable[[ImageSequence, VentricularMesh], Motion]
+METHODS: dict[str, Method] = {
+    "no registration: mesh of end diastole": partial(carried, matching=nothing),
+    "SimpleITK demons, fast symmetric: smoothing 1, half and full": partial(
+        carried, matching=demons(((2, 40), (1, 30)), 1.0)
+    ),
+    "SimpleITK demons, fast symmetric: smoothing 0.5, update smoothing 1, half resolution": partial(
+        carried, matching=demons(((2, 40),), 0.5, update=1.0)
+    ),
+    "SimpleITK B-splines, half resolution: 15 mm, near the wall, 60 steps": partial(
+        carried, matching=splines(7.5, 60, 0.2)
+    ),
+    "heartfit: default settings": lambda sequence, mesh: track(sequence, mesh, FreeForm()).motion,
+}
 
 
-def main(arguments: list[str]) -> None:
-    kept = Kept(FOLDER / "registration" / "rows.json", again="--kept" not in arguments)
-    methods = {
-        family: {
-            name: kept.row(f"{family}, {name}", lambda m=method: row(m)) for name, method in named.items()
-        }
-        for family, named in METHODS.items()
+def main() -> None:
+    heart = known_heart()
+    sequence = image_beat(heart.mesh, heart.motion, Scanner(), seed=0)
+    rows = []
+    for name, method in METHODS.items():
+        rows.append(row(name, method, heart, sequence))
+        sys.stdout.write(f"{' | '.join(rows[-1].values())}\n")
+        sys.stdout.flush()
+    store_table("registration_methods", pd.DataFrame(rows), "benchmarks.registration")
+
+
+def row(name: str, method: Method, heart: Known, sequence: ImageSequence) -> dict[str, str]:
+    """Errors of a method: of the observations, of the points, folded tetrahedra, shape at end systole, and its cost."""
+    begin = time.process_time()
+    registered = method(sequence, heart.mesh)
+    cpu = (time.process_time() - begin) / (len(sequence.times) - 1)
+    truth = heart.motion.resample(sequence.times)
+    both = compare_motions(heart.mesh, truth, registered, {"lv_volume": VolumeFeatures(len(truth.times))})
+    shape = motion_shape(heart.mesh, registered)
+    mean, most = both.point_error_of_beat
+    return {
+        "method": name,
+        **{f"{key} %": f"{100.0 * value:+.1f}" for key, value in both.observation_errors().items()},
+        "points mm": f"{1e3 * mean:.2f}",
+        "95 % mm": f"{1e3 * most:.1f}",
+        "folded": str(both.folded.max()),
+        "shortening %": f"{100.0 * shape.shortening[both.end_systole]:.1f}",
+        "twist °": f"{np.degrees(shape.twist[both.end_systole]):.1f}",
+        "CPU s a frame": f"{cpu:.2f}",
     }
-    ours = METHODS["heartfit"][OURS]
-    contrasts = {
-        contrast: [
-            kept.row(f"heart {heart}, {contrast}", lambda c=contrast, h=heart: row(ours, h, c))
-            for heart in range(len(HEARTS))
-        ]
-        for contrast in CONTRASTS
-    }
-    same = len({digest_on(threads) for threads in (1, 2)}) == 1
-    print(f"a motion on one and on two threads: {'the same' if same else 'different'} bytes")
-    store_table("registration_methods", methods_table(methods), "benchmarks.registration")
-    store_table("registration_contrasts", contrasts_table(contrasts), "benchmarks.registration")
-
-
-def row(method: Method, number: int = 0, contrast: str = USUAL) -> Row:
-    """Errors of a method on a heart under a contrast."""
-    heart, sequence = imaged(number, contrast)
-    return measured(heart.mesh, heart.motion.resample(sequence.times), lambda: method(sequence, heart.mesh))
-
-
-@lru_cache(maxsize=1)
-def imaged(number: int, contrast: str) -> tuple[Known, ImageSequence]:
-    """A heart and its images."""
-    heart = known_heart(number)
-    return heart, image_beat(heart.mesh, heart.motion, scanner(contrast), seed=number)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -8,9 +8,8 @@ import SimpleITK as sitk
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
-from heartfit.geometry.cavity import Cavity
 from heartfit.geometry.mesh import Motion, VentricularMesh
-from heartfit.imaging.raster import paint_inside, wall_voxels
+from heartfit.imaging.raster import wall_voxels
 from heartfit.imaging.sampling import crop, resample_isotropic
 from heartfit.imaging.sequence import Grid, ImageSequence
 
@@ -43,20 +42,12 @@ def nothing(images: Images) -> sitk.Transform:
     return images.start
 
 
-def carried(
-    sequence: ImageSequence, mesh: VentricularMesh, matching: Matching, blank: bool = False
-) -> Motion:
-    """The mesh carried through a sequence.
-
-    blank: brightness further than REACH from the wall and the cavities of end diastole is replaced by its mean.
-    """
+def carried(sequence: ImageSequence, mesh: VentricularMesh, matching: Matching) -> Motion:
+    """The mesh carried through a sequence."""
     sitk.ProcessObject.SetGlobalDefaultNumberOfThreads(1)
     cubes = resample_isotropic(crop(sequence, mesh.points, SURROUNDINGS))
     wall = wall_voxels(cubes.grid, mesh)
     voxels = cubes.voxels / np.percentile(cubes.voxels[0], 99.0)
-    if blank:
-        far = ~_near(wall | _blood(cubes.grid, mesh), cubes.grid)
-        voxels[:, far] = voxels[0][far].mean()
     near = sitk.GetImageFromArray(_near(wall, cubes.grid).astype(np.uint8))
     frames = [sitk.GetImageFromArray(frame.astype(np.float32)) for frame in voxels]
     transforms = {0: sitk.Transform(3, sitk.sitkIdentity)}
@@ -70,16 +61,6 @@ def carried(
 def _near(what: Mask, grid: Grid) -> Mask:
     near: Mask = distance_transform_edt(~what) * grid.spacing[0] <= REACH
     return near
-
-
-def _blood(grid: Grid, mesh: VentricularMesh) -> Mask:
-    inside = np.zeros(grid.shape)
-    for side in ("lv", "rv"):
-        cavity = Cavity.from_endocardium(mesh, f"{side}_endo")
-        corners = cavity.corners(mesh.points)
-        triangles = cavity.triangles % len(corners)
-        paint_inside(inside, grid.index(corners), triangles, 1.0, np.zeros((grid.size[2], 2)))
-    return inside > 0.0
 
 
 def _order(count: int) -> Iterator[tuple[int, int]]:

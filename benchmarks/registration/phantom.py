@@ -1,23 +1,18 @@
-"""Hearts whose motion is known, kept on disk: the mesher cannot be seeded, and a beat takes longer than its images."""
+"""A heart whose motion is known, kept on disk: the mesher cannot be seeded, and a beat takes longer than its images."""
 
 from dataclasses import dataclass, replace
 
 from benchmarks.ventricles import FOLDER, ROOT, SHAPE
 from heartfit.geometry.mesh import Motion, VentricularMesh
-from heartfit.geometry.parametric import ParametricVentricles
 from heartfit.io.configuration import read_study
 from heartfit.io.meshes import read_mesh, read_motion, write_mesh, write_motion
-from heartfit.synthetic.volunteer import Anatomy, Template, draw_heart, generate
+from heartfit.synthetic.volunteer import Template, draw_heart, generate
 
 EDGE, TOLERANCE = 9e-3, 0.3e-3
-"""Edge length of the mesh [m]: 5k to 6k tetrahedra."""
-
-HEARTS = (
-    Anatomy(SHAPE, 0.86),
-    Anatomy(ParametricVentricles(145e-6, 8e-3, 1.9, 150e-6, 3.5e-3), 0.92),
-    Anatomy(ParametricVentricles(120e-6, 9.5e-3, 1.75, 125e-6, 4e-3), 0.80),
-)
-"""The study's two volunteers, and a smaller, thicker and rounder heart with a faster beat."""
+"""Edge length of the mesh and tolerance [m]: 5k to 6k tetrahedra."""
+PERIOD, SEED = 0.86, 1
+"""Period [s], and seed of the scatter of its parameters."""
+MESH, MOTION = (FOLDER / "registration" / f"heart0.{kind}" for kind in ("vtu", "npz"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,23 +23,22 @@ class Known:
     motion: Motion
 
 
-def known_heart(number: int) -> Known:
-    """One of the hearts, made now if it is not on disk yet; its number scatters its parameters."""
-    mesh, motion = (FOLDER / "registration" / f"heart{number}.{kind}" for kind in ("vtu", "npz"))
-    if not motion.exists():
-        phantom = _made(HEARTS[number], seed=number + 1)
-        write_mesh(mesh, phantom.mesh)
-        write_motion(motion, phantom.motion)
-    return Known(read_mesh(mesh), read_motion(motion))
+def known_heart() -> Known:
+    """The heart of the benchmarks' ventricles, made now if it is not on disk yet."""
+    if not MOTION.exists():
+        phantom = _made()
+        write_mesh(MESH, phantom.mesh)
+        write_motion(MOTION, phantom.motion)
+    return Known(read_mesh(MESH), read_motion(MOTION))
 
 
-def _made(anatomy: Anatomy, seed: int) -> Known:
+def _made() -> Known:
     """By the study's generator, on a coarser mesh and at the step of its calibrator."""
     study = read_study([ROOT / "config" / "config.yaml"])
     protocol = replace(
         study.cohort.protocol(study.end_diastolic_pressure),
         numerics=study.numerics.numerics(),
     )
-    bare = Template.build(EDGE, TOLERANCE).deformed_to(anatomy.shape)
-    volunteer = generate(bare, draw_heart(study.cohort.heart, anatomy.period, seed), protocol)
+    bare = Template.build(EDGE, TOLERANCE).deformed_to(SHAPE)
+    volunteer = generate(bare, draw_heart(study.cohort.heart, PERIOD, SEED), protocol)
     return Known(volunteer.mesh, volunteer.motion)

@@ -9,7 +9,8 @@ from heartfit.cli.main import main
 from heartfit.discovery.inference.decide import DEFAULT_RULES, STRICT_RULES
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
 from heartfit.discovery.sphere_model.structure import Structure
-from heartfit.places import PLACES, WallPressure
+from heartfit.places import PLACES
+from heartfit.places.wall import WallPressure
 
 
 @pytest.fixture

@@ -1,14 +1,11 @@
-"""The comparison of registrations: motions that are known exactly, and the tables."""
+"""The registrations of SimpleITK find a motion that is known exactly."""
 
 import numpy as np
 import pytest
 import SimpleITK as sitk
 
-from benchmarks.registration.carried import Images, nothing
-from benchmarks.registration.library import affine_first, demons, splines
-from benchmarks.registration.methods import METHODS
-from benchmarks.registration.row import Errors, Row
-from benchmarks.registration.tables import contrasts_table, methods_table
+from benchmarks.registration.carried import Images
+from benchmarks.registration.library import demons, splines
 
 SHIFT = np.array([1.5, -1.0, 2.0])
 """Voxels along i, j, k."""
@@ -24,35 +21,11 @@ def blobs(shift: np.ndarray) -> sitk.Image:
     )
 
 
-MATCHINGS = {
-    "diffeomorphic": demons("diffeomorphic", ((2, 40), (1, 40)), 1.5),
-    "fast symmetric": demons("fast symmetric", ((2, 40), (1, 40)), 1.5),
-    "affine": affine_first(nothing),
-    "affine, then demons": affine_first(demons("fast symmetric", ((1, 20),), 1.5)),
-    "splines": splines(7.0, 30, 0.5, near=False, shrink=1),
-}
-
-
-@pytest.mark.parametrize("name", MATCHINGS)
-def test_a_matching_finds_a_shift_in_the_sense_of_the_mesh(name):
+@pytest.mark.parametrize("match", [demons(((2, 40), (1, 40)), 1.5), splines(7.0, 30, 0.5, shrink=1)])
+def test_a_matching_finds_a_shift_in_the_sense_of_the_mesh(match):
     """fixed(x) = moving(x + shift): a node at x goes to x + shift, not back."""
     fixed, moving = blobs(np.zeros(3)), blobs(SHIFT)
     everywhere = sitk.Cast(fixed > -1.0, sitk.sitkUInt8)
-    transform = MATCHINGS[name](Images(fixed, moving, everywhere, sitk.Transform(3, sitk.sitkIdentity)))
+    transform = match(Images(fixed, moving, everywhere, sitk.Transform(3, sitk.sitkIdentity)))
     for place in ([13.0, 12.0, 11.0], [10.0, 14.0, 12.0]):
         assert np.subtract(transform.TransformPoint(place), place) == pytest.approx(SHIFT, abs=0.1)
-
-
-def errors(mean: float) -> Errors:
-    return Errors(0.1, -0.2, -0.05, mean, 4e-3, 2, 0.15, 0.2, 0.17, 0.3)
-
-
-def test_every_method_and_every_refusal_is_a_row():
-    methods = {family: {name: Row(0.5, errors(2e-3)) for name in named} for family, named in METHODS.items()}
-    shown = methods_table(methods).to_numpy().tolist()
-    assert len(shown) == sum(map(len, METHODS.values()))
-    assert shown[0][1:] == ["+10.0", "-20.0", "-5.0", "2.00", "4.0", "2", "15.0", "11.5", "0.50"]
-    contrasts = {"usual": [Row(0.5, errors(1e-3)), Row(1.0, None, "frames [3] fold the wall")]}
-    first, second = contrasts_table(contrasts).to_numpy().tolist()
-    assert first == ["usual", "1", "+10.0", "-20.0", "-5.0", "1.00", "4.0", "2", "-2.0", "-5.7", "12.0"]
-    assert second == ["usual", "2", "refused", *8 * [""]]

@@ -12,32 +12,13 @@ from heartfit.mechanisms.arterial_reflection import ArterialReflection
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.mitral_stenosis import MitralStenosis
 from heartfit.mechanisms.septal_load import SeptalLoad
-from heartfit.places import (
-    COEFFICIENTS,
-    COSINES,
-    PLACES,
-    REGIONS,
-    ActivationDelay,
-    AorticPressure,
-    AtrialPressure,
-    AttachmentRate,
-    CosineFunction,
-    DetachmentRate,
-    FunctionOfState,
-    FunctionOfTime,
-    LeakFlow,
-    LeakPassage,
-    MitralLoss,
-    PeriodicFunction,
-    Place,
-    WallElasticity,
-    WallPressure,
-    regions_of,
-)
-from heartfit.places.cosines import cosine_deviations
+from heartfit.places import PLACES, REGIONS, Place, regions_of
+from heartfit.places.cosines import COSINES, CosineFunction, cosine_deviations
 from heartfit.places.laws import LawState, laws_of
-from heartfit.places.periodic import wave_deviations
-from heartfit.places.place import AMPLITUDES
+from heartfit.places.library import AorticPressure, AtrialPressure, LeakFlow, LeakPassage, MitralLoss
+from heartfit.places.periodic import COEFFICIENTS, PeriodicFunction, wave_deviations
+from heartfit.places.place import AMPLITUDES, FunctionOfState, FunctionOfTime
+from heartfit.places.wall import ActivationDelay, AttachmentRate, DetachmentRate, WallElasticity, WallPressure
 from heartfit.roles import Mechanism, registered
 from heartfit.roles.laws import Load
 from heartfit.roles.sides import acts_within

@@ -15,7 +15,8 @@ from heartfit.heart.heart import Heart
 from heartfit.heart.simulation import Numerics, simulate
 from heartfit.heart.time_step import TimeStep
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
-from heartfit.places import PLACES, LeakPassage, Place
+from heartfit.places import PLACES, Place
+from heartfit.places.library import LeakPassage
 from heartfit.roles import External, Flow, Mechanism, Narrowing, Pressure, Sensor
 
 BLOOD = (External, Flow, Narrowing, Pressure)

@@ -13,8 +13,9 @@ from heartfit.discovery.sphere_model.forward_model import SphereForwardModel
 from heartfit.discovery.sphere_model.free_parameters import FREE_PARAMETERS
 from heartfit.discovery.sphere_model.nominal_heart import ADULT
 from heartfit.discovery.sphere_model.shown_place import law_state, zero_of
-from heartfit.places import REGIONS, PeriodicFunction, Region
+from heartfit.places import REGIONS, Region
 from heartfit.places.laws import TIME_FORMS, Law, laws_of
+from heartfit.places.periodic import PeriodicFunction
 from heartfit.results.mechanism_file import TEMPLATES, mechanism_file
 from heartfit.roles import Mechanism, registered
 from heartfit.roles.registry import _REGISTRY

@@ -13,6 +13,8 @@ from heartfit.io.plan import plan_study
 from heartfit.io.tables import read_published
 from heartfit.mechanisms.image_shrinkage import ImageShrinkage
 from heartfit.mechanisms.image_smoothing import ImageSmoothing
+from heartfit.mechanisms.mitral_dynamics import MitralDynamics
+from heartfit.mechanisms.relaxed_friction import RelaxedFriction
 from heartfit.personalise.setting import declaration
 from heartfit.study.case import Case
 from heartfit.study.study import Study
@@ -39,6 +41,14 @@ def test_the_studies_that_are_shipped_are_valid():
     for over in CONFIG.parent.glob("*.yaml"):
         validate(Study, read_configuration([CONFIG, over]), over.name)
     assert read_cases(ROOT / "config" / "cases.tsv")
+
+
+def test_the_setting_filling_is_the_physical_one_with_two_mechanisms():
+    study = validate(Study, read_configuration([CONFIG, CONFIG.with_name("filling.yaml")]), "filling.yaml")
+    extended, physical = (study.setting(name) for name in ("filling", "physical"))
+    assert extended.base_heart(0.8).mechanisms[-2:] == (MitralDynamics(), RelaxedFriction())
+    assert extended.estimate == physical.estimate
+    assert extended.gaussian().physical() == physical.gaussian().physical()
 
 
 @pytest.mark.parametrize(

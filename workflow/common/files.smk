@@ -177,7 +177,7 @@ def refit_motion(wildcards):
 
 
 def second_reading(wildcards):
-    """Volume from the blood of a measured heart's images; empty without images beside a fitted surface."""
+    """Volume from the blood of a measured heart's images; empty without images next to a fitted surface."""
     return (
         [f"<results>/{wildcards.case}/curves/blood_volume.csv"]
         if wildcards.case in FITTED_WITH_IMAGES

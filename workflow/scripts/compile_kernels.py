@@ -1,4 +1,4 @@
-"""Compile the numerical kernels, which numba caches beside their sources, and the sources that every job imports."""
+"""Compile the numerical kernels, which numba caches next to their sources, and the sources that every job imports."""
 
 from compileall import compile_dir
 from pathlib import Path

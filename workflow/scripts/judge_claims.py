@@ -1,4 +1,4 @@
-"""Judge every number that the paper states, beside ours."""
+"""Judge every number that the paper states, with ours."""
 
 from pathlib import Path
 

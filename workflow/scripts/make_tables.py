@@ -1,4 +1,4 @@
-"""Write Tables 1 to 3 beside the paper's and in its layout, plausibility, and each number with its provenance."""
+"""Write Tables 1 to 3 with the paper's and in its layout, plausibility, and each number with its provenance."""
 
 from pathlib import Path
 

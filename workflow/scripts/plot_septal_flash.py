@@ -1,4 +1,4 @@
-"""Plot and tabulate the septal flash of the patients beside a volunteer: true, registered and calibrated."""
+"""Plot and tabulate the septal flash of the patients and a volunteer: true, registered and calibrated."""
 
 from itertools import repeat
 from pathlib import Path

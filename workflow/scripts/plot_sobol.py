@@ -1,4 +1,4 @@
-"""Plot and tabulate Sobol's indices of the sphere, beside the covariances of the mesh."""
+"""Plot and tabulate Sobol's indices of the sphere, with the covariances of the mesh."""
 
 from itertools import repeat
 from pathlib import Path

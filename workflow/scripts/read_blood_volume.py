@@ -1,4 +1,4 @@
-"""Read the left ventricular volume from the blood of real short-axis images, beside that of the measured surface."""
+"""Read the left ventricular volume from the blood of real short-axis images, and that of the measured surface."""
 
 from pathlib import Path
 

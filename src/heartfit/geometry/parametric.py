@@ -109,7 +109,7 @@ class ParametricVentricles:
         """Return the closed wall surface: base in the plane z = 0, apex towards -z, right ventricle towards +x.
 
         Nodes and triangles are numbered alike for all shapes. Raises InputError when the right cavity does not fit
-        beside the left one.
+        next to the left one.
         """
         from scipy.optimize import brentq
 
@@ -120,7 +120,7 @@ class ParametricVentricles:
 
         if excess(4.0 * a) < 0.0:
             raise InputError(
-                f"rv_edv {self.rv_edv:g} m^3 does not fit beside edv {self.edv:g} m^3; make it smaller"
+                f"rv_edv {self.rv_edv:g} m^3 does not fit next to edv {self.edv:g} m^3; make it smaller"
             )
         bulge = float(brentq(excess, 1e-3 * a, 4.0 * a, xtol=1e-6 * a))
         return _seams().surface(self._sheets(a, bulge).grids())

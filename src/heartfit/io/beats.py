@@ -14,7 +14,7 @@ from heartfit.personalise.setting import Setting
 
 
 def write_beat(path: Path, beat: Beat, fingerprint: str) -> None:
-    """Write the JSON `path` and the curves as .csv beside it, without rows for a failed beat; nodes are not kept."""
+    """Write the JSON `path` and the curves as .csv of the same name, without rows for a failed beat, without nodes."""
     state = {
         "status": beat.status,
         "reason": beat.reason,

@@ -139,7 +139,7 @@ def _table(path: Path) -> dict[str, list[str]]:
             "or milliseconds: name their column time_s or time_ms"
         )
     if len(table) == 1:
-        raise InputError(f"{path}: no curve beside {times[0]}; expected a column such as lv_volume_ml")
+        raise InputError(f"{path}: no curve other than {times[0]}; expected a column such as lv_volume_ml")
     return table
 
 
@@ -182,6 +182,6 @@ def _period(path: Path) -> float:
     period = stated_period(path)
     if period is None:
         raise InputError(
-            f"{path}: no period; expected a first line such as '# period_s = 0.829', or the period beside the file"
+            f"{path}: no period; expected a first line such as '# period_s = 0.829', or the period as an argument"
         )
     return period

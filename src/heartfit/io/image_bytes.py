@@ -26,14 +26,15 @@ NIFTI_1, SPACING = 348, 80
 
 
 def require_own_voxels(path: Path) -> None:
-    """Raise InputError for a header that takes its voxels from anything but one file beside it.
+    """Raise InputError for a header that takes its voxels from anything but one file in its folder.
 
     SimpleITK would follow it to any file, and wait endlessly for a pipe or a device.
     """
     name = elsewhere(header_of(path)) if path.suffix not in (".nii", ".gz") else ""
     if name and (Path(name).name != name or not path.with_name(name).is_file()):
         raise InputError(
-            f"{path}: takes its voxels from {name}; expected a file beside it: write both into one, as .nrrd or .nii.gz"
+            f"{path}: takes its voxels from {name}; expected a file in its folder: write both into one, as .nrrd "
+            "or .nii.gz"
         )
 
 

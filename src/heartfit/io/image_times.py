@@ -29,7 +29,7 @@ class Timing:
 
 
 def sidecar(path: Path) -> Path:
-    """JSON file beside the images at `path`: {"period_s": 0.829, "times_s": [0.0, 0.033, ...]}."""
+    """JSON file next to the images at `path`: {"period_s": 0.829, "times_s": [0.0, 0.033, ...]}."""
     return path.with_name(f"{stem(path)}.json")
 
 

@@ -1,6 +1,6 @@
 """Image sequences of one beat: read from a 4-D file, a folder of frames or a DICOM cine; written as a 4-D file.
 
-Files are in mm and, as NIfTI states, in s, ms or us. A JSON file of the same name beside the images holds the exact
+Files are in mm and, as NIfTI states, in s, ms or us. A JSON file of the same name next to the images holds the exact
 times: {"period_s": 0.829, "times_s": [0.0, 0.033, ...]}.
 """
 

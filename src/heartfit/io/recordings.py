@@ -11,7 +11,7 @@ from heartfit.heart.beat import Beat
 from heartfit.io.curves import read_sampled, spread_over, stated_period, write_table_of_curves
 
 MEASURED = "MEASURED.csv"
-"""File name of the recording at rest in the folder of a planted case; other conditions are NAME.csv beside it."""
+"""File name of the recording at rest in the folder of a planted case; other conditions are NAME.csv in its folder."""
 
 
 def read_recording(path: Path | str, period: float | None = None) -> Recording:

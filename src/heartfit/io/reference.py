@@ -67,7 +67,7 @@ def read_reference(folder: Path) -> StoredTables:
     stated = Path(folder, MACHINE)
     if not stated.is_file():
         raise InputError(
-            f"{folder}: no stored tables; expected {MACHINE} beside them: store those of a study, "
+            f"{folder}: no stored tables; expected {MACHINE} with them: store those of a study, "
             "`heartfit drift TABLES FOLDER --renew`"
         )
     tables, made_by = read_held_tables(folder), json.loads(stated.read_text(encoding="utf-8"))

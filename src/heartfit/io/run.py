@@ -91,7 +91,7 @@ class Run:
         os.close(self._lock)
 
     def put_in_order(self) -> list[str]:
-        """Repair the traces of a killed run and return a line for each repair; does nothing beside another run."""
+        """Repair the traces of a killed run and return a line for each repair; does nothing during another run."""
         if not self.alone:
             return []
         repairs = [*self._unlock(), *self._set_altered_aside(), *self._date_back(), *self._drop_cut_kernels()]

@@ -2,7 +2,7 @@
 
 A phase is one closed surface whose triangles have the cell data `label`, or three files whose names differ by LV_ENDO,
 RV_ENDO and EPI, open at the base (see heartfit.geometry.joining). Phase 0 is end diastole. Unit, times and meaning of
-the labels are stated in surfaces.json beside the meshes:
+the labels are stated in surfaces.json next to the meshes:
 
 {"unit": "mm", "period_s": 0.829, "times_s": [0.0, 0.033, ...], "labels": {"lv_endo": 1, ...}}.
 """

@@ -9,7 +9,7 @@ from heartfit.roles import Amendment, mechanism
 @mechanism
 @dataclass(frozen=True)
 class LateRightWall(Amendment):
-    r"""Delay of the activation of the right free wall beside that of the heart.
+    r"""Delay of the activation of the right free wall relative to that of the heart.
 
     .. math:: d \to d + \Delta d
 

@@ -59,10 +59,6 @@ class Comparison:
         difference: Floats = (self.registered_strain - self.true_strain)[self.end_systole]
         return difference
 
-    def strain_error_of_beat(self) -> Floats:
-        """Root mean square (3, 16) over the phases of registered minus true strain."""
-        return np.sqrt(((self.registered_strain - self.true_strain) ** 2).mean(axis=0))
-
 
 def learn_noise(comparisons: Sequence[Comparison], protocol: Mapping[str, Setting]) -> NoiseModel:
     """Noise model of images of one ``protocol``, from registered sequences of known truth."""

@@ -12,15 +12,16 @@ import numpy as np
 
 from heartfit.core.arrays import Floats
 from heartfit.core.periodic import bump
-from heartfit.places.aortic_pressure import AorticPressure
-from heartfit.places.atrial_pressure import AtrialPressure
-from heartfit.places.attachment import AttachmentRate
-from heartfit.places.backflow import Backflow
-from heartfit.places.leak_flow import LeakFlow
+from heartfit.places.library import (
+    AorticPressure,
+    AtrialPressure,
+    Backflow,
+    LeakFlow,
+    PressureError,
+    VolumeError,
+)
 from heartfit.places.place import FunctionOfTime, Region
-from heartfit.places.pressure_error import PressureError
-from heartfit.places.volume_error import VolumeError
-from heartfit.places.wall_pressure import WallPressure
+from heartfit.places.wall import AttachmentRate, WallPressure
 from heartfit.roles.laws import BLOOD_DENSITY
 
 TIME_FORMS: Mapping[Region, type[FunctionOfTime]] = {
@@ -191,4 +192,4 @@ SPECIFIC: Mapping[Region, Callable[[LawState], tuple[Law, ...]]] = {
     "images": _images,
     "catheter": _catheter,
 }
-"""Laws of each region beside the pulse."""
+"""Laws of each region other than the pulse."""

@@ -10,8 +10,7 @@ import numpy as np
 from heartfit.core.arrays import Floats
 from heartfit.places.cosines import COSINES, CosineFunction, cosine_deviations
 from heartfit.places.periodic import COEFFICIENTS, PeriodicFunction, wave_deviations, waves_at
-from heartfit.roles import Flow, Mechanism, Pressure
-from heartfit.roles.laws import Branch
+from heartfit.roles import Mechanism
 
 Region = Literal["filling", "ejection", "leak", "backflow", "wall", "muscle", "images", "catheter"]
 """Parts of a heart and of its measurement that volume and pressure tell apart.
@@ -104,24 +103,3 @@ class FunctionOfState(Place):
     def deviations(cls, period: float) -> Floats:  # noqa: ARG003
         shapes = np.array([cosine_deviations(length) for length in cls.LENGTHS])
         return np.multiply.outer(AMPLITUDES, shapes / shapes[0]).reshape(-1, cls.size)
-
-
-@dataclass(frozen=True)
-class AddedPressure(FunctionOfTime, Pressure):
-    """A free function of time [Pa] that is added to the pressure of its compartments."""
-
-    unit = "Pa"
-
-    def pressure(self, compartment: str, time: Floats, period: float) -> Floats:  # noqa: ARG002
-        return self.function.at(time)
-
-
-@dataclass(frozen=True)
-class AddedFlow(FunctionOfTime, Flow):
-    """A free function of time [m^3/s]: a flow between two compartments that no pressure drives."""
-
-    unit = "m^3/s"
-    amplitude = 60e-6
-
-    def law(self, time: Floats) -> Branch:
-        return Branch(source=self.function.at(time))

@@ -1,4 +1,4 @@
-"""Errors of an instrument: free in time, free in the measured value, or of its clock."""
+"""Forms of errors of an instrument: free in time, free in the measured value, or of its clock."""
 
 from dataclasses import dataclass
 
@@ -21,6 +21,14 @@ class ErrorInTime(FunctionOfTime, Sensor):
 
     def distort(self, times: Floats, values: Floats, period: float) -> Floats:  # noqa: ARG002
         return values + self.function.at(times)
+
+
+@dataclass(frozen=True)
+class ErrorWhileHigh(ErrorInTime):
+    """An error that is a function of time, in proportion to the curve above its least: a catheter that is struck."""
+
+    def distort(self, times: Floats, values: Floats, period: float) -> Floats:  # noqa: ARG002
+        return values + (values - values.min()) / np.ptp(values) * self.function.at(times)
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,7 @@ def printed_tables(
     truths: Truths,
     planted_ratios: bool,
 ) -> dict[str, pd.DataFrame]:
-    """Return both tables by name, beside the paper's ``errors`` and ``parameters``."""
+    """Return both tables by name, with the paper's ``errors`` and ``parameters``."""
     return {
         "table1_as_printed": printed_errors(cases, errors, groups),
         "table2_as_printed": printed_parameters(cases, parameters, groups, truths, planted_ratios),

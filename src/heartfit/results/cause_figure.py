@@ -25,11 +25,11 @@ MARKED_SAMPLES = 50
 
 
 def plot_cause(diagnosis: Diagnosis) -> Figure:
-    """Plot one row per curve: measured and simulated, and the residuals of the simulations beside the noise.
+    """Plot one row per curve: measured and simulated, and the residuals of the simulations with the noise.
 
     Both over the phases of the beat. A bar is the mean residual of a phase; the title tells that of the simulation
-    without a cause which is clearest beside its noise, and its phase is shaded where it exceeds it. A blue band is what
-    structure lets the simulation err; of an unknown effect without a place, a black line is the smooth error that
+    without a cause which is clearest relative to its noise, and its phase is shaded where it exceeds it. A blue band is
+    what structure lets the simulation err; of an unknown effect without a place, a black line is the smooth error that
     explains more than the library does, which is no residual. Bars on the right: ln Bayes factors over no mechanism,
     with the detection threshold (dashed). Of an unknown effect a last row shows the function at its place, with its
     95 % band, and its best law (dashed).

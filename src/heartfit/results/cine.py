@@ -1,4 +1,4 @@
-"""Registration of real short-axis images, beside the measured surface cut by the same planes."""
+"""Registration of real short-axis images, compared with the measured surface cut by the same planes."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -1,4 +1,4 @@
-"""Claims of the paper, one row per number that it states, beside ours and a verdict.
+"""Claims of the paper, one row per number that it states, with ours and a verdict.
 
 The claims are rows of resources/marchesseau2012/claims.tsv; `heartfit.results.findings` computes our numbers.
 """

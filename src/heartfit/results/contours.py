@@ -72,7 +72,7 @@ def plot_contours(sequence: ImageSequence, mesh: VentricularMesh, motion: Motion
 def animate_contours(
     sequence: ImageSequence, mesh: VentricularMesh, motion: Motion, title: str
 ) -> FuncAnimation:
-    """Animate the mesh over a slice and a plane across the slices, beside its volumes with moving dots.
+    """Animate the mesh over a slice and a plane across the slices, with its volumes with moving dots.
 
     One picture per frame of the images, with the duration of the beat; arguments as of plot_contours.
     """

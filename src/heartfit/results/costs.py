@@ -1,4 +1,4 @@
-"""Computing time and memory of a study by stage, beside the calibrations of the paper.
+"""Computing time and memory of a study by stage, compared with the calibrations of the paper.
 
 References
 ----------

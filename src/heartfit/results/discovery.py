@@ -1,6 +1,6 @@
 """Misfit of the simulation of each refitted case, its cause, and the gain of the model by it.
 
-A sealed heart has an answer beside each finding; a measured heart has none.
+A sealed heart has an answer to each finding; a measured heart has none.
 """
 
 from collections.abc import Iterator, Mapping, Sequence

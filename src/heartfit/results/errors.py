@@ -1,4 +1,4 @@
-"""Table 1: relative errors between simulated and measured observations of healthy hearts, beside those of the paper."""
+"""Table 1: relative errors between simulated and measured observations of healthy hearts, with those of the paper."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -15,7 +15,7 @@ LEAST = -100.0
 
 @dataclass(frozen=True)
 class MechanismTemplate:
-    """The role of a law's mechanism, its class attributes and its method; imports beside those of all."""
+    """The role of a law's mechanism, its class attributes and its method; imports other than those of all."""
 
     role: str
     attributes: str

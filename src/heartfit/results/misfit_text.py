@@ -50,7 +50,7 @@ def _fits(diagnosis: Diagnosis, extended: bool) -> Mapping[str, CurveFit]:
 
 
 def misfit_sentence(departure: Departure, model: str, fit: CurveFit | None = None) -> str:
-    """Return what a model gets wrong in a curve on average over a phase, beside the noise of that average.
+    """Return what a model gets wrong in a curve on average over a phase, and the noise of that average.
 
     "The sphere of the search (...) gives the aortic pressure 0.8 ± 0.2 kPa too low in ejection (4.0 sd of the noise,
     12 samples)." fit: chi-squared of all samples about this model.

@@ -1,4 +1,4 @@
-"""Table 2: estimated parameters of healthy hearts beside those of the paper and, for virtual hearts, the truth."""
+"""Table 2: estimated parameters of healthy hearts, those of the paper and, for virtual hearts, the truth."""
 
 from collections.abc import Mapping, Sequence
 from math import log

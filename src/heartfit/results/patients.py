@@ -1,4 +1,4 @@
-"""Table 3: patients, whose pressure is measured too, beside the results of the paper for its patients."""
+"""Table 3: patients, whose pressure is measured too, and the results of the paper for its patients."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -33,7 +33,7 @@ def patient_parameters(
     groups: Groups,
     truths: Mapping[str, Mapping[str, float]] | None = None,
 ) -> pd.DataFrame:
-    """Return one row per estimated parameter of each patient and setting beside the mean of the virtual volunteers.
+    """Return one row per estimated parameter of each patient and setting, with the mean of the virtual volunteers.
 
     truths: by case, SI; "true over healthy mean" is the ratio of the truths, the target of both settings. A limit that
     the paper gives for a parameter stays a limit. Raises FingerprintMismatchError for rows of different code.

@@ -54,7 +54,7 @@ def _verdict_on_target(rate: Rate, share: Share) -> str:
 
 
 def populations_table(scored: Sequence[Scored]) -> pd.DataFrame:
-    """Return one row per rate with the cases as searched beside the misspecified ones, which have the target."""
+    """Return one row per rate with the cases as searched and the misspecified ones, which have the target."""
     rows = zip(COMPARED_RATES, MISSPECIFIED_RATES, strict=True)
     return pd.DataFrame([_compared_row(scored, *rates) for rates in rows])
 

@@ -72,7 +72,7 @@ def summarise_cohort(numbers: pd.DataFrame) -> pd.DataFrame:
 
 
 NO_NUMBERS = ("setting", "case", "quantity", "unit", BELOW_NOISE, LONG_STEPS)
-"""Columns of keys, and of marks that say something about the numbers beside them."""
+"""Columns of keys, and of marks that say something about the numbers next to them."""
 PUBLISHED = {
     "table1": "table1.csv",
     "table2": "table2.csv",

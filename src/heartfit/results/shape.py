@@ -1,4 +1,4 @@
-"""Shape of a motion over the beat and of its walls as tables, and its values at end systole beside those in health.
+"""Shape of a motion over the beat and of its walls as tables, and its values at end systole with those in health.
 
 Sources: Stoylen A et al. 2018, doi 10.1111/echo.13825: descent of the mitral ring 15.8 (sd 2.5) mm, 16.3 (2.4) % of the
 length of the wall, in 1266 adults. Lorenz CH et al. 2000, Delineation of normal human left ventricular twist, J

@@ -1,4 +1,4 @@
-"""The headline of a diagnosis, and the lines below it: evidence beside its threshold, and what the sizes are."""
+"""The headline of a diagnosis, and the lines below it: evidence with its threshold, and what the sizes are."""
 
 from collections.abc import Iterable
 
@@ -33,7 +33,7 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
 
 
 def _silence(diagnosis: Diagnosis) -> str:
-    """Return why nothing is named: the largest ln Bayes factor beside its threshold, and curves that were left out."""
+    """Return why nothing is named: the largest ln Bayes factor with its threshold, and curves that were left out."""
     _, factor = strongest(diagnosis)
     best = "nothing was tried" if np.isnan(factor) else f"the largest ln Bayes factor is {factor:.1f}"
     return f"{best}, the threshold is {diagnosis.threshold:g}{_left_out(diagnosis)}"
@@ -136,7 +136,7 @@ def candidate_sentence(diagnosis: Diagnosis) -> str:
 
 
 def evidence_lines(diagnosis: Diagnosis) -> Iterable[str]:
-    """Yield the ln Bayes factor of what is named, or the largest one, beside the threshold of a detection.
+    """Yield the ln Bayes factor of what is named, or the largest one, with the threshold of a detection.
 
     The headline of a verdict without a missing mechanism says it itself.
     """

@@ -4,8 +4,8 @@ A branch of the circuit has the flow
 
 .. math:: q(\Delta p) = K \Delta p + A \sqrt{2/\rho}\, \Delta p\, (\Delta p^2 + \epsilon^2)^{-1/4} + q_0,
 
-a conductance K beside an orifice of area A, each with one value for forward (:math:`\Delta p > 0`) and one for
-backward flow, and a source that no pressure drives. The orifice is Bernoulli's, its root smoothed over
+a conductance K in parallel with an orifice of area A, each with one value for forward (:math:`\Delta p > 0`) and one
+for backward flow, and a source that no pressure drives. The orifice is Bernoulli's, its root smoothed over
 :math:`\epsilon` = 20 Pa. A narrowing in series takes :math:`b q^2` of the forward drop, which leaves a conductance
 
 .. math:: q = \frac{2 K \Delta p}{1 + \sqrt{1 + 4 b K^2 \Delta p}}
@@ -18,9 +18,9 @@ et al. 2012),
 .. math:: \dot\zeta = \begin{cases} K_o (1 - \zeta)\, \Delta p & \Delta p > 0 \\
                                    K_c\, \zeta\, \Delta p & \Delta p < 0, \end{cases}
 
-and it passes :math:`\zeta f(\Delta p)` in both directions, f being its forward law, beside its backward law. With the
-inertance L of the blood in it, :math:`q = \zeta f(\Delta p - L \dot q)`. For :math:`K_o, K_c \to \infty` and L = 0 it
-is the valve without leaflets.
+and it passes :math:`\zeta f(\Delta p)` in both directions, f being its forward law, in addition to its backward law.
+With the inertance L of the blood in it, :math:`q = \zeta f(\Delta p - L \dot q)`. For :math:`K_o, K_c \to \infty` and L
+= 0 it is the valve without leaflets.
 
 A load is a pressure on the outside of a ventricle,
 
@@ -68,11 +68,11 @@ class Branch(NamedTuple):
         r"""Return the branch in series with a narrowing of area B, :math:`a = 1/B^2` [1/m^4].
 
         Bernoulli's losses add: :math:`b = \rho a / 2`, and :math:`1/A'^2 = 1/A^2 + a` of an orifice. Raises InputError
-        for a conductance beside an orifice: the two in series with a narrowing have no closed form.
+        for a conductance in parallel with an orifice: the two in series with a narrowing have no closed form.
         """
         if np.any(self.conductance) and np.any(self.area):
             raise InputError(
-                "branch: a conductance beside an orifice cannot be narrowed; expected one of them"
+                "branch: a conductance in parallel with an orifice cannot be narrowed; expected one of them"
             )
         area = self.area / np.sqrt(1.0 + inverse_square * np.square(self.area))
         return self._replace(area=area, loss=self.loss + 0.5 * BLOOD_DENSITY * inverse_square)

@@ -16,7 +16,7 @@ class ValveDynamics(Dynamics):
         \dot\zeta = \begin{cases} \frac{K_o}{s} (1 - \zeta) \Delta p & \Delta p > 0 \\
                                   \frac{K_c}{s} \zeta \Delta p & \Delta p < 0 \end{cases}
 
-    with f the forward law of the valve, of conductance K, beside the pressure that gives the blood its speed. s = 0 is
+    with f the forward law of the valve, of conductance K, plus the pressure that gives the blood its speed. s = 0 is
     a valve without inertia that opens and closes at once. A subclass names the ``valve`` and declares its values; the
     values here are round ones. K_o and K_c of 0.01 cm^2/(dyn s) are 0.1 1/(Pa s).
     Source: Mynard et al., Int J Numer Meth Biomed Eng 2012, 28:626.

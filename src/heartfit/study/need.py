@@ -16,7 +16,7 @@ OPTIONAL_JOBS = re.compile(
 """Names of optional jobs, which a study runs only on request."""
 
 SNAKEMAKE_MEMORY = 600.0
-"""Memory of the two Snakemake processes beside a cluster job, of the job and of its group [MB]; 240 MB per process
+"""Memory of the two Snakemake processes next to a cluster job, of the job and of its group [MB]; 240 MB per process
 were measured."""
 MEMORY_MARGIN, TIME_MARGIN = 1.3, 3.0
 """Safety factors over the largest measured memory and the longest measured time."""

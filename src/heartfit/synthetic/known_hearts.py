@@ -95,8 +95,8 @@ def _rows(outcomes: Sequence[Mapping[str, float] | str], names: Sequence[str]) -
 
 
 World = Literal["nothing", "parameters", "model"]
-"""Unknowns of the calibrator beside the estimated parameters: nothing; the values of other parameters, which it holds
-fixed; these and the model itself, as in :mod:`heartfit.synthetic.volunteer`."""
+"""Unknowns of the calibrator other than the estimated parameters: nothing; the values of other parameters, which it
+holds fixed; these and the model itself, as in :mod:`heartfit.synthetic.volunteer`."""
 WORLDS: tuple[World, ...] = get_args(World)
 BRANCHES = ("mitral", "aortic", "tricuspid", "pulmonary")
 

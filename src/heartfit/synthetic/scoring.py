@@ -19,7 +19,7 @@ SILENT = ("none", "model", "insufficient", REFUSED)
 
 @dataclass(frozen=True)
 class Scored:
-    """Diagnosis of a planted case beside the answer."""
+    """Diagnosis of a planted case and the answer."""
 
     answer: Answer
     finding: ScoredDiagnosis

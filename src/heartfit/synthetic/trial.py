@@ -12,7 +12,7 @@ from heartfit.discovery.sphere_model.recording import Recording
 REFUSED = "refused"
 """Verdict of a diagnosis that rejected the recording."""
 VOLUME, CONDITION = "volume alone", "volume, pressure and raised legs"
-"""Data sets beside volume and pressure at rest: a smaller and a larger one."""
+"""Data sets in addition to volume and pressure at rest: a smaller and a larger one."""
 
 
 @dataclass(frozen=True)

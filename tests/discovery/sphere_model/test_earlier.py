@@ -14,7 +14,8 @@ from heartfit.discovery.sphere_model.problem import SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.heart import Heart
 from heartfit.io.other_worlds import read_other_hearts
-from heartfit.places import EARLIER_PLACES, Place, WallPressure
+from heartfit.places import EARLIER_PLACES, Place
+from heartfit.places.wall import WallPressure
 from heartfit.roles import Sensor
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.other_worlds import OtherHeart, measure
@@ -59,9 +60,8 @@ def test_functions_fit_the_heart_of_another_simulator_to_its_noise(
     problem = SphereProblem.from_recording(before, earlier.nominal)
     assert error(problem, 0) < 0.03 * before.end_diastolic_volume()
     assert error(problem, 1) < 150.0
-    misfit = earlier.misfit(before)
-    assert misfit["lv_pressure"] == pytest.approx(error(problem, 1) / earlier.levels["lv_pressure"][0])
-    assert max(misfit.values()) < 2.0
+    assert error(problem, 0) < 2.0 * earlier.levels["lv_volume"][0]
+    assert error(problem, 1) < 2.0 * earlier.levels["lv_pressure"][0]
     bare = [m for m in earlier.nominal.heart.mechanisms if not isinstance(m, Place)]
     without = replace(earlier.nominal, heart=replace(earlier.nominal.heart, mechanisms=tuple(bare)))
     assert error(SphereProblem.from_recording(before, without), 1) > 300.0, "without its functions"

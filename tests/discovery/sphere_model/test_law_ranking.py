@@ -6,8 +6,9 @@ from scipy.integrate import quad
 
 from heartfit.core.arrays import Floats
 from heartfit.discovery.sphere_model.law_ranking import SCALES, FunctionPosterior, _marginal
-from heartfit.places import LeakFlow, PeriodicFunction
 from heartfit.places.laws import Law
+from heartfit.places.library import LeakFlow
+from heartfit.places.periodic import PeriodicFunction
 
 PERIOD = 0.9
 TIMES = np.arange(200) * PERIOD / 200

@@ -19,15 +19,9 @@ from heartfit.discovery.sphere_model.place_search import (
 )
 from heartfit.discovery.sphere_model.problem import SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
-from heartfit.places import (
-    AtrialPressure,
-    LeakFlow,
-    LeakPassage,
-    MitralLoss,
-    Place,
-    PressureError,
-    WallPressure,
-)
+from heartfit.places import Place
+from heartfit.places.library import AtrialPressure, LeakFlow, LeakPassage, MitralLoss, PressureError
+from heartfit.places.wall import WallPressure
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import REST, plant
 from heartfit.synthetic.hidden import RecordingProtocol, draw_hidden, measure_beat

@@ -11,18 +11,18 @@ from heartfit.discovery.sphere_model.law_ranking import FittedLaw
 from heartfit.discovery.sphere_model.nominal_heart import ADULT
 from heartfit.discovery.sphere_model.place_search import FittedPlace, PlaceSearch
 from heartfit.discovery.sphere_model.shown_place import ShownPlace, _coefficients
-from heartfit.places import (
+from heartfit.places import Place
+from heartfit.places.laws import Law
+from heartfit.places.library import (
     AorticLoss,
     AorticPressure,
     AtrialPressure,
     LeakFlow,
     LeakPassage,
     MitralLoss,
-    Place,
-    WallPressure,
 )
-from heartfit.places.laws import Law
 from heartfit.places.place import FunctionOfTime
+from heartfit.places.wall import WallPressure
 from heartfit.roles.laws import BLOOD_DENSITY
 
 BASE = len(BASE_COORDINATES)

@@ -22,15 +22,9 @@ from heartfit.discovery.sphere_model.searched_recording import SearchedRecording
 from heartfit.discovery.sphere_model.unknown_place import locate
 from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
 from heartfit.mechanisms.scar import Scar
-from heartfit.places import (
-    PLACES,
-    AorticLoss,
-    LeakFlow,
-    LeakPassage,
-    Place,
-    SystolicPressureError,
-    WallPressure,
-)
+from heartfit.places import PLACES, Place
+from heartfit.places.library import AorticLoss, LeakFlow, LeakPassage, SystolicPressureError
+from heartfit.places.wall import WallPressure
 
 LEAK = Cause("MitralRegurgitation", 8.0, 3e-5, "m^2", (2e-5, 4e-5))
 PERIOD = 0.8

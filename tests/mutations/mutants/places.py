@@ -34,7 +34,7 @@ PLACE_MUTANTS = (
         ("the slope of a cosine rises", "slopes: Floats = -np.pi", "slopes: Floats = np.pi"),
     ),
     *changes(
-        "places/wall_elasticity.py",
+        "places/wall.py",
         PLACES,
         ("the slope of a product has one term", "value + u * self.function.slope_at(u)", "value"),
     ),
@@ -59,7 +59,7 @@ PLACE_MUTANTS = (
         ),
     ),
     *changes(
-        "places/activation_delay.py",
+        "places/wall.py",
         PLACES,
         ("all segments are delayed", "values - values[0]", "values"),
     ),

@@ -77,7 +77,7 @@ STRUCTURE_MUTANTS = (
         ("sines are cosines", "np.cos(angle), np.sin(angle)]", "np.cos(angle), np.cos(angle)]"),
     ),
     *changes(
-        "places/wall_pressure.py",
+        "places/wall.py",
         PLACES,
         ("the right ventricle is pressed, too", ' if ventricle == "lv" else Load()', ""),
     ),

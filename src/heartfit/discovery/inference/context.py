@@ -2,7 +2,7 @@ r"""The fit context: data, whitenings, and the Gaussian-process (GP) discrepancy
 
 The discrepancy of a model is a smooth function delta of the phase: a Gaussian process with the covariance
 :math:`g^2 K` of :mod:`heartfit.discovery.inference.data`, g one of three sizes, equally likely. The evidence is that of
-the fit with :math:`\Sigma + g^2 K` in place of Sigma, the model linear about the fit: it costs no simulation. Beside
+the fit with :math:`\Sigma + g^2 K` in place of Sigma, the model linear about the fit: it costs no simulation. Next to
 the baseline it stands for "something, but none of the library"; on top of the best effect it tests what that leaves.
 
 The curve itself, given the data, is
@@ -59,7 +59,7 @@ class GPDiscrepancy:
         return cls(data, tuple(Whitening.from_data(data, size) for size in DISCREPANCY_SIZES))
 
     def log_evidence(self, fit: Fit) -> float:
-        """ln Z of the discrepancy beside the fitted hypothesis."""
+        """ln Z of the discrepancy added to the fitted hypothesis."""
         return float(logsumexp(self._by_size(fit)) - np.log(len(DISCREPANCY_SIZES)))
 
     def curves(self, fit: Fit) -> tuple[Discrepancy, ...]:

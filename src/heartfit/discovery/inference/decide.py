@@ -58,7 +58,7 @@ class Rules:
     predicted_gain: float = 2.0
 
     def beside_structure(self, scale: float) -> "Rules":
-        """Return the rules where structure of this scale is the most probable one beside the best effect."""
+        """Return the rules where structure of this scale is the most probable one given the best effect."""
         if scale == 0.0:
             return self
         detected = max(self.detected, self.detected_beside_structure)
@@ -88,7 +88,7 @@ effect, nor "model", for a misfit of the size and shape that the structure of an
 class Evidences:
     """ln Z of all fitted explanations: baseline, singles and pairs by their effects, and the Gaussian process.
 
-    discrepancy: the process beside the baseline; on_top: the process beside the best single effect and beside the best
+    discrepancy: the process added to the baseline; on_top: the process added to the best single effect and to the best
     pair, by effects.
     """
 
@@ -157,7 +157,7 @@ def leading_effects(evidences: Evidences, rules: Rules = DEFAULT_RULES) -> Effec
 
 @dataclass(frozen=True)
 class BesideProcess:
-    """An explanation beside the Gaussian process, in ln evidence.
+    """An explanation compared with the Gaussian process, in ln evidence.
 
     gain, over: over the baseline and over the process alone; left: gain of a process on top of it; required, allowed:
     the least ``over`` and the largest ``left`` of an explanation that is named.

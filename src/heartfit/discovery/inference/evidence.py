@@ -38,7 +38,7 @@ STEP_TOLERANCE = 0.02
 OBJECTIVE_TOLERANCE = 0.05
 """[ln Z]: a fortieth of the least difference that a verdict rests on."""
 LEAST_DAMPING = 1.0
-"""With a tenth of it, steps that are too long leave a curved valley, and fits stop beside its floor."""
+"""With a tenth of it, steps that are too long leave a curved valley, and fits stop short of its floor."""
 JACOBIAN_REFRESH = 2
 """Steps after which the Jacobian is renewed."""
 SCHEDULE = Schedule(

@@ -59,7 +59,7 @@ class Survey:
     failed: tuple[Effects, ...] = ()
 
     def evidences(self, discrepancy: GPDiscrepancy) -> Evidences:
-        """Their ln evidence and that of the discrepancy, beside the baseline and on top of the best."""
+        """Their ln evidence and that of the discrepancy, added to the baseline and to the best."""
         best = [*self.singles[:1], *self.pairs[:1]]
         return Evidences(
             self.baseline.log_evidence,
@@ -92,7 +92,7 @@ def survey_singles(
 
 
 def _structural_scale(context: FitContext, explanation: Explanation) -> float:
-    """The most probable scale of the structural covariance beside an explanation."""
+    """The most probable scale of the structural covariance given an explanation."""
     return context.whitening.most_probable_levels(context.data.values - explanation.fit.predicted)[1]
 
 
@@ -221,7 +221,7 @@ class Findings:
 
     baseline_discrepancy, discrepancy: estimated discrepancies of the baseline and of the explanation that the decision
     names; simulations: number of forward runs; rules: that were applied; structural_scale: the most probable scale of
-    the structural covariance beside the baseline, 0 where the model is trusted.
+    the structural covariance given the baseline, 0 where the model is trusted.
     """
 
     decision: Decision

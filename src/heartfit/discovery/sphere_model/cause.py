@@ -82,7 +82,7 @@ class CurveFit:
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """A measured curve (k,) [SI] beside the fitted ones: ``none`` without and ``extended`` with the cause.
+    """A measured curve (k,) [SI] and the fitted ones: ``none`` without and ``extended`` with the cause.
 
     noise (k,): standard deviation of the samples; lacking, band (k,): GP discrepancy that the search fits in place of
     the cause, and its standard deviation, no residual of a curve shown; None where none was fitted; structure (k,):
@@ -107,7 +107,7 @@ class Trace:
 class RankedLaw:
     """A law that the function of a place may follow: its size [unit], its shape and formula (LaTeX).
 
-    ln_likelihood: beside that of the best law, along the posterior of the function.
+    ln_likelihood: minus that of the best law, along the posterior of the function.
     """
 
     name: str
@@ -189,7 +189,7 @@ class Refitted:
 
 @dataclass(frozen=True, eq=False)
 class Attempt:
-    """A trial of an extension that the search did not name: its refit, its gains, and the curves beside both fits."""
+    """A trial of an extension that the search did not name: its refit, its gains, and the curves with both fits."""
 
     refitted: Refitted
     gain: tuple[Gain, ...]
@@ -233,7 +233,7 @@ class Diagnosis:
       to.
     - from_all_samples: the mechanisms with their amplitudes given both halves of the recording, after the second has
       judged; empty where there is one half only.
-    - structural_scale: the most probable scale of the structural covariance beside the baseline, 0 where the model is
+    - structural_scale: the most probable scale of the structural covariance given the baseline, 0 where the model is
       trusted; changes: parameters that changed since an earlier recording of the same heart, empty without one.
     - acting: of an unknown effect the regions on which it may act, the most probable first; functions: what acts there,
       one for each; both empty where no place is detected.

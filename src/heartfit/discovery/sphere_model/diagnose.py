@@ -39,10 +39,10 @@ def diagnose(
     and the source of the recording; None where the model is trusted. places: where an unknown effect may act,
     of a trusted model. left_out: mechanisms of the library that are not tried.
 
-    About the adult's trusted model the volume of the right ventricle is searched, too, where it was recorded beside a
-    left pressure. Without unseen samples and conditions the search sees half of the recording, and the other half
-    judges. Raises InputError where the nominal heart does not beat, and for a loop of pressure and volume that runs
-    clockwise.
+    About the adult's trusted model the volume of the right ventricle is searched, too, where it was recorded together
+    with a left pressure. Without unseen samples and conditions the search sees half of the recording, and the other
+    half judges. Raises InputError where the nominal heart does not beat, and for a loop of pressure and volume that
+    runs clockwise.
     """
     warnings = implausible(recording)
     conditions = conditions or {}

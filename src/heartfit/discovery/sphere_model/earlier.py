@@ -38,7 +38,9 @@ from heartfit.discovery.sphere_model.nominal_heart import PEOPLE, NominalHeart, 
 from heartfit.discovery.sphere_model.problem import NO_BEAT, SphereProblem
 from heartfit.discovery.sphere_model.recording import Recording
 from heartfit.heart.heart import Heart
-from heartfit.places import COEFFICIENTS, EARLIER_PLACES, FunctionOfTime, PeriodicFunction
+from heartfit.places import EARLIER_PLACES
+from heartfit.places.periodic import COEFFICIENTS, PeriodicFunction
+from heartfit.places.place import FunctionOfTime
 from heartfit.roles import Mechanism
 
 CHANGE_SCALES = (0.05, 0.1, 0.2)
@@ -90,19 +92,6 @@ class EarlierHeart:
         times = _phase_times(nominal.heart, self.nominal.heart, period * np.arange(SAMPLES) / SAMPLES)
         carried = (_carried(place, times, period) for place in _places(nominal.heart))
         return nominal.with_mechanisms(carried)
-
-    def misfit(self, recording: Recording) -> dict[str, float]:
-        """Return the root mean square residual of the earlier recording over the noise, by curve."""
-        problem = SphereProblem.from_recording(recording, self.nominal)
-        predicted = problem.model.predict(np.zeros(BASE), ())
-        if predicted is None:
-            raise InputError(NO_BEAT)
-        left = problem.data.values - predicted
-        blocks = zip(problem.data.blocks, problem.data.rows, strict=True)
-        return {
-            block.curve: float(np.sqrt(np.mean(left[rows] ** 2))) / self.levels[block.curve][0]
-            for block, rows in blocks
-        }
 
     def enter(self, problem: SphereProblem) -> SphereProblem:
         """Return the problem of a later recording, whose data may hold changes of the functions."""

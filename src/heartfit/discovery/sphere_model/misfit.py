@@ -1,4 +1,4 @@
-r"""Misfit of a simulated curve: its residual, averaged over a phase of the beat, beside the noise of that mean.
+r"""Misfit of a simulated curve: its residual, averaged over a phase of the beat, and the noise of that mean.
 
 Of the samples i = 1 ... n in a phase,
 

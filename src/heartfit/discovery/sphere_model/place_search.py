@@ -1,9 +1,9 @@
 r"""The search for the place at which something unknown acts.
 
-Every place of :mod:`heartfit.places` is a hypothesis: its function, of coefficients z, beside the free parameters. All
-are linearised about the fit without a place, laws also about the centre of the priors; those of the largest predicted
-evidence are fitted, each also from the parameters of the best one. The evidence is averaged over the priors of the
-function, N(0, D^2), the model linear about the fit:
+Every place of :mod:`heartfit.places` is a hypothesis: its function, of coefficients z, added to the free parameters.
+All are linearised about the fit without a place, laws also about the centre of the priors; those of the largest
+predicted evidence are fitted, each also from the parameters of the best one. The evidence is averaged over the priors
+of the function, N(0, D^2), the model linear about the fit:
 
 .. math:: \ln Z = \ln \frac1n \sum_D Z(x / D, J D) - \max\{0, \ell_D - 1\} ,
 
@@ -56,7 +56,7 @@ class FittedPlace:
         return self.kind.region
 
     def beside(self, gain: float) -> "FittedPlace":
-        """Return the place beside a fit without one whose ln evidence is higher by the ``gain``."""
+        """Return the place compared with a fit without one whose ln evidence is higher by the ``gain``."""
         factor, predicted = self.ln_bayes_factor - gain, self.predicted - gain
         return replace(self, ln_bayes_factor=factor, predicted=predicted)
 
@@ -110,7 +110,7 @@ class PlaceSearch:
         return self._beside_base([*again, *(place for place in screened if place not in promising)])
 
     def _beside_base(self, places: Sequence[FittedPlace]) -> RankedPlaces:
-        """Return the places beside the better of the fit without a place and one that starts from the best place's."""
+        """Return the places compared with the better of a fit without a place and one from the best place's."""
         best = _ranked(places)[0].explanation.fit
         baseline = self.context.improve(self.baseline, best.x[: self.base], best.jacobian[:, : self.base])
         gain = baseline.log_evidence - self.baseline.log_evidence

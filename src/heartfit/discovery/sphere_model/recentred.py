@@ -3,7 +3,7 @@ r"""The search on a sphere that is centred on a 3-D beat, and the self-test of t
 A sphere differs from ventricles in structure, and this difference looks like a damped catheter or a stiff pericardium.
 Fitted once to the beat at the prior mean, without noise and with everything free, the sphere follows the beats of that
 model at other parameters as well, and the search finds effects that both of them lack. A beat that the sphere cannot
-follow is refused. Beside the parameters that the search leaves free, the volume of the wall and some constants of the
+follow is refused. Besides the parameters that the search leaves free, the volume of the wall and some constants of the
 law are fitted, which the search then keeps.
 
 The self-test measures the effects that a centred sphere invents in beats of the very model on which it was centred.

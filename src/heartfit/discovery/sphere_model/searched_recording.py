@@ -137,7 +137,7 @@ class SearchedRecording:
         return leading if self.findings.log_bayes_factor(leading) >= self.rules.detected else ()
 
     def candidate(self) -> UnnamedCandidate | None:
-        """The unnamed effects with their amplitudes, and how they stand beside the process; None without any."""
+        """The unnamed effects with their amplitudes, and how they compare with the process; None without any."""
         if not self.unnamed:
             return None
         causes = tuple(self.cause(self.unnamed, name) for name in self.unnamed)
@@ -192,7 +192,7 @@ class SearchedRecording:
         return SphereProblem.from_recording(recording, self.model.nominal, self.structure)
 
     def changes(self, effects: Effects) -> tuple[Change, ...]:
-        """Return the clear changes since an earlier recording, beside these effects, the clearest first."""
+        """Return the clear changes since an earlier recording, given these effects, the clearest first."""
         if self.model.nominal.stands_for != "change":
             return ()
         posterior = self.findings.explanation(effects).posterior
@@ -205,7 +205,7 @@ class SearchedRecording:
         return tuple(change for _, change in sorted(clear, key=lambda entry: -entry[0]))
 
     def far_parameters(self, effects: Effects) -> tuple[str, ...]:
-        """One sentence for each parameter that was fitted, beside these effects, far outside its prior."""
+        """One sentence for each parameter that was fitted, given these effects, far outside its prior."""
         fitted = zip(self.model.nominal.free, self.findings.explanation(effects).fit.x, strict=False)
         return tuple(
             f"{parameter.name} is fitted {x:+.1f} standard deviations from its expected value, expected at most "

@@ -104,7 +104,7 @@ class ShownPlace:
 
 
 def _function_of_time(search: PlaceSearch, place: FittedPlace, kind: type[FunctionOfTime]) -> FittedPlace:
-    """Return the function of time fitted beside a place, from what the laws of the place make where it has some."""
+    """Return the function of time fitted with a place, from what the laws of the place make where it has some."""
     z, fitted = _coefficients(search, place, kind), None
     if z is not None:
         fitted = search.fitted_from(kind, np.concatenate([place.explanation.fit.x[: search.base], z]))

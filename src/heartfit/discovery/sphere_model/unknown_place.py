@@ -1,4 +1,4 @@
-"""The verdict on where an unknown effect acts, beside the names of the library.
+"""The verdict on where an unknown effect acts, given the names of the library.
 
 All samples choose the places: half of them would miss many. A name stands against every place of another region that
 explains all samples better. Without a name, a detected place tells on which region something acts, and its function
@@ -87,7 +87,7 @@ class _Preferred:
 
 @dataclass(frozen=True, eq=False)
 class _Competition:
-    """The places of all samples beside the names of the library."""
+    """The places of all samples, given the names of the library."""
 
     case: SearchedRecording
     conditions: Conditions

@@ -85,7 +85,7 @@ class WallFindings:
 
     @property
     def discrepancy(self) -> float:
-        """ln evidence of smooth discrepancies beside the baseline over it."""
+        """ln evidence of smooth discrepancies added to the baseline, over the baseline's."""
         return self.evidences.discrepancy - self.survey.baseline.log_evidence
 
     @property

@@ -8,8 +8,8 @@ and the net outflow q through the valves,
 
 Veins are linear and add no unknown: with the Windkessel that fills them their pressure is
 :math:`P_v = \alpha + \beta q_{ar} + \gamma P`, and the arterial pressure becomes :math:`a + b q_{ar} + c P`. An atrium
-without a volume beside one keeps its prescribed pressure, :math:`P - P_{pre} = 0`. Where no atrium has a volume the
-table of atria is None, which removes these equations from the compiled functions.
+without a volume next to one that has it keeps its prescribed pressure, :math:`P - P_{pre} = 0`. Where no atrium has a
+volume the table of atria is None, which removes these equations from the compiled functions.
 """
 
 from collections.abc import Sequence
@@ -55,7 +55,7 @@ from heartfit.roles.chamber import (
 def chamber_table(mechanisms: Sequence[Mechanism], sides: int = 2) -> Floats | None:
     """Table (ATRIUM_ROWS, sides) of the atria, None if none has a volume.
 
-    Raises InputError for veins with an elastance beside a single ventricle, whose circuit does not include their
+    Raises InputError for veins with an elastance with a single ventricle, whose circuit does not include their
     arteries.
     """
     table = np.zeros((ATRIUM_ROWS, sides))
@@ -82,7 +82,7 @@ def sides_filling_veins(atria: Floats | None) -> list[int]:
 
 
 def fill_atria(atria: Floats, pressures: Floats, ventricles: Floats) -> None:
-    """Set volumes and veins of relaxed atria at the resting ``pressures``, beside the ``ventricles`` (v,) [m^3]."""
+    """Set volumes and veins of relaxed atria at the resting ``pressures``, given the ``ventricles`` (v,) [m^3]."""
     for s in range(atria.shape[1]):
         atria[PRESSURE, s], atria[VEIN_END, s] = pressures[s], atria[RESERVOIR, s]
         if atria[RESISTANCE, s]:

@@ -35,7 +35,7 @@ NEWTON_HALVINGS = 6
 """Largest number of halvings of a Newton step before the time step fails."""
 
 PRESSURE_WEIGHT = 1e-4
-"""Weight of a pressure [1/Pa], beside the weights of the body, in the Anderson mixing."""
+"""Weight of a pressure [1/Pa], relative to the weights of the body, in the Anderson mixing."""
 
 LARGEST_REUSED = 20_000
 """Number of unknowns up to which the factors of a beat are kept for the next one: twenty factors of 20 MB at most."""

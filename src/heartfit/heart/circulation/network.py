@@ -85,7 +85,7 @@ def mechanism_pressures(
 def atrial_walls(
     time: Floats | float, period: float, mechanisms: Sequence[Mechanism], sides: int = 2
 ) -> tuple[Floats, Floats]:
-    """Contraction e (...) of the atria and pressures (sides, ...) [Pa] beside it at ``time`` (...) [s].
+    """Contraction e (...) of the atria and pressures (sides, ...) [Pa] next to it at ``time`` (...) [s].
 
     They act on atria with a volume, of which the first replaces the pressure of the contraction.
     """
@@ -102,7 +102,7 @@ class Prescribed:
 
     ``laws`` (k, 6) are the coefficients of its branches, ``atrial`` and ``arterial`` (2,) the pressures [Pa] of atria
     without a volume and of the waves in the arteries; ``walls`` are the contraction e of atria with a volume and the
-    pressures (2,) [Pa] beside it, None without such an atrium.
+    pressures (2,) [Pa] next to it, None without such an atrium.
     """
 
     laws: Floats

@@ -13,7 +13,7 @@ from heartfit.roles.chamber import PRESSURE
 
 @njit(cache=True, error_model="numpy", inline="always")
 def store(curves, n, column, changes, i, value):  # type: ignore[no-untyped-def]
-    """Store unknown i of a step in its column, and its change from the beat before beside that one step earlier."""
+    """Store unknown i of a step in its column, and its change from the beat before next to that one step earlier."""
     changes[1, i], changes[0, i] = changes[0, i], value - curves[n, column]
     curves[n, column] = value
 

@@ -41,7 +41,7 @@ class Inertia:
     """Inertia and arterial compliance that the standard heart neglects; zero by default.
 
     ``density`` of the wall [kg/m^3], inertances ``valves`` of branches by name [Pa s^2/m^3], and compliance
-    ``arteries`` of every artery beside its Windkessel [m^3/Pa].
+    ``arteries`` of every artery in addition to its Windkessel [m^3/Pa].
     """
 
     density: float = 0.0

@@ -85,7 +85,7 @@ def jacobian(displacement: Floats) -> Floats:
 
 
 CINE_DEMONS = Demons(smoothing=3.0)
-"""Settings chosen on the measured heart, see docs/measured_heart.md: with less smoothing the endocardium, beside
+"""Settings chosen on the measured heart, see docs/measured_heart.md: with less smoothing the endocardium, next to
 papillary muscles that join the wall in systole, moves too far inwards; with more smoothing not far enough."""
 
 

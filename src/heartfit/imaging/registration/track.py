@@ -173,7 +173,7 @@ class _Tracker:
     """Frames, the mesh in the first of them, and the lattice that moves it."""
 
     def __init__(self, sequence: ImageSequence, mesh: VentricularMesh, settings: FreeForm) -> None:
-        self._grid, self._mesh, self._settings = sequence.grid, mesh, settings
+        self._grid, self._mesh = sequence.grid, mesh
         unit, shape = float(self._grid.spacing[0]), self._grid.shape
         wall = wall_voxels(self._grid, mesh)
         near = distance_transform_edt(~wall) * unit <= settings.reach

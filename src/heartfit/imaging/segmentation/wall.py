@@ -160,7 +160,7 @@ def _wall_margin(cavities: Floats, shaping: Shaping) -> Floats:
 
 
 def _fill_pits(outside: Floats, spacing: float) -> Floats:
-    """Return the outside (h, v, u) [m]; what it encloses in a layer, as beside the aorta, becomes wall."""
+    """Return the outside (h, v, u) [m]; what it encloses in a layer, as next to the aorta, becomes wall."""
     heart = outside < 0.0
     filled = np.array([binary_fill_holes(layer) for layer in heart])
     return np.where(filled & ~heart, -spacing, outside)

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from benchmarks.recovered_functions import Recovered, plot_recovered
 from heartfit.discovery.sphere_model.cause import PlaceFunction
-from heartfit.results.recovered import Recovered, plot_recovered
 
 TIMES = np.linspace(0.0, 0.8, 81)
 HIDDEN = 1e-4 * np.sin(2.0 * np.pi * TIMES / 0.8)

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from heartfit.results.wall_search import WallResult, WallTrial, hearts_table, rates_table
+from benchmarks.wall_tables import WallResult, WallTrial, hearts_table, rates_table
 
 
 def result(

@@ -9,7 +9,8 @@ import pandas as pd
 from heartfit.discovery.sphere_model.cause import ActingPlace, Diagnosis
 from heartfit.discovery.sphere_model.unknown_place import LEAD
 from heartfit.observation.noise_model import Share
-from heartfit.places import PLACES, FunctionOfTime, Place, Region, regions_of
+from heartfit.places import PLACES, Place, Region, regions_of
+from heartfit.places.place import FunctionOfTime
 from heartfit.results.text import AMPLITUDE_UNITS, spaced_name
 from heartfit.roles import registered
 from heartfit.synthetic.out_of_library import OUT_OF_LIBRARY

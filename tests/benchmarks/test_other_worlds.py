@@ -6,23 +6,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
-from heartfit.observation.curve import Curve
-from heartfit.results.other_worlds import (
+from benchmarks.other_worlds.tables import (
     ALONE,
     HEALTHY,
     MECHANISM,
     PARAMETERS,
-    Exchanged,
     Judged,
     changes_table,
-    exchange_table,
     fits_table,
-    functions_table,
     hearts_table,
     outcomes_table,
     priors_table,
 )
+from heartfit.discovery.sphere_model.cause import Cause
+from heartfit.observation.curve import Curve
 from heartfit.synthetic.other_worlds import OtherHeart
 from heartfit.synthetic.trial import ScoredDiagnosis
 
@@ -93,12 +90,6 @@ def test_changes_are_counted_by_severity_and_illness_with_sums() -> None:
     assert (everything["number"], everything["right"], everything["wrong"]) == (4, 3, 0)
 
 
-def test_misfits_with_functions_are_medians_by_simulator() -> None:
-    table = functions_table({"one": [{"lv_volume": size} for size in (1.0, 3.0, 5.0)]})
-    (row,) = table.to_dict("records")
-    assert (row["healthy hearts"], row["left ventricular volume, over noise"]) == (3, "3.0")
-
-
 def test_fits_are_medians_of_healthy_hearts() -> None:
     hearts = [judged("", "none", misfit=size) for size in (1.0, 3.0, 5.0)]
     (row,) = fits_table([*hearts, judged("weak ventricle", "none", misfit=99.0)]).to_dict("records")
@@ -113,29 +104,6 @@ def test_a_heart_is_listed_with_its_verdict_and_the_best_mechanisms() -> None:
         "mitral stenosis",
         "right",
     )
-
-
-def searched(name: str, factor: float, verdict: str = "none") -> Diagnosis:
-    causes = (Cause(name, factor, 1.0, "1", (0.5, 1.5)),) if verdict == "named" else ()
-    return Diagnosis(verdict, causes, (), "", (), 1, 0.8, 5.0, ranking={"unknown": 40.0, name: factor})  # type: ignore[arg-type]
-
-
-def test_the_price_of_structure_is_counted_at_equal_thresholds() -> None:
-    """One leak that is found with trust at 12 and within structure at 6, and a healthy heart with 4 and 2."""
-    leak, no_leak = frozenset({"Leak"}), frozenset[str]()
-    table = exchange_table(
-        [
-            Exchanged(leak, searched("Leak", 12.0, "named"), searched("Leak", 6.0)),
-            Exchanged(no_leak, searched("Scar", 4.0), searched("Scar", 2.0)),
-        ]
-    ).set_index("rule")
-    at_3, at_5, at_10 = (table.loc[f"best ln Bayes factor at least {least}"] for least in (3, 5, 10))
-    assert (at_3["trust: false alarms"], at_3["structure: false alarms"]) == ("1 of 1", "0 of 1")
-    assert (at_5["trust: right"], at_5["structure: right"]) == ("1 of 1", "1 of 1")
-    assert (at_10["trust: right"], at_10["structure: right"]) == ("1 of 1", "0 of 1")
-    assert table.loc["verdict", "trust: right"] == "1 of 1"
-    assert table.loc["verdict", "structure: right"] == "0 of 1"
-    assert set(table["trust: wrong"]) == {"0 of 1"}
 
 
 def test_the_priors_of_the_page_are_those_of_the_code() -> None:

@@ -1,9 +1,7 @@
 """Tables of the searches with and without the right ventricle."""
 
+from benchmarks.right_ventricle import RightTrial, right_hearts_table, right_table
 from heartfit.discovery.sphere_model.cause import Cause, Diagnosis
-from heartfit.discovery.sphere_model.limits import DetectionLimit
-from heartfit.mechanisms.mitral_regurgitation import MitralRegurgitation
-from heartfit.results.right_ventricle import RightTrial, right_hearts_table, right_limits_table, right_table
 
 
 def diagnosed(factor: float, *names: str) -> Diagnosis:
@@ -40,17 +38,3 @@ def test_every_heart_has_a_row_with_both_verdicts() -> None:
     assert [row["both ventricles"] for row in rows] == ["mitral regurgitation"] * 2 + ["aortic regurgitation"]
     assert rows[0]["left ventricle"] == "`none`"
     assert rows[0]["beats"] == "7, 7"
-
-
-def test_limits_stand_beside_each_other_by_what_was_measured() -> None:
-    switch = MitralRegurgitation.switch()
-    visible = DetectionLimit("MitralRegurgitation", switch, 1.0, (1.0, 7.5, 9.0, 12.0), 1.64)
-    hidden = DetectionLimit("MitralRegurgitation", switch, 1.0, (0.0, 1.0, 2.0, 3.0), None)
-    (row,) = right_limits_table({"left": [hidden], "both": [visible]}).to_dict("records")
-    assert row == {
-        "effect": "mitral regurgitation",
-        "left: ln B at 2 scales": "1.0",
-        "left: least scales": "over 4",
-        "both: ln B at 2 scales": "7.5",
-        "both: least scales": "1.6",
-    }

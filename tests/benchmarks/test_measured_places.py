@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from benchmarks.measured_places import ResidualPlaces, plot_residual_places, residual_table
 from heartfit.discovery.sphere_model.cause import PlaceFunction
 from heartfit.places import REGIONS
-from heartfit.results.residual_places import ResidualPlaces, plot_residual_places, residual_table
 
 TIMES = np.linspace(0.0, 0.8, 40)
 FILLING = PlaceFunction("filling", "Pa", TIMES, 900.0 * np.sin(8.0 * TIMES), np.full(40, 200.0), np.zeros(40))

@@ -5,10 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heartfit.calibration.plausible import Limit
-from heartfit.heart.beat import Beat
-from heartfit.io.configuration import read_cases
-from heartfit.synthetic.normal import (
+from benchmarks.normal_adults import (
     LEFT_VOLUME,
     RIGHT_VOLUME,
     SEXES,
@@ -18,6 +15,9 @@ from heartfit.synthetic.normal import (
     abnormal,
     draw_adult,
 )
+from heartfit.calibration.plausible import Limit
+from heartfit.heart.beat import Beat
+from heartfit.io.configuration import read_cases
 from heartfit.synthetic.volunteer import ESTIMATED_SPREAD
 
 CONFIG = Path(__file__).parents[2] / "config"

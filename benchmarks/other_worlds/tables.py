@@ -1,6 +1,6 @@
 """Verdicts on hearts of other simulators, counted by simulator and kind of heart."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -108,20 +108,12 @@ def fits_table(judged: Sequence[Judged]) -> pd.DataFrame:
 
 
 def _fits(world: str, group: Sequence[Judged]) -> dict[str, object]:
-    scale = _median(one.scale for one in group)
-    return {**_misfits(world, [one.misfit for one in group]), "scale of the structure": scale}
-
-
-def functions_table(misfits: Mapping[str, Sequence[Mapping[str, float]]]) -> pd.DataFrame:
-    """Return medians of the misfits by curve, over the noise, of the healthy hearts of each simulator."""
-    return pd.DataFrame([_misfits(world, group) for world, group in misfits.items()])
-
-
-def _misfits(world: str, group: Sequence[Mapping[str, float]]) -> dict[str, object]:
     medians = {
-        f"{CURVES[curve]}, over noise": _median(misfit[curve] for misfit in group) for curve in group[0]
+        f"{CURVES[curve]}, over noise": _median(one.misfit[curve] for one in group)
+        for curve in group[0].misfit
     }
-    return {"simulator": world, "healthy hearts": len(group), **medians}
+    scale = _median(one.scale for one in group)
+    return {"simulator": world, "healthy hearts": len(group), **medians, "scale of the structure": scale}
 
 
 def _median(values: Iterable[float]) -> str:
@@ -162,60 +154,3 @@ def _priors(parameter: FreeParameter) -> dict[str, object]:
         "unit": unit,
         "source of the spread between people": parameter.source,
     }
-
-
-@dataclass(frozen=True, eq=False)
-class Exchanged:
-    """A heart of our own law with hidden mechanisms, searched with trust and within the structure of others."""
-
-    planted: frozenset[str]
-    trusted: Diagnosis
-    within: Diagnosis
-
-
-THRESHOLDS = (3.0, 5.0, 7.0, 10.0, 15.0)
-"""ln Bayes factors of the exchange table."""
-
-
-def exchange_table(hearts: Sequence[Exchanged]) -> pd.DataFrame:
-    """Return false alarms and right best mechanisms by threshold, with trust and within structure.
-
-    Detected: the best mechanism reaches the ln Bayes factor and is the hidden one; verdicts are those of the rules.
-    """
-    rows = [_exchange(hearts, threshold) for threshold in THRESHOLDS]
-    return pd.DataFrame([*rows, _exchange_of_verdicts(hearts)])
-
-
-def _exchange(hearts: Sequence[Exchanged], threshold: float) -> dict[str, object]:
-    def outcome(diagnosis: Diagnosis) -> frozenset[str]:
-        best = next((name for name in diagnosis.ranking if name != "unknown"), "")
-        return frozenset({best} if best and diagnosis.ranking[best] >= threshold else ())
-
-    return _exchange_row(hearts, f"best ln Bayes factor at least {threshold:g}", outcome)
-
-
-def _exchange_of_verdicts(hearts: Sequence[Exchanged]) -> dict[str, object]:
-    def outcome(diagnosis: Diagnosis) -> frozenset[str]:
-        return frozenset(cause.name for cause in diagnosis.mechanisms)
-
-    return _exchange_row(hearts, "verdict", outcome)
-
-
-def _exchange_row(
-    hearts: Sequence[Exchanged], rule: str, outcome: Callable[[Diagnosis], frozenset[str]]
-) -> dict[str, object]:
-    healthy = [heart for heart in hearts if not heart.planted]
-    ill = [heart for heart in hearts if heart.planted]
-
-    def shares(side: Callable[[Exchanged], Diagnosis]) -> tuple[str, str, str]:
-        alarms = sum(bool(outcome(side(heart))) for heart in healthy)
-        named = [(heart.planted, outcome(side(heart))) for heart in ill]
-        right = sum(bool(planted & names) for planted, names in named)
-        wrong = sum(bool(names) and not planted & names for planted, names in named)
-        return f"{alarms} of {len(healthy)}", f"{right} of {len(ill)}", f"{wrong} of {len(ill)}"
-
-    columns = [
-        f"{mode}: {what}" for mode in ("trust", "structure") for what in ("false alarms", "right", "wrong")
-    ]
-    values = (*shares(lambda heart: heart.trusted), *shares(lambda heart: heart.within))
-    return {"rule": rule, **dict(zip(columns, values, strict=True))}
