@@ -31,3 +31,11 @@ from heartfit.discovery.inference.scale_dependence import scale_dependences
 def test_only_a_scale_that_decides_is_told(ranking, wide, told):
     at_scale = {"stenosis": lambda factor: wide if factor > 1.0 else ranking["stenosis"]}
     assert [str(case) for case in scale_dependences(ranking, at_scale, 5.0, apart=3.0)] == told
+
+
+def test_a_smaller_scale_counts_only_where_it_fits_better():
+    """A strong effect is far outside a quarter of its scale, which the data contradict."""
+    strong = {"leak": lambda factor: 2.0 if factor < 1.0 else 11.0}
+    assert list(scale_dependences({"leak": 12.0}, strong, 5.0)) == []
+    (case,) = scale_dependences({"leak": 4.0}, {"leak": lambda factor: 5.2 if factor < 1.0 else 3.0}, 5.0)
+    assert str(case) == "nothing; with 0.25 times this scale leak (5.2)"

@@ -167,6 +167,19 @@ def test_the_same_images_give_the_same_motion_to_the_bit_and_brightness_has_no_u
     assert brighter.motion.positions == pytest.approx(first.motion.positions, abs=0.01 * VOXEL)
 
 
+def test_the_compared_region_has_the_voxels_on_its_edge_whatever_the_last_bits_of_their_size(
+    box: VentricularMesh,
+) -> None:
+    """Voxels two of their widths from the wall lie on the edge of a region of that reach."""
+    images = imaged(contraction)
+    wider = replace(images.grid, spacing=np.nextafter(images.grid.spacing, 1.0))
+    first, other = (
+        track(replace(images, grid=grid), box, replace(STIFF, reach=2.0 * VOXEL))
+        for grid in (images.grid, wider)
+    )
+    assert other.motion.positions == pytest.approx(first.motion.positions, abs=1e-3 * VOXEL)
+
+
 def test_the_first_phase_is_the_mesh_itself_at_the_times_of_the_frames(box: VentricularMesh) -> None:
     tracking = track(imaged(shift), box, STIFF).motion
     np.testing.assert_array_equal(tracking.positions[0], box.points)

@@ -38,7 +38,10 @@ def scale_dependences(
     """
     before = _found(ranking, detected, apart)
     for name, factor in product(at_scale, FACTORS):
-        after = _found({**ranking, name: at_scale[name](factor)}, detected, apart)
+        changed = at_scale[name](factor)
+        if factor < 1.0 and changed < ranking[name]:
+            continue  # the data contradict so small a scale
+        after = _found({**ranking, name: changed}, detected, apart)
         if after.keys() != before.keys():
             yield ScaleDependence(name, factor, before, after)
 

@@ -38,7 +38,7 @@ from heartfit.imaging.registration.terms import (
     WallVolume,
     total,
 )
-from heartfit.imaging.sampling import crop, resample_isotropic
+from heartfit.imaging.sampling import ROUNDING, crop, resample_isotropic
 from heartfit.imaging.sequence import ImageSequence
 
 INNER_STEPS, INNER_TOLERANCE = 10, 1e-2
@@ -176,7 +176,7 @@ class _Tracker:
         self._grid, self._mesh = sequence.grid, mesh
         unit, shape = float(self._grid.spacing[0]), self._grid.shape
         wall = wall_voxels(self._grid, mesh)
-        near = distance_transform_edt(~wall) * unit <= settings.reach
+        near = distance_transform_edt(~wall) <= settings.reach / unit + ROUNDING
         low, high = np.percentile(sequence.voxels[0][near], BRIGHTNESS_PERCENTILES)
         self._frames = (sequence.voxels - low) / (high - low)
         self.lattice = Lattice(shape, settings.knots / unit)
