@@ -130,19 +130,21 @@ def _number(quantity: str, value: float) -> Entry:
 
 
 def _factor_of_the_search(searched: Diagnosis) -> Entry:
-    """Return the ln Bayes factor of what the search names, else the largest of its ranking, with whose it is.
+    """Return the ln Bayes factor of what the search names, else the largest one, with its owner if it is detected.
 
     All mechanisms of a pair have the factor of the pair; of a group the best one counts.
     """
+    quantity = "ln Bayes factor of the search"
     factors = {spaced_name(cause.name): cause.ln_bayes_factor for cause in searched.mechanisms}
+    ranked = factors or {spaced_name(name): value for name, value in searched.ranking.items()}
+    if not ranked:
+        return Entry(quantity, "nothing tried")
+    owner, factor = max(ranked.items(), key=lambda entry: entry[1])
+    if factor < searched.threshold:
+        return Entry(quantity, f"at most {_held(factor)}", factor)
     if searched.verdict == "two":
-        owner, factor = " and ".join(factors), next(iter(factors.values()))
-    elif ranked := factors or {spaced_name(name): value for name, value in searched.ranking.items()}:
-        owner, factor = max(ranked.items(), key=lambda entry: entry[1])
-    else:
-        owner, factor = "nothing tried", NAN
-    subject = "a Gaussian process" if owner == "unknown" else owner
-    return Entry("ln Bayes factor of the search", f"{_held(factor)} ({subject})", factor)
+        owner = " and ".join(factors)
+    return Entry(quantity, f"{_held(factor)} ({owner.replace('unknown', 'a Gaussian process')})", factor)
 
 
 def _held(factor: float) -> str:
