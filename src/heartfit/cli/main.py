@@ -45,8 +45,4 @@ def command_parser() -> Parser:
         command = commands.add_parser(name, help=text, description=carry_out.__doc__)
         command.set_defaults(carry_out=carry_out)
         add_arguments(command)
-    for name, replacement in pages.MOVED_COMMANDS.items():
-        command = commands.add_parser(name, help=f"moved to `{replacement}`")
-        command.set_defaults(carry_out=pages.refuse_moved_command)
-        pages.add_ignored_arguments(command)
     return parser

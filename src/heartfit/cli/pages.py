@@ -4,7 +4,6 @@ import argparse
 from pathlib import Path
 
 from heartfit.cli.console import Command, add_no_arguments
-from heartfit.core.errors import InputError
 from heartfit.io.configuration import schema
 from heartfit.personalise.setting import parameter_page
 
@@ -74,28 +73,6 @@ def drift(arguments: argparse.Namespace) -> int:
     if arguments.renew:
         stored_tables.write_reference(folder, tables)
     return int(bool(outcome.drifted) and outcome.judged and not arguments.renew)
-
-
-MOVED_COMMANDS = {
-    "verification": "python -m verification",
-    "robustness": "python -m verification robustness",
-    "reference": "python -m verification reference MESH",
-}
-"""Commands that are no longer part of the installed package, and their replacements."""
-
-
-def refuse_moved_command(_: argparse.Namespace) -> int:
-    """Raise InputError with the replacements of the moved commands."""
-    verification, robustness, reference = MOVED_COMMANDS.values()
-    raise InputError(
-        "the checks of the simulator stand beside the package, in a checkout of the sources; run there "
-        f"`{verification}`, `{robustness}` or `{reference}`"
-    )
-
-
-def add_ignored_arguments(command: argparse.ArgumentParser) -> None:
-    """Accept the old arguments of a moved command, so that an old call is answered with the new command."""
-    command.add_argument("arguments", nargs="*", help=argparse.SUPPRESS)
 
 
 COMMANDS: tuple[Command, ...] = (
