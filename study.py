@@ -11,11 +11,11 @@ python3 study.py lint         check style and types, and lint the workflow
 python3 study.py benchmark    measure the cost of a beat and store it in docs/measured; half an hour
 python3 study.py verification compare the simulator with closed forms and published results; one or two minutes
 python3 study.py convergence  measure the effect of mesh and time step, store it in docs/measured; half an hour
-python3 study.py mutations    try new mutants of the sources, or --all; store the tests that fail in docs/measured
+python3 study.py mutations    change one line of the sources at a time and see its test fail: new mutants, or --all
 python3 study.py browser      test the report in a headless browser: no error, no network access, hearts that beat
 python3 study.py docs         build the site of docs/ and of the library in site/; any warning fails
 python3 study.py numbers      write the pages with numbers of docs/measured, or first store a NUMBERS.csv there
-python3 study.py malformed    check that every malformed input is rejected in one line; under a minute
+python3 study.py malformed    check that malformed input, much of it random, is rejected in one line; a minute
 python3 study.py tutorial     run every command of docs/own_heart.md with the coarse study; some minutes
 python3 study.py slurm        run a small study on a local SLURM that loses a job and its node; as root
 python3 study.py faults       kill and damage the smallest study, repair it and store the outcomes; 22 min
@@ -243,7 +243,7 @@ def convergence(_: list[str]) -> int:
 
 
 def mutations(arguments: list[str]) -> int:
-    """Try the mutants without a stored verdict, the named ones or --all, and store the tests that fail."""
+    """Try the mutants that no test has failed of yet, the named ones, or with --all every one."""
     return subprocess.run(tool("python", "-m", "tests.mutations", *arguments), check=False).returncode
 
 
@@ -269,7 +269,7 @@ def numbers(arguments: list[str]) -> int:
 
 
 def malformed(arguments: list[str]) -> int:
-    """Test the rejection of every malformed input; `test` tests only some of them."""
+    """Test the rejection of malformed input; `test` tries fewer random ones."""
     selection = ("--numprocesses", "2", "-m", "long or not long", "tests/malformed")
     return subprocess.run(tool("pytest", *selection, *arguments), check=False).returncode
 

@@ -28,7 +28,7 @@ def files(ventricle: VentricularMesh, tmp_path: Path) -> list[str]:
 def test_a_card_and_a_bullseye_are_written(
     files: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    scarred = searched([Scar(extent=0.24, angle=1.05)], 11)
+    scarred = searched(Scar(extent=0.24, angle=1.05), 11)
     monkeypatch.setattr(search, "search_wall", lambda model, recording: scarred)
     assert main(["diagnose-wall", *files, "-o", str(tmp_path / "out")]) == 0
     assert capsys.readouterr().out.startswith("Missing mechanism: scar")

@@ -7,15 +7,15 @@ from heartfit.heart.finite_elements.kinematics import StepFailed
 from heartfit.heart.time_step import ANDERSON_DEPTH, Anderson
 
 
-@pytest.mark.parametrize("seed", range(10))
 @pytest.mark.parametrize("n", [1, 2, 4, ANDERSON_DEPTH])
-def test_a_linear_problem_is_solved_in_one_step_more_than_unknowns(n: int, seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    A, solution = rng.standard_normal((n, n)), rng.standard_normal(n)
-    anderson, z = Anderson(rng.uniform(0.5, 2.0, n)), np.zeros(n)
-    for _ in range(n + 1):
-        z = z + anderson.mix(z, A @ (z - solution) - (z - solution))
-    assert z == pytest.approx(solution, abs=1e-6 * np.abs(solution).max())
+def test_a_linear_problem_is_solved_in_one_step_more_than_unknowns(n: int) -> None:
+    for seed in range(10):
+        rng = np.random.default_rng(seed)
+        A, solution = rng.standard_normal((n, n)), rng.standard_normal(n)
+        anderson, z = Anderson(rng.uniform(0.5, 2.0, n)), np.zeros(n)
+        for _ in range(n + 1):
+            z = z + anderson.mix(z, A @ (z - solution) - (z - solution))
+        assert z == pytest.approx(solution, abs=1e-6 * np.abs(solution).max()), seed
 
 
 def test_forgotten_changes_are_not_mixed() -> None:

@@ -12,7 +12,7 @@ from tests.discovery.wall_model.test_search import searched
 
 
 def test_a_summary_is_read_as_written(tmp_path: Path) -> None:
-    rendered = render_wall(searched([Scar(extent=0.24, angle=1.05)], 11), "The wall")
+    rendered = render_wall(searched(Scar(extent=0.24, angle=1.05), 11), "The wall")
     write_wall(tmp_path, rendered, "code")
     assert read_wall(tmp_path) == rendered.summary
     assert (tmp_path / "wall.md").read_text().startswith("# The wall")

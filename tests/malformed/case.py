@@ -9,7 +9,7 @@ from pathlib import Path
 
 from heartfit.cli import main as cli
 
-Content = str | bytes | Callable[[Path], None]
+Content = str | bytes | Callable[[Path], object]
 PATIENCE = 20
 """Time after which a command counts as hanging [s]."""
 
@@ -42,10 +42,15 @@ class Malformed:
         return (several or len(lines) == 1) and any(re.search(self.message, line) for line in lines)
 
 
-def folder(path: Path) -> None:
-    """A folder in the place of a file."""
-    path.unlink(missing_ok=True)
-    path.mkdir()
+def exchanged(text: str, old: str, new: str) -> str:
+    """The sound text with one part exchanged."""
+    assert old in text, old
+    return text.replace(old, new, 1)
+
+
+def edited(change: Callable[[str], str]) -> Content:
+    """The sound file with its text changed."""
+    return lambda path: path.write_text(change(path.read_text()))
 
 
 def pipe(path: Path) -> None:
@@ -80,6 +85,7 @@ def _hangs(*_: object) -> None:
     raise Hang(f"no answer after {PATIENCE} s")
 
 
-def files_in(folder: Path) -> set[str]:
-    """Every name below the folder."""
-    return {str(path.relative_to(folder)) for path in folder.rglob("*")}
+def files_in(folder: Path) -> dict[str, tuple[int, int]]:
+    """Size and date of every file below the folder."""
+    stats = {str(path.relative_to(folder)): path.lstat() for path in folder.rglob("*")}
+    return {name: (stat.st_size, stat.st_mtime_ns) for name, stat in stats.items()}

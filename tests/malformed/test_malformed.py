@@ -3,35 +3,13 @@
 from pathlib import Path
 
 import pytest
-from _pytest.mark import ParameterSet
 
-from tests.malformed import (
-    case_tables,
-    configurations,
-    hearts,
-    images,
-    meshes,
-    own_walls,
-    pressures,
-    recordings,
-)
+from tests.malformed import hearts, texts
 from tests.malformed.case import Malformed, exit_code, files_in
 
-LISTS = (configurations, case_tables, hearts, images, pressures, own_walls, recordings, meshes)
-MALFORMED = [entry for module in LISTS for entry in module.MALFORMED]
-STRIDE = 6
-"""One of so many is tried by default, all of them by `python3 study.py malformed`."""
-
+MALFORMED = [*texts.MALFORMED, *hearts.MALFORMED]
 LONGEST = 600
 """Largest length of a readable line [characters]."""
-
-
-def parametrised_entries() -> list[ParameterSet]:
-    long = pytest.mark.long
-    return [
-        pytest.param(entry, id=entry.name, marks=[long] if number % STRIDE else [])
-        for number, entry in enumerate(MALFORMED)
-    ]
 
 
 @pytest.mark.parametrize("source", ["", "|imaged.yaml", "|own.yaml"])
@@ -40,7 +18,7 @@ def test_sound_input_is_read(source: str, here: Path, capsys: pytest.CaptureFixt
     assert capsys.readouterr().err == ""
 
 
-@pytest.mark.parametrize("entry", parametrised_entries())
+@pytest.mark.parametrize("entry", MALFORMED, ids=lambda entry: entry.name)
 def test_malformed_input_is_refused_in_one_clear_line(
     entry: Malformed, here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -53,8 +31,3 @@ def test_malformed_input_is_refused_in_one_clear_line(
     assert entry.refused_by(lines)
     assert not printed.out
     assert files_in(here) == before
-
-
-def test_names_of_malformed_inputs_are_unique_and_many() -> None:
-    names = [entry.name for entry in MALFORMED]
-    assert len(names) == len(set(names)) >= 150

@@ -63,7 +63,7 @@ def pairs(count: int, seed: int = 0) -> list[RegionalPair]:
 
 
 def test_each_kind_has_its_own_noise() -> None:
-    estimated = RegionalNoise.from_pairs(pairs(200))
+    estimated = RegionalNoise.from_pairs(pairs(100))
     for kind, known in KNOWN.kinds.items():
         one = estimated.kinds[kind]
         assert one.gain == pytest.approx(known.gain, abs=0.02)

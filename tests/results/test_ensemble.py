@@ -7,7 +7,7 @@ import pytest
 from heartfit.results.cells import Tables, find_moves
 from heartfit.results.ensemble import Ensemble, leave_one_out
 
-RUNS, CASES, SHARE = 12, 400, 2e-4
+RUNS, CASES, SHARE = 12, 100, 2e-4
 """Runs, rows of a table, and the relative deviation of a quarter of its numbers."""
 
 

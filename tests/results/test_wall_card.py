@@ -12,7 +12,7 @@ from tests.discovery.wall_model.test_search import searched
 
 
 def test_a_scar_is_told_by_its_share_and_segments() -> None:
-    card = wall_card(summarise_wall(searched([Scar(extent=0.24, angle=1.05)], 11), "The wall"))
+    card = wall_card(summarise_wall(searched(Scar(extent=0.24, angle=1.05), 11), "The wall"))
     sentence = card.splitlines()[2]
     assert sentence.startswith("Missing mechanism: scar, scarred share of the left ventricle 0.2")
     assert "mid anterior" in sentence
@@ -26,7 +26,7 @@ def test_a_scar_is_told_by_its_share_and_segments() -> None:
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_a_sound_wall_has_no_segments(seed: int) -> None:
-    summary = summarise_wall(searched([], seed), "The wall")
+    summary = summarise_wall(searched(None, seed), "The wall")
     card = wall_card(summary)
     assert "No missing mechanism detected" in card
     assert "| segment |" not in card
@@ -40,7 +40,7 @@ def test_a_sound_wall_has_no_segments(seed: int) -> None:
 
 
 def test_a_figure_needs_an_effect_of_a_region() -> None:
-    scarred = summarise_wall(searched([Scar(extent=0.24, angle=1.05)], 11), "The wall")
+    scarred = summarise_wall(searched(Scar(extent=0.24, angle=1.05), 11), "The wall")
     figure = wall_figure(scarred)
     assert figure is not None
     assert figure.axes[0].get_title() == "scar"

@@ -1,6 +1,5 @@
 """Compare the gains of a case's model by each tried mechanism."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.figures import write_figure
@@ -12,7 +11,10 @@ from heartfit.results.text import render_table
 
 record(snakemake.log[0])
 files, names = snakemake.output, snakemake.wildcards
-attempts = list(map(read_attempt, map(Path, snakemake.input)))
-list(map(write_table, map(Path, files.tables), repeat(render_table(attempts_table(attempts)))))
+attempts = [read_attempt(Path(file)) for file in snakemake.input]
+table = render_table(attempts_table(attempts))
+for file in files.tables:
+    write_table(Path(file), table)
 figure = plot_attempts(attempts, f"{names.case}, {names.setting} setting")
-list(map(write_figure, map(Path, files.figure), repeat(figure)))
+for file in files.figure:
+    write_figure(Path(file), figure)

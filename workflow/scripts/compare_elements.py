@@ -1,6 +1,5 @@
 """Test whether linear tetrahedra, a mechanism or the locking-free element explains a heart on a finer mesh."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.discovery.refit.model import Model
@@ -25,5 +24,9 @@ model = Model(mesh, question.period, params.pressures, params.scheme)
 rivals = compare_extensions(
     case, model, competing_extensions(params.setting, question.element, question.mechanism), params.steps
 )
-list(map(write_table, map(Path, out.table), repeat(render_table(element_table(rivals, params.heart)))))
-list(map(write_figure, map(Path, out.figure), repeat(plot_element(case.curves, case.noise, rivals))))
+table = render_table(element_table(rivals, params.heart))
+for file in out.table:
+    write_table(Path(file), table)
+figure = plot_element(case.curves, case.noise, rivals)
+for file in out.figure:
+    write_figure(Path(file), figure)

@@ -14,7 +14,9 @@ from heartfit.results.text import render_tables
 
 record(snakemake.log[0])
 files, params = snakemake.input, snakemake.params
-truths = dict(zip(params.groups.virtual, map(read_truth, map(Path, files.truths)), strict=True))
+truths = {
+    name: read_truth(Path(file)) for name, file in zip(params.groups.virtual, files.truths, strict=True)
+}
 noise_free = map(read_posterior, map(Path, files.noise_free))
 noise_aware = map(read_posterior, map(Path, files.noise_aware))
 compared = compare_groups(cards(params.calibrated, noise_free, noise_aware, truths), params.groups)

@@ -9,6 +9,8 @@ from heartfit.synthetic.trial import diagnose_by_data
 record(snakemake.log[0])
 measured = Path(snakemake.input.measured)
 recordings = read_planted(measured)
-diagnoses = map(diagnose_by_data, recordings.values(), read_conditions_of(measured))
-findings = dict(zip(recordings, diagnoses, strict=True))
+findings = {
+    name: diagnose_by_data(recording, conditions)
+    for (name, recording), conditions in zip(recordings.items(), read_conditions_of(measured), strict=True)
+}
 write_findings(Path(snakemake.output[0]), findings, snakemake.params.code)

@@ -21,4 +21,5 @@ write_tables(Path(out.tables[0]).parent, render_tables(tables))
 write_measured_tables(out.stored, "planted", printed_tables(tables), "snakemake discovery_benchmark")
 cases = of_population(scored, "as searched")
 figures = plot_rates(cases, least.rates()), plot_confusion(cases), plot_power(cases)
-list(map(write_figure, map(Path, out.figures), figures))
+for file, figure in zip(out.figures, figures, strict=True):
+    write_figure(Path(file), figure)

@@ -8,7 +8,7 @@ from heartfit.io.run import record
 from heartfit.personalise.run import gaussian_of_points
 
 record(snakemake.log[0])
-first = list(map(read_posterior, map(Path, snakemake.input)))
+first = [read_posterior(Path(file)) for file in snakemake.input]
 around = gaussian_of_points(snakemake.params.setting, first)
 points = sigma_points(around, snakemake.params.transform.scaling())
 write_sigma_points(Path(snakemake.output[0]), around, points, snakemake.params.code)

@@ -1,7 +1,5 @@
 """Write posteriors, observations and curves of every case as InferenceData and as tidy tables."""
 
-from functools import partial
-from itertools import starmap
 from pathlib import Path
 
 from heartfit.io.exchange import read_calibrated, write_every_inference_data
@@ -11,7 +9,7 @@ from heartfit.results.exchange import curves_table, inference_groups, parameters
 
 record(snakemake.log[0])
 params, folder = snakemake.params, Path(snakemake.params.results)
-outcome = list(starmap(partial(read_calibrated, folder), params.calibrated))
+outcome = [read_calibrated(folder, case, setting) for case, setting in params.calibrated]
 write_every_inference_data(folder, outcome, map(inference_groups, outcome))
 write_csv(folder / "tables" / "posteriors.csv", parameters_table(outcome))
 write_csv(folder / "tables" / "curves.csv", curves_table(outcome))

@@ -1,7 +1,5 @@
 """Extract volume curves of both cavities from the registered mesh, and observe them and the recorded pressure."""
 
-from functools import reduce
-from operator import or_
 from pathlib import Path
 
 from heartfit.io.curves import read_curves, write_curves
@@ -14,10 +12,10 @@ from heartfit.personalise.run import observe_case
 
 record(snakemake.log[0])
 files, params = snakemake.input, snakemake.params
-volumes = cavity_volumes(read_mesh(Path(files.mesh)), read_motion(Path(files.motion)))
-pressures = map(read_curves, map(Path, files.get("pressure", [])))
-curves = reduce(or_, pressures, volumes)
-models = list(map(read_noise_model, map(Path, files.get("noise", []))))
+curves = cavity_volumes(read_mesh(Path(files.mesh)), read_motion(Path(files.motion)))
+for file in files.get("pressure", []):
+    curves |= read_curves(Path(file))
+models = [read_noise_model(Path(file)) for file in files.get("noise", [])]
 measurement = observe_case(curves, params.operator, models, params.protocol, params.also)
 write_curves(Path(snakemake.output.curves), curves)
 write_observations(Path(snakemake.output.observations), measurement, params.code)

@@ -13,7 +13,7 @@ from heartfit.synthetic.volunteer import OTHER_CONDUCTIONS, Template, generate, 
 record(snakemake.log[0])
 params = snakemake.params
 case, protocol = params.case, params.cohort.protocol(params.pressures)
-planted = list(map(mechanism_of, open_effects(snakemake.input.get("hidden", []))))
+planted = [mechanism_of(effect) for effect in open_effects(snakemake.input.get("hidden", []))]
 hidden = hide_heart(params.cohort.heart, case.hidden, case.period, case.seed, planted)
 size = params.cohort.mesh
 template = Template(read_mesh(Path(snakemake.input.template)), size.edge_length, size.tolerance)

@@ -14,14 +14,16 @@ from heartfit.results.text import render_tables
 record(snakemake.log[0])
 files, params = snakemake.input, snakemake.params
 folder = Path(params.results)
-sensitivities = map(read_sensitivity, map(Path, files.sensitivities))
 results = StudyResults(
-    cases=list(map(read_case, map(Path, files.cases))),
+    cases=[read_case(Path(file)) for file in files.cases],
     groups=params.groups,
     costs=read_benchmarks(folder / "benchmarks"),
-    sensitivities=dict(zip(params.settings, sensitivities, strict=True)),
-    selection=list(map(read_published, map(Path, files.selection))),
-    noise=list(map(read_noise_model, map(Path, files.noise))),
+    sensitivities={
+        name: read_sensitivity(Path(file))
+        for name, file in zip(params.settings, files.sensitivities, strict=True)
+    },
+    selection=[read_published(Path(file)) for file in files.selection],
+    noise=[read_noise_model(Path(file)) for file in files.noise],
     planted_ratios=params.planted_ratios,
 )
 claims = read_published(Path(files.claims))

@@ -15,8 +15,8 @@ from heartfit.results.text import render_tables
 record(snakemake.log[0])
 files, origin = snakemake.input, snakemake.params.origin
 groups = origin.groups
-cases = list(map(read_case, map(Path, files.cases)))
-truths = dict(zip(groups.virtual, map(read_truth, map(Path, files.truths)), strict=True))
+cases = [read_case(Path(file)) for file in files.cases]
+truths = {name: read_truth(Path(file)) for name, file in zip(groups.virtual, files.truths, strict=True)}
 errors, parameters, patients = map(read_published, map(Path, files.paper))
 tables = {
     "table1": error_table(cases, errors, groups),

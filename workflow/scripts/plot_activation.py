@@ -1,6 +1,5 @@
 """Draw the activation times of the ventricles."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.figures import write_figure
@@ -11,4 +10,5 @@ from heartfit.results.activation import plot_activation
 record(snakemake.log[0])
 case = snakemake.params.case
 figure = plot_activation(read_mesh(Path(snakemake.input[0])), case.conduction, case.case)
-list(map(write_figure, map(Path, snakemake.output), repeat(figure)))
+for file in snakemake.output:
+    write_figure(Path(file), figure)

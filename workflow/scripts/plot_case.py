@@ -18,9 +18,11 @@ from heartfit.results.text import render_tables
 record(snakemake.log[0])
 files, out, params = snakemake.input, snakemake.output, snakemake.params
 result, measured = read_case(Path(files.errors)), read_curves(Path(files.measured))
-sensors = params.setting.sensors(result.prior), params.setting.sensors(result.estimate)
-beats = map(beat_curves, map(read_beat, map(Path, (files.reference, files.calibrated))), sensors)
-curves = dict(zip(("measured", "reference", "calibrated"), (measured, *beats), strict=True))
+curves = {
+    "measured": measured,
+    "reference": beat_curves(read_beat(Path(files.reference)), params.setting.sensors(result.prior)),
+    "calibrated": beat_curves(read_beat(Path(files.calibrated)), params.setting.sensors(result.estimate)),
+}
 motion = motion_shape(read_mesh(Path(files.mesh)), read_motion(Path(files.motion)))
 shapes = {"measured": shape_table(motion), "calibrated": read_shape(Path(files.shape))}
 features, posterior = params.operator.features(measured)["lv_volume"], read_posterior(Path(files.posterior))

@@ -1,6 +1,5 @@
 """Draw the contours of the carried mesh over the images, at end diastole and end systole and beating."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.figures import write_animation, write_figure
@@ -13,5 +12,7 @@ record(snakemake.log[0])
 files, case = snakemake.input, snakemake.wildcards.case
 images, motion = read_images(Path(files.images)), read_motion(Path(files.motion))
 arguments = (images, read_mesh(Path(files.mesh)), motion, case)
-list(map(write_figure, map(Path, snakemake.output.figure), repeat(plot_contours(*arguments))))
+figure = plot_contours(*arguments)
+for file in snakemake.output.figure:
+    write_figure(Path(file), figure)
 write_animation(Path(snakemake.output.animation), animate_contours(*arguments))

@@ -1,6 +1,5 @@
 """Draw the calibrated simulation and the registered mesh over the images, at end diastole and end systole."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.figures import write_figure
@@ -15,4 +14,5 @@ images, mesh = read_images(Path(files.images)), read_mesh(Path(files.mesh))
 registered, calibrated = read_motion(Path(files.registered)), read_simulated_motion(Path(files.calibrated))
 title, colour = f"{names.case}, {names.setting} setting", snakemake.params.colour
 figure = plot_overlay(images, mesh, registered, calibrated, title, colour)
-list(map(write_figure, map(Path, snakemake.output), repeat(figure)))
+for file in snakemake.output:
+    write_figure(Path(file), figure)

@@ -1,6 +1,5 @@
 """Plot the residual of a case's calibrated simulation for each measured curve and the strain of each segment."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.beats import read_fitted_curves
@@ -15,12 +14,15 @@ from heartfit.results.residual import LABELS, plot_residual, residual_table
 
 record(snakemake.log[0])
 files, names = snakemake.input, snakemake.wildcards
-observed = map(read_fitted_curves, files.beats, files.fitted, repeat(snakemake.params.setting))
-models = list(map(read_noise_model, map(Path, files.get("noise", []))))
+models = [read_noise_model(Path(file)) for file in files.get("noise", [])]
 registered, simulated = read_motion(Path(files.registered)), read_simulated_motion(Path(files.motions[-1]))
 strain = strain_residual(read_mesh(Path(files.mesh)), registered, simulated, models)
-beats = dict(zip(LABELS, observed, strict=False))
+beats = {
+    label: read_fitted_curves(beat, fitted, snakemake.params.setting)
+    for label, beat, fitted in zip(LABELS, files.beats, files.fitted, strict=False)
+}
 residual = case_residual(read_curves(Path(files.measured)), beats, models, strain)
 write_csv(Path(snakemake.output.table), residual_table(residual))
 figure = plot_residual(residual, f"{names.case}, {names.setting} setting", snakemake.params.colour)
-list(map(write_figure, map(Path, snakemake.output.figure), repeat(figure)))
+for file in snakemake.output.figure:
+    write_figure(Path(file), figure)

@@ -1,6 +1,5 @@
 """Plot and tabulate the septal flash of the patients and a volunteer: true, registered and calibrated."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.figures import write_figure
@@ -13,9 +12,19 @@ from heartfit.results.text import render_table
 
 record(snakemake.log[0])
 files, params = snakemake.input, snakemake.params
-true = map(wall_motion, map(read_mesh, map(Path, files.hearts)), map(read_motion, map(Path, files.true)))
-meshes, motions = map(read_mesh, map(Path, files.meshes)), map(read_motion, map(Path, files.registered))
-calibrated = map(read_shape, map(Path, files.calibrated))
-walls = walls_by_case(params.cases, params.settings, true, map(wall_motion, meshes, motions), calibrated)
-list(map(write_table, map(Path, snakemake.output.table), repeat(render_table(flash_table(walls)))))
-list(map(write_figure, map(Path, snakemake.output.figure), repeat(plot_walls(walls, params.settings))))
+true = [
+    wall_motion(read_mesh(Path(mesh)), read_motion(Path(motion)))
+    for mesh, motion in zip(files.hearts, files.true, strict=True)
+]
+registered = [
+    wall_motion(read_mesh(Path(mesh)), read_motion(Path(motion)))
+    for mesh, motion in zip(files.meshes, files.registered, strict=True)
+]
+calibrated = [read_shape(Path(file)) for file in files.calibrated]
+walls = walls_by_case(params.cases, params.settings, true, registered, calibrated)
+table = render_table(flash_table(walls))
+for file in snakemake.output.table:
+    write_table(Path(file), table)
+figure = plot_walls(walls, params.settings)
+for file in snakemake.output.figure:
+    write_figure(Path(file), figure)

@@ -1,6 +1,5 @@
 """Plot and tabulate the effect of each parameter for one setting: curves, covariances and their decomposition."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.beats import read_beat
@@ -22,7 +21,11 @@ title = f"{params.study.case}, {snakemake.wildcards.setting} setting"
 curves = plot_perturbations(
     curves_of_points(params.setting, points, beats), outcome.parameters, title, params.study.step
 )
-list(map(write_figure, map(Path, out.curves), repeat(curves)))
-list(map(write_figure, map(Path, out.figure), repeat(plot_sensitivities(outcome, title))))
+for file in out.curves:
+    write_figure(Path(file), curves)
+figure = plot_sensitivities(outcome, title)
+for file in out.figure:
+    write_figure(Path(file), figure)
 table = render_table(sensitivity_table(outcome, params.setting.units()))
-list(map(write_table, map(Path, out.table), repeat(table)))
+for file in out.table:
+    write_table(Path(file), table)

@@ -10,6 +10,6 @@ from heartfit.results.report.page import render
 
 record(snakemake.log[0])
 params = snakemake.params
-noise = list(map(read_noise_model, map(Path, snakemake.input.noise)))
+noise = [read_noise_model(Path(file)) for file in snakemake.input.noise]
 study = read_study_results(Path(params.results), params.study, params.cases, noise, params.left_out)
 write_text(Path(snakemake.output[0]), render(study, assets()))

@@ -1,6 +1,5 @@
 """Simulate the beats of all one-at-a-time perturbations of a setting."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.beats import write_beat
@@ -13,4 +12,5 @@ record(snakemake.log[0])
 mesh, params = read_mesh(Path(snakemake.input.mesh)), snakemake.params
 _, points = read_sigma_points(Path(snakemake.input.points))
 beats = beats_of_points(mesh, params.setting, params.case.period, points, params.pressures, params.scheme)
-list(map(write_beat, map(Path, snakemake.output.beats), beats, repeat(params.code)))
+for file, beat in zip(snakemake.output.beats, beats, strict=True):
+    write_beat(Path(file), beat, params.code)

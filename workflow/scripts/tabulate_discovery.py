@@ -1,6 +1,5 @@
 """Compare what was found of each refitted case with what a sealed heart hides."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.discoveries import read_discoveries
@@ -11,4 +10,6 @@ from heartfit.results.discovery import discovery_table
 record(snakemake.log[0])
 params = snakemake.params
 results = read_discoveries(Path(params.results), params.refitted, params.virtual)
-list(map(write_table, map(Path, snakemake.output), repeat(discovery_table(results))))
+table = discovery_table(results)
+for file in snakemake.output:
+    write_table(Path(file), table)

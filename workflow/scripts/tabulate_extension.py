@@ -1,6 +1,5 @@
 """Tabulate and draw a measured case without and with the mechanisms that were named."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.causes import read_diagnosis
@@ -14,8 +13,10 @@ from heartfit.results.text import render_table
 record(snakemake.log[0])
 files, output, names = snakemake.input, snakemake.output, snakemake.wildcards
 diagnosis = read_diagnosis(Path(files.cause).parent)
-readings = list(map(read_left_volume, (files.measured, *files.get("second", []))))
+readings = [read_left_volume(file) for file in (files.measured, *files.get("second", []))]
 table = render_table(extension_table(diagnosis, readings))
-list(map(write_table, map(Path, output.tables), repeat(table)))
+for file in output.tables:
+    write_table(Path(file), table)
 figure = plot_extension(diagnosis, f"{names.case}, {names.setting} setting")
-list(map(write_figure, map(Path, output.figure), repeat(figure)))
+for file in output.figure:
+    write_figure(Path(file), figure)

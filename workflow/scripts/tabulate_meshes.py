@@ -8,6 +8,7 @@ from heartfit.io.tables import write_csv
 from heartfit.results.mesh_table import mesh_table
 
 record(snakemake.log[0])
-meshes = map(read_mesh, map(Path, snakemake.input))
-table = mesh_table(dict(zip(snakemake.params.names, meshes, strict=True)))
-write_csv(Path(snakemake.output[0]), table)
+meshes = {
+    name: read_mesh(Path(file)) for name, file in zip(snakemake.params.names, snakemake.input, strict=True)
+}
+write_csv(Path(snakemake.output[0]), mesh_table(meshes))

@@ -1,7 +1,5 @@
 """Tabulate the noise model and the coverage of its intervals on sequences that were not used for training."""
 
-from itertools import repeat
-from operator import attrgetter
 from pathlib import Path
 
 from heartfit.io.figures import write_figure
@@ -15,12 +13,17 @@ from heartfit.results.text import render_table
 record(snakemake.log[0])
 files, out = snakemake.input, snakemake.output
 model = read_noise_model(Path(files.model))
-learnt = list(map(attrgetter("pair"), map(read_comparison, map(Path, files.learnt))))
-fresh = list(map(attrgetter("pair"), map(read_comparison, map(Path, files.fresh))))
+learnt = [read_comparison(Path(file)).pair for file in files.learnt]
+fresh = [read_comparison(Path(file)).pair for file in files.fresh]
 left_out = render_table(noise_model_table(model, leave_one_out_coverage(learnt, model.protocol)))
 unseen = render_table(noise_model_table(model, coverage(model, fresh)))
 sensors = render_table(sensor_table(read_sensors(Path(files.sensors))))
-list(map(write_table, map(Path, out.left_out), repeat(left_out)))
-list(map(write_table, map(Path, out.fresh), repeat(unseen)))
-list(map(write_table, map(Path, out.sensors), repeat(sensors)))
-list(map(write_figure, map(Path, out.figure), repeat(plot_noise_model(model, fresh))))
+for file in out.left_out:
+    write_table(Path(file), left_out)
+for file in out.fresh:
+    write_table(Path(file), unseen)
+for file in out.sensors:
+    write_table(Path(file), sensors)
+figure = plot_noise_model(model, fresh)
+for file in out.figure:
+    write_figure(Path(file), figure)

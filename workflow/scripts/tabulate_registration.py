@@ -1,6 +1,5 @@
 """Tabulate the errors of registration by acquisition and by segment, and draw Fig. 6."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.figures import write_figure
@@ -16,7 +15,12 @@ params, out = snakemake.params, snakemake.output
 acquisitions = Acquisitions.of(
     params.settings, params.tried, map(read_comparison, map(Path, snakemake.input))
 )
-list(map(write_table, map(Path, out.costs), repeat(render_table(registration_table(acquisitions)))))
-list(map(write_table, map(Path, out.segments), repeat(render_table(segment_table(acquisitions.baseline)))))
+costs = render_table(registration_table(acquisitions))
+for file in out.costs:
+    write_table(Path(file), costs)
+segments = render_table(segment_table(acquisitions.baseline))
+for file in out.segments:
+    write_table(Path(file), segments)
 figure = plot_registration(acquisitions, params.operator.trial_features(params.frames)["lv_volume"])
-list(map(write_figure, map(Path, out.figure), repeat(figure)))
+for file in out.figure:
+    write_figure(Path(file), figure)

@@ -1,6 +1,5 @@
 """Tabulate the selected parameters, the prior of the rule, and the effect of the bulk modulus."""
 
-from itertools import repeat
 from pathlib import Path
 
 from heartfit.io.noise_models import read_ranges
@@ -13,10 +12,17 @@ from heartfit.results.text import render_table
 
 record(snakemake.log[0])
 files, out, params = snakemake.input, snakemake.output, snakemake.params
-outcome = dict(zip(params.settings, map(read_sensitivity, map(Path, files.sensitivities)), strict=True))
-ranges = dict(zip(params.settings, map(read_ranges, map(Path, files.ranges)), strict=True))
-selection = selection_table(outcome, ranges, params.estimated)
-list(map(write_table, map(Path, out.selection), repeat(render_table(selection))))
-list(map(write_table, map(Path, out.prior), repeat(render_table(prior_table(ranges, outcome, params.units)))))
-bulk_modulus = bulk_modulus_table(outcome, params.units)
-list(map(write_table, map(Path, out.bulk_modulus), repeat(render_table(bulk_modulus))))
+outcome = {
+    name: read_sensitivity(Path(file))
+    for name, file in zip(params.settings, files.sensitivities, strict=True)
+}
+ranges = {name: read_ranges(Path(file)) for name, file in zip(params.settings, files.ranges, strict=True)}
+selection = render_table(selection_table(outcome, ranges, params.estimated))
+for file in out.selection:
+    write_table(Path(file), selection)
+prior = render_table(prior_table(ranges, outcome, params.units))
+for file in out.prior:
+    write_table(Path(file), prior)
+bulk_modulus = render_table(bulk_modulus_table(outcome, params.units))
+for file in out.bulk_modulus:
+    write_table(Path(file), bulk_modulus)

@@ -1,7 +1,5 @@
 """Tabulate and draw what registration recovers from real images that move as simulated."""
 
-from itertools import repeat
-from operator import attrgetter
 from pathlib import Path
 
 from heartfit.io.figures import write_figure
@@ -15,12 +13,18 @@ from heartfit.results.warped_cine import plot_warped, warped_table
 
 record(snakemake.log[0])
 files, params, output = snakemake.input, snakemake.params, snakemake.output
-comparisons = dict(zip(params.contents, map(read_comparison, map(Path, files.comparisons)), strict=True))
-images = dict(zip(params.shown, map(read_images, map(Path, files.images)), strict=True))
-paths = map(Path, (files.motion, *files.registered))
-positions = map(attrgetter("positions"), map(read_motion, paths))
-motions = dict(zip(("true", *params.shown), positions, strict=True))
+comparisons = {
+    name: read_comparison(Path(file)) for name, file in zip(params.contents, files.comparisons, strict=True)
+}
+images = {name: read_images(Path(file)) for name, file in zip(params.shown, files.images, strict=True)}
+motions = {
+    name: read_motion(Path(file)).positions
+    for name, file in zip(("true", *params.shown), (files.motion, *files.registered), strict=True)
+}
 operator = params.operator.trial_features(params.operator.frames)["lv_volume"]
-list(map(write_table, map(Path, output.table), repeat(render_table(warped_table(comparisons)))))
+table = render_table(warped_table(comparisons))
+for file in output.table:
+    write_table(Path(file), table)
 figure = plot_warped(images, read_mesh(Path(files.mesh)), motions, comparisons, operator)
-list(map(write_figure, map(Path, output.figure), repeat(figure)))
+for file in output.figure:
+    write_figure(Path(file), figure)

@@ -13,10 +13,10 @@ record(snakemake.log[0])
 files, params = snakemake.input, snakemake.params
 around, points = read_sigma_points(Path(files.points))
 measurement = read_observations(Path(files.observations))
-beats = list(map(read_beat, map(Path, files.beats)))
+beats = [read_beat(Path(file)) for file in files.beats]
 measured = read_curves(Path(files.measured))
 arguments = (params.setting, around, points, beats, measured, measurement, params.operator)
-slopes = Slopes.from_parts(list(map(read_sensitivity, map(Path, files.sensitivities))))
+slopes = Slopes.from_parts([read_sensitivity(Path(file)) for file in files.sensitivities])
 noise_free, noise_aware = (
     estimate(*arguments, params.transform),
     estimate(*arguments, params.transform.with_noise(), slopes),

@@ -20,7 +20,7 @@ from heartfit.personalise.run import nearby_beats
 from heartfit.personalise.setting import Setting
 
 PERIOD, PRESSURES = 0.8, Pressures(lv=1.2e3, rv=0.5e3)
-SCHEME = TimeScheme(time_step=0.01, second_order=True, max_beats=20, drift=1e-3)
+SCHEME = TimeScheme(time_step=0.02, second_order=True, max_beats=20, drift=1e-3)
 MUSCLE = {"estimate": ("sigma_0", "c_1")}
 
 

@@ -72,7 +72,9 @@ def test_another_condition_separates_members_of_a_group():
     assert near_best({}, 3.0) == []
 
 
-@pytest.mark.parametrize("seed", [1, 4, 6])
+@pytest.mark.parametrize(
+    "seed", [6, pytest.param(1, marks=pytest.mark.long), pytest.param(4, marks=pytest.mark.long)]
+)
 def test_no_effect_is_found_in_a_healthy_heart(seed):
     diagnosis = diagnose(healthy(seed))
     assert diagnosis.verdict == "none"

@@ -111,7 +111,9 @@ def test_one_estimate_is_the_answer_and_the_beat_outside_its_interval_is_marked(
     assert not first.informed
     assert first.truth == pytest.approx(250.0)
     assert first.holds_beat
-    far = replace(fit, result=replace(fit.result, estimate={"sigma_0": 900e3, "mu": 7e3}))
+    result = replace(fit.result, estimate={"sigma_0": 900e3, "mu": 7e3})
+    far = replace(fit, result=result, searched=None, proved=None)
     assert [estimate.holds_beat for estimate in estimates(far)] == [False, True]
-    page = render(replace(own, cases={"heart1": replace(own.cases["heart1"], fits={SETTING: far})}), ASSETS)
+    case = replace(own.cases["heart1"], fits={SETTING: far}, walls={})
+    page = render(replace(own, cases={"heart1": case}, discoveries=()), ASSETS)
     assert re.findall(r'<span class="outside">([^<]*), outside</span>', page) == ["900"]
