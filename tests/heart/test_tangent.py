@@ -22,7 +22,7 @@ from heartfit.mechanisms.pericardium import Pericardium
 from heartfit.mechanisms.scar import Scar
 from tests.conftest import END_DIASTOLIC_PRESSURE
 
-NUMERICS = Numerics(time_step=20e-3, max_beats=20, drift=1e-3)
+NUMERICS = Numerics(time_step=10e-3, max_beats=20, drift=1e-3)
 CONVERGED = replace(
     NUMERICS,
     drift=1e-4,

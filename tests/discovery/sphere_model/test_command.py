@@ -9,6 +9,8 @@ from heartfit.discovery.sphere_model import earlier, structure
 from heartfit.discovery.sphere_model import forward_model as library
 from heartfit.io.causes import read_cause
 from heartfit.io.curves import write_table_of_curves
+from heartfit.places.library import PressureError
+from heartfit.places.wall import WallPressure
 from heartfit.roles import registered
 from heartfit.synthetic.campaign import PlantedPlan
 from heartfit.synthetic.case import plant
@@ -22,7 +24,7 @@ def arguments(tmp_path, monkeypatch):
     """Arguments of the command; instruments need no simulation, and one place is searched instead of all."""
     few = {name: registered()[name] for name in ("CatheterOffset", "ImageShrinkage")}
     monkeypatch.setattr(library, "registered", lambda: few)
-    monkeypatch.setattr(places, "PLACES", (places.PressureError,))
+    monkeypatch.setattr(places, "PLACES", (PressureError,))
     rest, raised = (plant(OFFSET).curves[name] for name in ("rest", "legs_raised"))
     volume, pressure = rest["lv_volume"], rest["lv_pressure"]
     times = np.arange(60) * volume.period / 30
@@ -73,7 +75,7 @@ def test_the_same_recording_within_the_structure_of_other_simulators(arguments, 
 def test_an_unchanged_heart_has_changed_in_nothing_and_no_instrument_is_asked(
     arguments, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr(earlier, "EARLIER_PLACES", (places.WallPressure,))
+    monkeypatch.setattr(earlier, "EARLIER_PLACES", (WallPressure,))
     leaking = {name: registered()[name] for name in ("MitralRegurgitation", "CatheterOffset")}
     monkeypatch.setattr(library, "registered", lambda: leaking)
     recording, output = str(tmp_path / "left.csv"), arguments[-1]

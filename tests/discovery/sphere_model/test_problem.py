@@ -18,7 +18,6 @@ from heartfit.io.structure import read_residuals
 from tests.discovery.sphere_model.hearts import LEAK, healthy, recorded
 
 STRUCTURE = Structure.from_residuals(read_residuals())
-pytestmark = pytest.mark.usefixtures("coarse_search")
 
 
 def test_a_heart_that_stands_for_people_varies_as_they_do() -> None:

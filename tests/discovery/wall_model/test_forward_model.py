@@ -46,7 +46,7 @@ CURVES = {"lv_volume": TIMES, "rv_volume": TIMES, "lv_pressure": TIMES, STRAIN: 
 
 @pytest.fixture(scope="module")
 def model(ventricle: VentricularMesh) -> WallForwardModel:
-    numerics = Numerics(time_step=20e-3, max_beats=10, drift=1e-3, keep_positions=True)
+    numerics = Numerics(time_step=10e-3, max_beats=10, drift=1e-3, keep_positions=True)
     return WallForwardModel(ventricle, HeartInWall.loaded(Heart(), 1000.0, 500.0), CURVES, FRAMES, numerics)
 
 
