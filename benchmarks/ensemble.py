@@ -2,8 +2,9 @@
 
 NAME: a folder of resources/reference. Each member is a run whose jobs read positions moved by 1e-12 of themselves and
 voxels by one unit in the last place; two more are unmoved, with the arithmetic of older processors. Two members run at
-a time, those that have ended are kept in results/ensemble, and their means, deviations and words are stored beside the
-tables; docs/measured/ensemble.tsv says how many digits hold. With --store no member is run.
+a time, those that have ended are kept in results/ensemble, and docs/measured/ensemble.tsv says how many digits hold.
+Means, deviations and words are stored with the tables, and from then on judge other runs, once each member, left out,
+agrees with the others. With --store no member is run.
 """
 
 import os
@@ -11,7 +12,7 @@ import shutil
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from math import inf
 from pathlib import Path
@@ -22,8 +23,8 @@ from benchmarks.measured_table import read_table, store_table
 from benchmarks.ventricles import ROOT
 from heartfit.core.errors import InputError
 from heartfit.io.reference import ENSEMBLE, read_held_tables, write_ensemble
-from heartfit.results.cells import Tables
-from heartfit.results.ensemble import MOST_DIGITS, Ensemble, leave_one_out
+from heartfit.results.cells import Move, Tables
+from heartfit.results.ensemble import MOST_DIGITS, UNHELD, Ensemble, leave_one_out
 
 MODULE, TABLE = "benchmarks.ensemble", "ensemble"
 CONFIGURATIONS = {
@@ -58,8 +59,11 @@ def main(name: str, count: int, store: bool) -> None:
             list(pool.map(lambda member: run(name, member), names))
     folders = {member: RESULTS / name / member for member in names}
     members = {member: read_held_tables(folder) for member, folder in folders.items() if folder.is_dir()}
-    ensemble = write_ensemble(REFERENCE / name, list(members.values()))
-    row = {"tables": name, **summary(ensemble, read_held_tables(REFERENCE / name), members)}
+    stored = read_held_tables(REFERENCE / name)
+    outside = leave_one_out(stored, members)
+    if not any(outside.values()):
+        write_ensemble(REFERENCE / name, list(members.values()))
+    row = {"tables": name, **summary(Ensemble.of(stored, list(members.values())), stored, outside)}
     earlier = read_table(TABLE)
     rows = {row["tables"]: row for row in (*earlier.to_dict("records"), row)}
     table = pd.DataFrame([rows[key] for key in CONFIGURATIONS if key in rows])
@@ -92,24 +96,26 @@ def run(name: str, member: str) -> None:
     sys.stdout.flush()
 
 
-def summary(ensemble: Ensemble, stored: Tables, members: Mapping[str, Tables]) -> dict[str, str]:
+def summary(ensemble: Ensemble, stored: Tables, outside: Mapping[str, Sequence[Move]]) -> dict[str, str]:
     """Return how many cells hold how many digits, how many have words that vary, and which members disagree."""
     held = Counter(
         inf if digits == inf else int(digits)
         for name, table in stored.items()
+        if name not in UNHELD
         for column in table
         for row, text in enumerate(table[column])
         for digits in (ensemble.digits((name, row, str(column)), text),)
     )
-    outside = leave_one_out(stored, members)
+    disagreeing = sorted({move.cell[0] for moves in outside.values() for move in moves})
     return {
         "runs": str(ensemble.members),
         "cells with numbers": str(sum(held.values()) - held[inf]),
         **{f"{digits} digits": str(held[digits]) for digits in range(MOST_DIGITS)},
         "all that are printed": str(held[MOST_DIGITS]),
         "words vary": str(sum(len(by_words) > 1 for by_words in ensemble.spreads.values())),
-        "agree, left out": str(sum(not moves for moves in outside.values())),
-        "cells outside": " ".join(f"{name} {len(moves)}" for name, moves in outside.items() if moves),
+        "runs that agree, left out": str(sum(not moves for moves in outside.values())),
+        "cells of the others outside": str(sum(map(len, outside.values()))),
+        "in the tables": " ".join(disagreeing),
     }
 
 
