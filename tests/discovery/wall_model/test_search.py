@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -83,9 +84,15 @@ class Measured:
         return Data(self.values, (volume, *strains))
 
 
-def searched(effects: list[Mechanism], seed: int, wall: EvenWall | None = None) -> WallFindings:
-    """Search a wall that varies naturally, with noise and these effects."""
-    rng, wall = np.random.default_rng(seed), wall or EvenWall()
+@cache
+def searched(effect: Mechanism | None, seed: int) -> WallFindings:
+    """Search a wall that varies naturally, with noise and one effect or none."""
+    return search_of(EvenWall(), [effect] if effect else [], seed)
+
+
+def search_of(wall: EvenWall, effects: list[Mechanism], seed: int) -> WallFindings:
+    """Search this wall."""
+    rng = np.random.default_rng(seed)
     x = np.zeros(len(NAMES))
     x[[0, *range(FIRST, FIRST + FOLLOWED), *range(LATE, LATE + FOLLOWED)]] = rng.standard_normal(
         1 + 2 * FOLLOWED
@@ -98,14 +105,14 @@ def searched(effects: list[Mechanism], seed: int, wall: EvenWall | None = None) 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_a_sound_wall_has_no_name(seed: int) -> None:
-    assert searched([], seed).decision.verdict == "none"
+    assert searched(None, seed).decision.verdict == "none"
 
 
 @pytest.mark.parametrize(
-    ("angle", "seed"), [(0.2, 10), (1.2, 11), (2.4, 12), (3.6, 13), (4.6, 14), (5.8, 15)]
+    ("angle", "seed"), [(0.2, 10), (1.05, 11), (2.4, 12), (3.6, 13), (4.6, 14), (5.8, 15)]
 )
 def test_a_scar_is_named_where_it_is(angle: float, seed: int) -> None:
-    findings = searched([Scar(extent=0.24, angle=angle)], seed)
+    findings = searched(Scar(extent=0.24, angle=angle), seed)
     assert (findings.decision.verdict, findings.decision.effects) == ("named", ("Scar",))
     assert findings.log_bayes_factor("Scar") > 10.0
     singles = findings.survey.singles
@@ -119,7 +126,7 @@ def test_a_scar_is_named_where_it_is(angle: float, seed: int) -> None:
 
 
 def test_a_late_wall_is_no_scar() -> None:
-    findings = searched([DelayedActivation(lateness=0.1, angle=3.5, share=0.5)], 20)
+    findings = searched(DelayedActivation(lateness=0.1, angle=3.5, share=0.5), 20)
     assert findings.decision.effects == ("DelayedActivation",)
 
 
@@ -133,7 +140,7 @@ def test_a_misfit_of_no_mechanism_is_unknown() -> None:
 
 
 def test_an_effect_that_was_not_fitted_has_no_evidence() -> None:
-    assert searched([], 0).log_bayes_factor("AorticStenosis") == -np.inf
+    assert searched(None, 0).log_bayes_factor("AorticStenosis") == -np.inf
 
 
 def test_a_baseline_that_does_not_beat_is_an_error() -> None:
@@ -147,7 +154,7 @@ def test_a_baseline_that_does_not_beat_is_an_error() -> None:
 
 
 def test_effects_are_ranked_without_the_error_of_long_steps() -> None:
-    shifted, exact = (searched([], 3, EvenWall(longer=longer)).screened for longer in (0.02, 0.0))
+    shifted, exact = (search_of(EvenWall(longer=longer), [], 3).screened for longer in (0.02, 0.0))
     assert [one.effect for one in shifted] == [one.effect for one in exact]
     gains = np.array([[one.log_bayes_factor for one in screened] for screened in (shifted, exact)])
     np.testing.assert_allclose(gains[0], gains[1], atol=1e-6)
@@ -171,7 +178,7 @@ def test_a_fit_that_has_no_slopes_is_approached_by_half() -> None:
             points.append(x)
             return None if len(points) == 2 else super().slopes(x, ())
 
-    findings = searched([Scar(extent=0.24, angle=1.2)], 11, Fragile())
+    findings = search_of(Fragile(), [Scar(extent=0.24, angle=1.2)], 11)
     start, first, second = points[:3]
     np.testing.assert_allclose(second, (start + first) / 2.0)
     assert findings.decision.effects == ("Scar",)
@@ -179,7 +186,7 @@ def test_a_fit_that_has_no_slopes_is_approached_by_half() -> None:
 
 def test_the_best_fit_of_each_effect_leads_its_others() -> None:
     """A worse fit of the best effect stands behind another effect, and does not draw the best one there."""
-    findings = searched([Scar(extent=0.24, angle=1.2)], 11)
+    findings = searched(Scar(extent=0.24, angle=1.05), 11)
     best, late = (
         findings.survey.singles[0],
         replace_evidence(findings.survey.singles[0], "DelayedActivation", 5.0),
