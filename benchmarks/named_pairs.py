@@ -191,6 +191,8 @@ def _rates(name: str, rule: Candidate, hearts: Sequence[SearchedHeart]) -> dict[
         outcomes = [
             heart.right(rule) if right else heart.wrong(rule) for heart in hearts if heart.plan.kind == kind
         ]
+        if not outcomes:
+            return ""
         share = Share.from_count(float(sum(outcomes)), len(outcomes))
         return f"{sum(outcomes)} of {len(outcomes)} ({100.0 * share.low:.0f} to {100.0 * share.high:.0f} %)"
 
