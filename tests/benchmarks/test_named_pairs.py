@@ -5,7 +5,7 @@ from math import inf
 
 import pytest
 
-from benchmarks.named_pairs import CANDIDATES, HEARTS, SearchedHeart
+from benchmarks.named_pairs import CANDIDATES, HEARTS, SearchedHeart, rates_table
 from heartfit.discovery.inference.decide import DEFAULT_RULES, Evidences
 from heartfit.study.discovery import SCORING
 from heartfit.synthetic.campaign import PlantedPlan
@@ -59,3 +59,9 @@ def test_the_hearts_are_reserved_and_the_first_candidate_is_the_rule_of_single_e
     assert len(seeds) == len(set(seeds))
     assert min(seeds) > SCORING
     assert CANDIDATES[BEFORE].singles == CANDIDATES[BY_2].pairs == DEFAULT_RULES
+
+
+def test_a_kind_without_hearts_has_no_rate() -> None:
+    first = rates_table([heart(9.0)]).iloc[0]
+    assert first["pairs: right"].startswith("1 of 1 ")
+    assert first["sound: named"] == ""
