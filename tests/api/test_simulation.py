@@ -18,6 +18,13 @@ def test_both_ventricles_beat_on_request():
     assert hf.simulate(hf.adult(both_ventricles=True)).volume.keys() == {"lv", "rv"}
 
 
+def test_a_mechanism_of_the_right_heart_needs_one():
+    leak = hf.mechanisms.TricuspidRegurgitation()
+    with pytest.raises(hf.InputError, match=r"adult\(both_ventricles=True\)"):
+        hf.adult() + leak
+    assert leak in (hf.adult(both_ventricles=True) + leak).heart.mechanisms
+
+
 def test_a_heart_takes_one_sphere_or_two():
     sphere = hf.Sphere.from_volumes(cavity=1.2e-4, wall=1.2e-4)
     bare, listed = hf.simulate(hf.Heart(), sphere), hf.simulate(hf.Heart(), [sphere])
@@ -67,3 +74,9 @@ def test_values_print_on_one_line():
     assert texts[3].startswith("Beat(failed: beat 1")
     assert texts[4] == "Recording(0.86 s: lv_volume 25 samples, lv_pressure 86 samples)"
     assert texts[5] == "Gaussian(sigma_0 = 1.9e+05 ± 30 %)"
+
+
+@pytest.mark.parametrize("area", ["big", None])
+def test_a_parameter_that_is_no_number_is_refused(area):
+    with pytest.raises(hf.InputError, match=r"MitralRegurgitation.area = .*: expected a number in m\^2"):
+        hf.mechanisms.MitralRegurgitation(area=area)

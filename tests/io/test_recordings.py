@@ -51,7 +51,7 @@ def test_empty_cells_are_other_times_and_beats_may_follow(tmp_path):
         ("time_s,lv_volume_ml", [(0.0, 100), (0.05, 100, 7)], 0.9, "3 cells, expected 2"),
         ("time_s,lv_volume_ml", [(50 * k, 100 + k) for k in range(20)], 0.9, "milliseconds"),
         ("time_s,lv_volume_ml", [(k * 0.05, 120) for k in range(20)], 0.9, "expected a curve that beats"),
-        ("time_s,lv_volume_ml", [(k * 0.05, 20 - k) for k in range(40)], 0.9, "volume: values from -1.9e-05"),
+        ("time_s,lv_volume_ml", [(k * 0.05, 20 - k) for k in range(40)], 0.9, "volume: values from -19 to"),
         ("time_s,lv_volume_ml", [(k * 0.05, 100) for k in range(3)], 0.9, "3 samples"),
     ],
 )

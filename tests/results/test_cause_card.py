@@ -93,6 +93,17 @@ def test_a_sentence_gives_sizes_with_intervals_but_not_of_a_group():
     assert numbers["none"] == {12.0, 5.0}, "the largest ln Bayes factor and its threshold"
 
 
+def test_a_recording_with_warnings_is_to_be_checked_before_its_headline_is_read():
+    warned = replace(diagnosis("named", (LEAK,)), warnings=("peak pressure 1.1 kPa, expected 6 to 35 kPa",))
+    assert verdict_sentence(warned).startswith("Check the recording first")
+    assert verdict_sentence(warned).lower().endswith(SENTENCES["named"])
+
+
+def test_no_factor_is_printed_as_minus_zero():
+    card = markdown_card(replace(diagnosis("none"), ranking={"MitralRegurgitation": -0.04}), "")
+    assert "| mitral regurgitation | 0.0 |" in card
+
+
 def test_a_departing_curve_outside_the_search_is_excepted():
     departing = diagnosis(
         "none", traces=(replace(TRACE, curve="rv_volume"),), unsearched={"rv_volume": "no right side"}
@@ -243,7 +254,7 @@ def test_the_card_states_what_structure_lets_the_simulation_err():
     text = markdown_card(diagnosis("model", traces=(allowed,), structural_scale=0.5), "heart")
     assert "Difference of structure" in text
     assert "left ventricular volume 1.5 mL" in text
-    assert "scale 0.5" in text
+    assert "0.5 times as large as usual" in text
     assert "Difference of structure" not in markdown_card(diagnosis("none"), "heart")
 
 
@@ -251,7 +262,7 @@ def test_a_card_whose_mechanism_needs_no_structure_says_so():
     """The scale is that of the fit without a mechanism: the sizes beside it were once those with it, 0 mL."""
     none = replace(TRACE, structure=np.zeros(20))
     text = markdown_card(diagnosis("named", (LEAK,), traces=(none,), structural_scale=1.0), "heart")
-    assert "(scale 1); with the mechanism it needs none" in text
+    assert "1 times as large as usual; with the mechanism it needs none" in text
     assert " 0 mL" not in text.partition("Difference of structure")[2].partition("##")[0]
 
 

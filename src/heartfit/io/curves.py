@@ -157,7 +157,12 @@ def _numbers(path: Path, column: str, cells: list[str]) -> np.ndarray:
 
 
 def _nearest(column: str) -> list[str]:
-    """Return the columns that are nearest to an unknown one, all that are equally near: "volume" names no ventricle."""
+    """Return the columns that are nearest to an unknown one, all that are equally near: "volume" names no ventricle.
+
+    Those of a curve without a unit are the curve with each unit.
+    """
+    if units := [known for known in sorted(COLUMNS) if known.startswith(f"{column.lower()}_")]:
+        return units
     likeness = {
         known: difflib.SequenceMatcher(None, known, column.lower()).ratio() for known in sorted(COLUMNS)
     }
@@ -182,6 +187,7 @@ def _period(path: Path) -> float:
     period = stated_period(path)
     if period is None:
         raise InputError(
-            f"{path}: no period; expected a first line such as '# period_s = 0.829', or the period as an argument"
+            f"{path}: no period; expected a first line '# period_s = SECONDS' with the time from one R wave to the "
+            "next, or the period as an argument (--rr SECONDS)"
         )
     return period

@@ -107,12 +107,12 @@ class Curve:
 
 def require_volumes(values: np.ndarray) -> None:
     """Raise InputError unless the volumes [m^3] lie in VOLUME_RANGE."""
-    _check_range(values, VOLUME_RANGE, "volume", "m^3", VOLUME_UNIT_MISTAKES)
+    _check_range(values, VOLUME_RANGE, "volume", ("mL", 1e-6), VOLUME_UNIT_MISTAKES)
 
 
 def require_pressures(values: np.ndarray) -> None:
     """Raise InputError unless the pressures [Pa] of a beat lie in PRESSURE_RANGE and reach 200 Pa."""
-    _check_range(values, PRESSURE_RANGE, "pressure", "Pa", PRESSURE_UNIT_MISTAKES)
+    _check_range(values, PRESSURE_RANGE, "pressure", ("Pa", 1.0), PRESSURE_UNIT_MISTAKES)
     if np.abs(values).max() < 200.0:
         raise InputError(
             f"pressure: the largest value is {np.abs(values).max():g} Pa; expected kilopascals in a beat: probably "
@@ -121,7 +121,11 @@ def require_pressures(values: np.ndarray) -> None:
 
 
 def _check_range(
-    values: np.ndarray, bounds: tuple[float, float], name: str, unit: str, mistakes: dict[str, float]
+    values: np.ndarray,
+    bounds: tuple[float, float],
+    name: str,
+    printed: tuple[str, float],
+    mistakes: dict[str, float],
 ) -> None:
     low, high = values.min(), values.max()
     if bounds[0] <= low and high <= bounds[1]:
@@ -132,9 +136,10 @@ def _check_range(
         if bounds[0] <= low * factor and high * factor <= bounds[1]
     ]
     hint = f"probably {' or '.join(guesses)}: convert it" if guesses else "check the numbers"
+    unit, size = printed
+    least, most, low, high = (value / size for value in (*bounds, low, high))
     raise InputError(
-        f"{name}: values from {low:g} to {high:g} {unit}; expected {bounds[0]:g} to {bounds[1]:g} {unit}; "
-        f"{hint}"
+        f"{name}: values from {low:g} to {high:g} {unit}; expected {least:g} to {most:g} {unit}; {hint}"
     )
 
 

@@ -52,16 +52,20 @@ def structure_text(diagnosis: Diagnosis) -> str:
         for unit, size in [printed_curve_unit(trace.curve)]
     ]
     allowed = any(np.any(trace.structure) for trace in diagnosis.traces if trace.structure is not None)
+    size = f"{diagnosis.structural_scale:g} times as large as usual"
     if diagnosis.mechanisms and not allowed:
-        return (
-            "## Difference of structure\n\nWithout a mechanism the fit takes up a misfit like that of healthy hearts "
-            f"of other simulators, the controls or the earlier recording (scale {diagnosis.structural_scale:g}); with "
-            "the mechanism it needs none."
+        explained = (
+            f"Without a mechanism the fit explains part of the misfit by such a difference, {size}; with the mechanism "
+            "it needs none."
+        )
+    else:
+        explained = (
+            f"The fit explains {' and '.join(sizes)} of the misfit by such a difference (root mean square; {size}). A "
+            "mechanism is named for what this does not explain."
         )
     return (
-        "## Difference of structure\n\nHealthy hearts of other simulators, the controls or the earlier recording let "
-        f"this simulation err by {' and '.join(sizes)} (root mean square; scale {diagnosis.structural_scale:g}). A "
-        "mechanism is named for what this does not explain."
+        "## Difference of structure\n\nHealthy hearts, too, differ from this simulation: those of other simulators, or "
+        f"your controls or earlier recording. {explained}"
     )
 
 
@@ -120,7 +124,8 @@ def next_measurement_text(diagnosis: Diagnosis) -> str:
 
 def _ranking_table(diagnosis: Diagnosis) -> str:
     rows = [
-        f"| {explanation_name(name)} | {value:.1f} |" for name, value in list(diagnosis.ranking.items())[:6]
+        f"| {explanation_name(name)} | {round(value, 1) + 0.0:.1f} |"
+        for name, value in list(diagnosis.ranking.items())[:6]
     ]
     head = f"| explanation | ln Bayes factor over no mechanism (threshold {diagnosis.threshold:g}) |"
     return "\n".join([head, "|---|---|", *rows])

@@ -18,9 +18,12 @@ SILENT = ("none", "model")
 
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
-    """Return the verdict as one sentence: "Missing mechanism: mitral regurgitation, 0.31 cm² (95 % CI ...)."."""
+    """Return the verdict as one sentence: "Missing mechanism: mitral regurgitation, 0.31 cm² (95 % CI ...).".
+
+    A recording with warnings is to be checked first.
+    """
     named = "; ".join(map(mechanism_with_size, diagnosis.named))
-    return {
+    sentence = {
         "none": f"No missing mechanism detected (none): {_silence(diagnosis)}.",
         "model": f"No missing mechanism detected (model): {_silence(diagnosis)}. The misfit is of the size and shape "
         "that healthy hearts of other simulators or controls leave.",
@@ -30,6 +33,7 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
         "unknown": _unknown(diagnosis),
         "insufficient": "Insufficient data: no conclusion about a missing mechanism.",
     }[diagnosis.verdict]
+    return f"Check the recording first, see the warnings. {sentence}" if diagnosis.warnings else sentence
 
 
 def _silence(diagnosis: Diagnosis) -> str:
@@ -172,7 +176,7 @@ def size_lines(diagnosis: Diagnosis) -> Iterable[str]:
     if sized:
         model = "the refit in three dimensions" if diagnosis.refitted else "the fit of the sphere"
         final = (diagnosis.refitted or diagnosis).from_all_samples
-        samples = "all samples, after one half of them had judged" if final else "the samples that choose"
+        samples = "all samples; half of them chose the name" if final else "the samples that choose"
         yield f"Sizes are from {model} to {samples}."
 
 

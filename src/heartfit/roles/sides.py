@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from heartfit.core.arrays import Floats
+from heartfit.core.errors import InputError
 from heartfit.roles.interfaces import COMPARTMENTS, Amendment, Dynamics, Flow, Mechanism, Narrowing
 
 VALVES = {
@@ -22,6 +23,15 @@ def acts_within(kind: type[Mechanism], sides: int) -> bool:
     if issubclass(kind, (Narrowing, Dynamics)):
         return compartments_of(sides) >= {*VALVES[kind.valve]}
     return sides == 2 or not changes_right_wall(kind)
+
+
+def require_within(mechanism: Mechanism, sides: int) -> None:
+    """Raise InputError for a mechanism that does not act in a heart of so many sides."""
+    if not acts_within(type(mechanism), sides):
+        raise InputError(
+            f"{type(mechanism).__name__} acts on the right heart, and this one has a left ventricle only: use "
+            "adult(both_ventricles=True)"
+        )
 
 
 def changes_right_wall(kind: type[Mechanism]) -> bool:

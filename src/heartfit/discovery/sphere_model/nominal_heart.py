@@ -40,6 +40,7 @@ from heartfit.heart.sphere.heart import Inertia, SphericalHeart
 from heartfit.heart.sphere.neighbours import Neighbours
 from heartfit.heart.sphere.simulation import LimitCycle, SphereRun, simulate_spherical
 from heartfit.roles import Mechanism, Sensor
+from heartfit.roles.sides import require_within
 
 INVERSE_TO_SIZE = (
     "circulation.systemic.R_p",
@@ -100,6 +101,8 @@ class NominalHeart:
     right: RightSphere | None = None
 
     def __add__(self, mechanism: Mechanism) -> "NominalHeart":
+        """Return the heart with a further mechanism; raises InputError for one of a side that the heart lacks."""
+        require_within(mechanism, 1 if self.right is None else 2)
         return replace(self, heart=self.heart + mechanism)
 
     def __repr__(self) -> str:

@@ -88,7 +88,10 @@ class Recording:
                 "state that of one beat"
             )
         if "lv_volume" not in self.curves:
-            raise InputError(f"no lv_volume among {', '.join(self.curves) or 'no curves'}: record it")
+            raise InputError(
+                f"no lv_volume, found {', '.join(self.curves) or 'none'}; the volume of the left ventricle is needed: "
+                "add it"
+            )
         for name, samples in self.curves.items():
             self._check(name, samples)
 
