@@ -93,12 +93,6 @@ def test_a_sentence_gives_sizes_with_intervals_but_not_of_a_group():
     assert numbers["none"] == {12.0, 5.0}, "the largest ln Bayes factor and its threshold"
 
 
-def test_a_recording_with_warnings_is_to_be_checked_before_its_headline_is_read():
-    warned = replace(diagnosis("named", (LEAK,)), warnings=("peak pressure 1.1 kPa, expected 6 to 35 kPa",))
-    assert verdict_sentence(warned).startswith("Check the recording first")
-    assert verdict_sentence(warned).lower().endswith(SENTENCES["named"])
-
-
 def test_no_factor_is_printed_as_minus_zero():
     card = markdown_card(replace(diagnosis("none"), ranking={"MitralRegurgitation": -0.04}), "")
     assert "| mitral regurgitation | 0.0 |" in card

@@ -18,12 +18,9 @@ SILENT = ("none", "model")
 
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
-    """Return the verdict as one sentence: "Missing mechanism: mitral regurgitation, 0.31 cm² (95 % CI ...).".
-
-    A recording with warnings is to be checked first.
-    """
+    """Return the verdict as one sentence: "Missing mechanism: mitral regurgitation, 0.31 cm² (95 % CI ...)."."""
     named = "; ".join(map(mechanism_with_size, diagnosis.named))
-    sentence = {
+    return {
         "none": f"No missing mechanism detected (none): {_silence(diagnosis)}.",
         "model": f"No missing mechanism detected (model): {_silence(diagnosis)}. The misfit is of the size and shape "
         "that healthy hearts of other simulators or controls leave.",
@@ -33,7 +30,6 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
         "unknown": _unknown(diagnosis),
         "insufficient": "Insufficient data: no conclusion about a missing mechanism.",
     }[diagnosis.verdict]
-    return f"Check the recording first, see the warnings. {sentence}" if diagnosis.warnings else sentence
 
 
 def _silence(diagnosis: Diagnosis) -> str:
