@@ -117,12 +117,14 @@ def require_admissible(part: Any) -> None:
     kind: Any = type(part)
     for declared in _declarations(kind):
         value = getattr(part, declared.name)
-        if isinstance(value, str) or value is None:
+        try:
+            admissible = declared.low <= value < float("inf")
+        except TypeError:
             raise InputError(
                 f"{type(part).__name__}.{declared.name} = {value!r}: expected a number in {declared.unit} "
                 f"({declared.meaning})"
-            )
-        if not declared.low <= value < float("inf"):
+            ) from None
+        if not admissible:
             raise InputError(
                 f"{type(part).__name__}.{declared.name} = {value:g} {declared.unit}: expected a finite "
                 f"value of at least {declared.low:g} ({declared.meaning})"

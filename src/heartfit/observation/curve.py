@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from heartfit.core.errors import InputError
+from heartfit.core.parameter import DISPLAY
 
 MIN_PHASES = 8
 """Fewest samples of a beat from which peak rates can be taken."""
@@ -107,7 +108,7 @@ class Curve:
 
 def require_volumes(values: np.ndarray) -> None:
     """Raise InputError unless the volumes [m^3] lie in VOLUME_RANGE."""
-    _check_range(values, VOLUME_RANGE, "volume", ("mL", 1e-6), VOLUME_UNIT_MISTAKES)
+    _check_range(values, VOLUME_RANGE, "volume", DISPLAY["m^3"], VOLUME_UNIT_MISTAKES)
 
 
 def require_pressures(values: np.ndarray) -> None:

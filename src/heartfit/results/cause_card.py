@@ -124,8 +124,7 @@ def next_measurement_text(diagnosis: Diagnosis) -> str:
 
 def _ranking_table(diagnosis: Diagnosis) -> str:
     rows = [
-        f"| {explanation_name(name)} | {round(value, 1) + 0.0:.1f} |"
-        for name, value in list(diagnosis.ranking.items())[:6]
+        f"| {explanation_name(name)} | {value:z.1f} |" for name, value in list(diagnosis.ranking.items())[:6]
     ]
     head = f"| explanation | ln Bayes factor over no mechanism (threshold {diagnosis.threshold:g}) |"
     return "\n".join([head, "|---|---|", *rows])
